@@ -11,7 +11,7 @@ from burmester.io import cases, templates
 from burmester.io.result import task_data
 from burmester.live.document import TaskReader, document_of, options_of, task_file, task_of
 
-NAMES = [*(f"{name}.toml" for name in templates.of_poses()), *(f"case:{n}" for n in cases.names())]
+NAMES = [*(f"{name}.toml" for name in templates.of_places()), *(f"case:{n}" for n in cases.names())]
 
 
 def given(name):
@@ -33,7 +33,7 @@ def test_a_document_is_the_task(name, tmp_path):
     task = given(name)
     document = document_of(task)
     assert document["angle_unit"] == "deg"
-    assert all({"x", "y", "angle"} <= set(pose) for pose in document["poses"])
+    assert all({"x", "y"} <= set(pose) for pose in document["poses"])
     again = json.loads(json.dumps(document))
     same(task, task_of(again))
     assert document_of(task_of(again)) == document

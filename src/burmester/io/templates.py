@@ -7,7 +7,7 @@ from importlib import resources
 
 from burmester.errors import InputError
 
-__all__ = ["BLANK", "names", "of_poses", "summary", "text"]
+__all__ = ["BLANK", "names", "of_places", "of_poses", "summary", "text"]
 
 BLANK = "task"  # the file with every key; not counted among the examples
 
@@ -21,7 +21,17 @@ def names() -> tuple[str, ...]:
 
 def of_poses() -> tuple[str, ...]:
     """The names of those whose tasks are poses: no functions, and no curves to trace."""
-    other = re.compile(r"(?m)^(?:\[function\]|path = )")
+    return _without(r"\[function\]|path = ")
+
+
+def of_places() -> tuple[str, ...]:
+    """The names of those whose tasks are places of a body, poses or points: no functions."""
+    return _without(r"\[function\]")
+
+
+def _without(lines: str) -> tuple[str, ...]:
+    """The names of templates without a line that begins so."""
+    other = re.compile(f"(?m)^(?:{lines})")
     return tuple(name for name in names() if not other.search(text(name)))
 
 

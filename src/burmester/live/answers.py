@@ -36,6 +36,11 @@ class LiveAnswers:
         self._seen: tuple[Any, dict[str, FoundLinkage]] = None, {}  # drawn last, for a document
         self._turn = 0
 
+    @property
+    def synthesis(self) -> Synthesis | None:
+        """The last synthesis."""
+        return self._synthesis
+
     def begin_at(self, synthesis: Synthesis | None) -> None:
         """Follow from here; None: there is nothing to follow."""
         self._synthesis = self._answers = synthesis

@@ -1,7 +1,8 @@
 """A task as the page holds it: an object with the keys of a task file, always in one form.
 
-Angles are in degrees and poses are tables; outlines are corners, never the name of a drawing: the
-page names no files of this machine.  What comes from the page is read by the readers of task files.
+Points are poses whose angle is free and not stated.  Angles are in degrees and poses are tables;
+outlines are corners, never the name of a drawing: the page names no files of this machine.  What
+comes from the page is read by the readers of task files.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ from burmester.live.plain import plain
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.pose_tolerances import PoseTolerances, nominal_values
+from burmester.tasks.traced_path import TracedPath
 
 __all__ = [
     "MOST_POSES",
@@ -40,7 +43,7 @@ __all__ = [
 MOST_POSES = 100_000  # of a document
 NAME = "task.json"  # what a document is called where a message says its place
 
-_OF_POSES = ("poses", "angle_unit", "length_unit", "pose_sigma", "tolerance")
+_OF_POSES = ("poses", "path", "angle_unit", "length_unit", "pose_sigma", "tolerance")
 _WORDS = {"method": "method", "norm": "norm", "prefer": "prefer"}
 _LENGTHS = {"angle-weight": "length_per_radian", "tolerance": "manufacturing_tolerance"}
 
@@ -86,7 +89,9 @@ class TaskReader:
 def read_file(name: str, data: bytes, **options: Any) -> Task:
     """The task in a file that a page sent; its name says what kind of file it is."""
     try:
-        return read_task(f"{FROM_PAGE}{name}", data=data, **options)
+        task = read_task(f"{FROM_PAGE}{name}", data=data, **options)
+        notes = [replace(each, message=each.message.replace(FROM_PAGE, "")) for each in task.notes]
+        return replace(task, notes=tuple(notes))
     except InputError as error:
         error.where = error.where and error.where.replace(FROM_PAGE, "")
         raise
@@ -131,6 +136,10 @@ def document_of(task: Task) -> dict[str, Any]:
     document: dict[str, Any] = {"angle_unit": "deg", "poses": _poses(task)}
     if task.length_unit is not None:
         document = {"length_unit": task.length_unit, **document}
+    if (usual := _usual_tolerance(task)) is not None:
+        document["tolerance"] = usual
+    if task.path is not None:
+        document["path"] = _path(task.path)
     if task.body is not None:
         document["body"] = plain(task.body.vertices.tolist())
     if task.surroundings is not None:
@@ -157,11 +166,13 @@ def document_of(task: Task) -> dict[str, Any]:
 
 
 def _poses(task: Task) -> list[dict[str, Any]]:
+    usual, blank = _usual_tolerance(task), _blank_angles(task)
     stated = [] if task.tolerances is None else tolerances_data(task.tolerances)
     poses = []
     for number, (x, y) in enumerate(task.poses.translation.tolist()):
-        angle = degrees_of(float(task.poses.angle[number]))
-        pose: dict[str, Any] = {"x": plain(x), "y": plain(y), "angle": plain(angle)}
+        pose: dict[str, Any] = {"x": plain(x), "y": plain(y)}
+        if not blank[number]:
+            pose["angle"] = plain(degrees_of(float(task.poses.angle[number])))
         if task.names is not None and task.names[number]:
             pose["name"] = task.names[number]
         if task.weights is not None and task.weights[number] != 1:
@@ -169,9 +180,45 @@ def _poses(task: Task) -> list[dict[str, Any]]:
         if task.exact is not None and task.exact[number]:
             pose["exact"] = True
         if stated:
-            pose |= plain(stated[number])
+            own = stated[number]
+            pose |= plain(
+                {"free": own["free"]} if usual and "free" in own else {} if usual else own
+            )
         poses.append(pose)
     return poses
+
+
+def _blank_angles(task: Task) -> list[bool]:
+    """Which angles a document does not state: free ones, where they are what a blank is read as."""
+    count = task.poses.shape[0]
+    free = np.zeros(count, bool) if task.tolerances is None else task.tolerances.free[:, 2]
+    angles = np.array([degrees_of(float(each)) for each in task.poses.angle])
+    read = np.radians(nominal_values(np.where(free, np.nan, angles), free, turn=360.0))
+    same = bool(np.array_equal(read[free], task.poses.angle[free]))
+    return free.tolist() if same else [False] * count
+
+
+def _usual_tolerance(task: Task) -> dict[str, Any] | None:
+    """The tolerance of all poses, where they have one and only angles are free; else None."""
+    stated: PoseTolerances | None = task.tolerances
+    if stated is None or task.exact is not None or set(stated.axes) != {"fixed"}:
+        return None
+    bounds, free = stated.bounds, stated.free
+    if free[:, :2].any() or not free[:, 2].any() or (bounds[:, :2] != bounds[0, :2]).any():
+        return None
+    angles = np.unique(bounds[~free[:, 2], 2])
+    if len(angles) > 1:
+        return None
+    x, y = bounds[0, :2].tolist()
+    angle = degrees_of(float(angles[0])) if len(angles) else 0
+    return {"x": plain(x), "y": plain(y), "angle_deg": plain(angle)}
+
+
+def _path(path: TracedPath) -> dict[str, Any]:
+    """How points are traced, as the key `path` of a file has it."""
+    turned = path.crank_angles
+    timing = {} if turned is None else {"crank_deg": [degrees_of(e) for e in turned.tolist()]}
+    return {"closed": path.closed, **plain(timing)}
 
 
 def _limits(limits: Limits) -> dict[str, Any]:

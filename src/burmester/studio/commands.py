@@ -35,13 +35,15 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
     best, chosen = given.get("linkage"), ""
     if isinstance(best, str) and best[:1] == "L" and best[1:].isdecimal():
         chosen = f" --linkage {best}"
+    dyads = _dyads(given.get("dyads"))
+    made = f"{name}-by-hand" if dyads is not None else name  # the result that has the linkage
     file = f"{name}-{best if chosen else 'linkage'}"
     rows = [
         ("look the task over", f"burmester check {name}.toml"),
         ("find the linkages", f"burmester synthesize {name}.toml{how} -o {name}.json"),
         (
             "draw the plates of a linkage",
-            f"burmester export {name}.json{chosen}{_settings(given.get('settings'))} -o {file}.dxf",
+            f"burmester export {made}.json{chosen}{_settings(given.get('settings'))} -o {file}.dxf",
         ),
         ("write the report", f"burmester report {name}.toml{how}"),
         ("open the task here again", f"burmester studio {name}.toml"),
@@ -49,8 +51,9 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
     if chosen:
         again = f"burmester judge {name}.toml --linkage {name}.json --id {best} --improve"
         rows.insert(2, ("look for better linkages near this one", again))
-    if (dyads := _dyads(given.get("dyads"))) is not None:
-        rows.insert(2, ("judge the linkage of the pivots", f"burmester judge {name}.toml{dyads}"))
+    if dyads is not None:
+        judge = f"burmester judge {name}.toml{dyads} -o {made}.json"
+        rows.insert(2, ("judge the linkage of the pivots", judge))
     return [{"title": title, "command": command} for title, command in rows]
 
 

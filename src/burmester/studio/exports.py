@@ -11,11 +11,14 @@ from typing import Any, Final
 
 from burmester.errors import InputError
 from burmester.export import FORMATS, Options, export, require_format
+from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import read_result
 from burmester.report.page import page_of
 from burmester.studio.names import plain_name
+from burmester.values import real_numbers
 
-__all__ = ["exported", "formats", "report_page"]
+__all__ = ["dyads_of", "exported", "formats", "report_page"]
 
 _TYPES: Final = {  # of the options of an export, as JSON has them
     "float | None": (int, float, type(None)),
@@ -25,6 +28,25 @@ _TYPES: Final = {  # of the options of an export, as JSON has them
     "str": (str,),
     "bool": (bool,),
 }
+
+
+def dyads_of(given: Any) -> Linkage:
+    """The linkage of two links: [{"fixed_pivot": [x, y], "moving_pivot": [x, y], "radius": r}] x 2.
+
+    Raises InputError E153 for what is none.
+    """
+    links = given if isinstance(given, list) else []
+    if len(links) != 2 or not all(isinstance(each, dict) for each in links):
+        raise InputError("E153", "two links make a linkage", help="give two links")
+    first, second = (
+        RR(
+            real_numbers(each.get("fixed_pivot"), (2,), "a fixed pivot", code="E153"),
+            real_numbers(each.get("moving_pivot"), (2,), "a moving pivot", code="E153"),
+            real_numbers(each.get("radius"), (), "a length", code="E153"),
+        )
+        for each in links
+    )
+    return Linkage(first, second)
 
 
 def formats() -> list[dict[str, Any]]:

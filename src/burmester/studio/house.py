@@ -23,6 +23,7 @@ __all__ = ["Answer", "House"]
 ANSWER_BYTES = 64_000_000  # of all answers that are kept
 SPARE = 2  # workers that are there before they are asked for
 DESK_S = 60.0  # for what is asked over HTTP, such as a solid part
+POINTS_TIMES = 3  # the limit for points: what their search found is judged after it, however long
 SOFT = 0.8  # of the limit: after it nothing more is looked for, so that there is an answer
 
 
@@ -89,16 +90,17 @@ class House:
         given = {"document": told["document"], "options": told["options"]}
         key = self.key_of(given)
         self._formats = asyncio.get_running_loop().create_future()
-        self._opening = key, self.later(self._solve_opening(key, as_json(given)))
+        self._opening = key, self.later(self._solve_opening(key, given))
 
-    async def _solve_opening(self, key: str, body: bytes) -> None:
+    async def _solve_opening(self, key: str, given: dict[str, Any]) -> None:
+        body, limit_s = as_json(given), self.limit_of(given)
         async with self.workers.lent() as worker:
             with suppress(WorkerEndedError):
                 self._formats.set_result(
                     json.loads((await worker.ask({"do": "formats"}, b"{}"))[1])
                 )
             with suppress(TimeoutError, WorkerEndedError):  # the page asks again, and is told
-                await self.solve(worker, key, body, lambda text: None)
+                await self.solve(worker, key, body, lambda text: None, limit_s)
         await self.workers.open(SPARE)  # not before: the page is being loaded
 
     async def beginning(self) -> dict[str, Any]:
@@ -118,7 +120,12 @@ class House:
             await asyncio.shield(self._opening[1])
 
     async def solve(
-        self, worker: Worker, key: str, body: bytes, said: Callable[[str], object]
+        self,
+        worker: Worker,
+        key: str,
+        body: bytes,
+        said: Callable[[str], object],
+        limit_s: float,
     ) -> Parcel:
         """Go the whole road in a worker; raises TimeoutError at the limit, and WorkerEndedError."""
         result = b""
@@ -133,7 +140,7 @@ class House:
         worker.key = worker.holder = None
         head = {"do": "solve", "time_limit": SOFT * self.limit_s}
         await worker.ready()
-        async with asyncio.timeout(self.limit_s):
+        async with asyncio.timeout(limit_s):
             answer = await worker.ask(head, body, piece)
         if answer[0]["kind"] == "solved":
             worker.key = key
@@ -152,6 +159,15 @@ class House:
                 body = known.result + known.report + body
         async with self.workers.lent() as worker, asyncio.timeout(DESK_S):
             return await worker.ask(head, body)
+
+    def limit_of(self, given: dict[str, Any]) -> float:
+        """Seconds after which the search for a task is killed."""
+        document = given.get("document")
+        poses = document.get("poses") if isinstance(document, dict) else None
+        free = (
+            (e.get("free") for e in poses if isinstance(e, dict)) if isinstance(poses, list) else ()
+        )
+        return self.limit_s * (POINTS_TIMES if any(free) else 1)
 
     @staticmethod
     def key_of(given: dict[str, Any]) -> str:

@@ -27,8 +27,9 @@ from burmester.live.document import (
 )
 from burmester.live.plain import plain
 from burmester.progress import shown
+from burmester.studio.cognates import cognate_reports
 from burmester.studio.curves import curves
-from burmester.studio.exports import exported, formats, report_page
+from burmester.studio.exports import dyads_of, exported, formats, report_page
 from burmester.studio.names import plain_name
 from burmester.studio.opening import template
 from burmester.studio.parcel import as_json
@@ -42,6 +43,7 @@ __all__ = ["Road"]
 
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
 
+NEVER: Final = "this synthesis cannot be followed"
 KNOWN: Final = object()  # the key of what the server kept: result and report of the task
 
 
@@ -82,7 +84,14 @@ class Road:
     def read(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """A file that the page sent as a document, and how it was read."""
         data, name = _content(given)
-        task = read_file(name, data, angle_unit=given.get("angle_unit"))
+        columns = given.get("columns")
+        task = read_file(
+            name,
+            data,
+            angle_unit=given.get("angle_unit"),
+            columns=columns if isinstance(columns, str) else None,
+            closed=given.get("closed") is True,
+        )
         notes = [message_data(each) for each in task.notes]
         return _json({"document": document_of(task), "notes": notes})
 
@@ -124,7 +133,14 @@ class Road:
         return {"kind": "file", "name": f"{name}.html"}, report_page(data, name)
 
     def _result(self, head: dict[str, Any], given: Any) -> bytes:
-        """The result that the server knows, or the one that is found again."""
+        """The result that the server knows, or the one that is found again.
+
+        Where two dyads are given, what `burmester judge` says of them.
+        """
+        if (dyads := given.get("dyads")) is not None:
+            options = options_of(given.get("options"), head.get("time_limit"))
+            judged = judge_linkage(task_of(given.get("document")), dyads_of(dyads), options)
+            return json_line(synthesis_data(judged)).encode()
         if known := given.get(KNOWN):
             return bytes(known[0])
         return json_line(synthesis_data(self._solved(head, given))).encode()
@@ -188,6 +204,11 @@ class Road:
         task, options = task_of(given.get("document")), options_of(given.get("options"))
         return {"kind": "placed"}, as_json(placed(task, given.get("pivots"), options, FRAMES[0]))
 
+    def cognates(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The cognates of a linkage of the last synthesis."""
+        found = cognate_reports(self._live.synthesis, given.get("linkage"))
+        return {"kind": "cognates"}, as_json(found)
+
     def curve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Burmester's curves of four poses."""
         found = curves(task_of(given.get("document")), judged=given.get("judged") is not False)
@@ -209,7 +230,7 @@ _DEEDS: dict[str, Callable[[Road, dict[str, Any], Any, Job], Answer]] = {
             "report",
             "improve",
         ),
-        *("solve", "again", "follow", "stand", "match", "place", "curve"),
+        *("solve", "again", "follow", "stand", "match", "place", "curve", "cognates"),
     )
 }
 
@@ -225,7 +246,8 @@ def _json(data: object) -> Answer:
 
 def _not_followed(why: str) -> Answer:
     message = {"code": "E157", "message": why, "where": None, "why": None, "help": None}
-    return {"kind": "refused"}, as_json({"messages": [message], "solve": True})
+    whole = why.startswith(NEVER)  # not only now: nothing of this synthesis can be followed
+    return {"kind": "refused"}, as_json({"messages": [message], "solve": True, "whole": whole})
 
 
 def _content(given: Any) -> tuple[bytes, str]:

@@ -1,7 +1,8 @@
 """One tab: what its page asks over its websocket, and the answers.
 
-Two things go on at once: what the hand does (follow, place, curve), where only the newest of each
-counts, and the whole road, which a new one replaces.  Every message has one last answer.
+Two things go on at once: what the hand asks for (follow, place, curve, cognates), where only
+the newest of each counts, and the whole road, which a new one replaces.  Every message has one
+last answer.
 """
 
 from __future__ import annotations
@@ -25,7 +26,7 @@ __all__ = ["Session"]
 
 HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53
-HAND = ("follow", "place", "curve")
+HAND = ("follow", "place", "curve", "cognates")
 
 
 class Session:
@@ -82,7 +83,8 @@ class Session:
                     await self._tell(n, "cancelled", message="called off")
             if do == "solve":
                 key = self._house.key_of(given)
-                self._solving = self._house.later(self._solve(n, key, text))
+                limit_s = self._house.limit_of(given)
+                self._solving = self._house.later(self._solve(n, key, text, limit_s))
         else:
             await self._refuse(n, "this is no message of the page")
 
@@ -115,7 +117,7 @@ class Session:
         async with self._house.workers.lent() as worker:
             return await worker.ask({"do": do}, text.encode())
 
-    async def _solve(self, n: int, key: str, text: str) -> None:
+    async def _solve(self, n: int, key: str, text: str, limit_s: float) -> None:
         """The whole road, when it is this one's turn."""
         house, start = self._house, time.monotonic()
         try:
@@ -134,7 +136,9 @@ class Session:
                     body = known.report
                 else:
                     await self._tell(n, "solving", since=time.time())
-                    head, body = await house.solve(worker, key, text.encode(), self._progress(n))
+                    head, body = await house.solve(
+                        worker, key, text.encode(), self._progress(n), limit_s
+                    )
                     if head["kind"] == "failed":
                         await self._send(n, "refused", body)
                         return
@@ -143,7 +147,7 @@ class Session:
             seconds = round(time.monotonic() - start, 3)
             await self._send(n, "solved", body, key="result", seconds=seconds, was=was)
         except TimeoutError:
-            message = f"stopped after {house.limit_s:g} s, the limit"
+            message = f"stopped after {limit_s:g} s, the limit"
             await self._tell(n, "limit", message=message)
         except WorkerEndedError:
             await self._refuse(n, "the computation ended before its time; try it once more")

@@ -176,7 +176,7 @@ def test_how_well_the_poses_are_known_is_part_of_the_task(page, tmp_path, capsys
 def test_an_empty_task_is_filled_by_hand(page):
     page.locator("[data-do=new]").click()
     assert rows(page) == 0
-    assert "add poses here" in page.locator(".bs-line").inner_text()
+    assert "add poses or points here" in page.locator(".bs-line").inner_text()
     page.locator("[data-do=add-poses]").click()
     box = page.locator(".bs-scene").bounding_box()
     for x, y, toward in ((150, 350, (230, 350)), (260, 300, (330, 250)), (340, 210, (360, 120))):

@@ -45,28 +45,31 @@ return h("input",{class:"bs-text",type:"text",autocomplete:"off",spellcheck:"fal
 function tick(text,commit,attributes={}){const box=h("input",{type:"checkbox",...attributes,onchange:event=>commit(event.target.checked)});return{box,element:h(
 "label",{class:"bs-tick"},box," ",text)}}function choice(label,pairs,commit,attributes={}){return h("select",{class:"bs-choice","aria-label":label,...attributes,
 onchange:event=>commit(event.target.value)},pairs.map(([value,text])=>h("option",{value},text)))}var button=(text,onclick,attributes={})=>h("button",{type:"butt\
-on",class:"bm-button",onclick,...attributes},text);var ROLES={refused:"alert",offline:"alert",limit:"alert",expired:"alert"};var NO_FILE="task.json";function sentenceOf({code,message,where,why,help}){return h("l\
-i",{},code?h("span",{class:"bm-code"},code):null," ",h("span",{},message),where&&!where.startsWith(NO_FILE)?h("pre",{class:"bs-where"},where):null,why?h("p",{class:"\
-bs-why"},`Why: ${why}.`):null,help?h("p",{class:"bs-help"},`What to do: ${help}.`):null)}var Banners=class{constructor(store){this.store=store;this.shown=new Map;
-this.element=h("div",{class:"bs-banners"});this.status=h("p",{class:"bs-status"});this.live=h("p",{class:"bs-unseen",role:"status"});store.on("messages",()=>this.
-messages());store.on("state solved messages",()=>this.state())}say(kind,title,messages=[],{undo=false,actions=[]}={}){const close=button("✕",()=>this.close(kind),
-{"aria-label":"Close",class:"bs-close"});const all=[...actions,...undo?[button("Undo",()=>(this.close(kind),this.store.undo()))]:[]];const banner=h("section",{class:`\
-bs-banner bs-${kind}`,role:ROLES[kind]??"status","data-banner":kind},h("p",{class:"bs-banner-title"},title),messages.length?h("ul",{},messages.map(sentenceOf)):
-null,all.length?h("div",{class:"bs-row"},all):null,kind==="offline"?null:close);this.shown.get(kind)?.remove();this.shown.set(kind,banner);this.element.append(banner)}close(kind){
-this.shown.get(kind)?.remove();this.shown.delete(kind)}messages(){const{store}=this,{messages}=store,[first]=messages;this.close("limit");this.close("refused");
-if(!first||store.document.poses.length<2)return;if(first.tone==="cancelled")this.say("note","Solving was stopped. What is shown was followed from the answer bef\
-ore.",[],{actions:[this.again()]});else if(first.tone==="limit")this.say("limit","Solving took too long and was stopped. Nothing is lost: what is shown was foll\
-owed from the answer before.",messages,{actions:[this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("\
-Solve again",()=>{this.close("note");this.close("limit");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";
-if(store.state==="offline")this.offline();else this.close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.
-state==="offline"?"Not connected":this.summary();say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.
-live,said)}summary(){const{solved,solvedFor,document:document2,messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.
-length)return"Not solved";if(!solved||solvedFor!==document2)return"";const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;
-return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server d\
-oes not answer. Nothing is lost: the task is in this page, and can still be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),
-{"data-do":"save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the server has ended, start burmester studio with that file, or drop the\
- file on the new page.")]})}expired(){this.close("offline");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed i\
-n this tab, and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+on",class:"bm-button",onclick,...attributes},text);var ROLES={refused:"alert",offline:"alert",limit:"alert",expired:"alert"};var LONGEST_HELP=240;var NO_FILE="task.json";function sentenceOf({code,message,where,why,
+help}){return h("li",{},code?h("span",{class:"bm-code"},code):null," ",h("span",{},message),where&&!where.startsWith(NO_FILE)?h("pre",{class:"bs-where"},where):
+null,why?h("p",{class:"bs-why"},`Why: ${why}.`):null,help?helpOf(help):null)}function helpOf(help){if(help.length<=LONGEST_HELP)return h("p",{class:"bs-help"},`\
+What to do: ${help}.`);const end=help.slice(0,LONGEST_HELP).lastIndexOf("; "),cut=end>0?end:help.slice(0,LONGEST_HELP).lastIndexOf(" ");return h("div",{class:"b\
+s-help"},h("p",{},`What to do: ${help.slice(0,cut)}${end>0?".":" …"}`),h("details",{},h("summary",{},"More"),h("p",{},`${help.slice(cut).replace(/^[; ]+/,"")}\
+.`)))}var Banners=class{constructor(store){this.store=store;this.shown=new Map;this.element=h("div",{class:"bs-banners"});this.status=h("p",{class:"bs-status"});
+this.live=h("p",{class:"bs-unseen",role:"status"});store.on("messages",()=>this.messages());store.on("state solved messages",()=>this.state())}say(kind,title,messages=[],{
+undo=false,actions=[]}={}){const close=button("✕",()=>this.close(kind),{"aria-label":"Close",class:"bs-close"});const all=[...actions,...undo?[button("Undo",()=>(this.
+close(kind),this.store.undo()))]:[]];const banner=h("section",{class:`bs-banner bs-${kind}`,role:ROLES[kind]??"status","data-banner":kind},h("p",{class:"bs-bann\
+er-title"},title),messages.length?h("ul",{},messages.map(sentenceOf)):null,all.length?h("div",{class:"bs-row"},all):null,kind==="offline"?null:close);this.shown.
+get(kind)?.remove();this.shown.set(kind,banner);this.element.append(banner)}close(kind){this.shown.get(kind)?.remove();this.shown.delete(kind)}messages(){const{
+store}=this,{messages}=store,[first]=messages;this.close("limit");this.close("refused");if(!first||store.document.poses.length<2)return;const shown2=store.solved?.
+linkages.length?" What is shown was followed from the answer before.":"";if(first.tone==="cancelled")this.say("note",`Solving was stopped.${shown2}`,[],{actions:[
+this.again()]});else if(first.tone==="limit")this.say("limit",`Solving took too long and was stopped. Nothing of the task is lost.${shown2}`,messages,{actions:[
+this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("Solve again",()=>{this.close("note");this.close("\
+limit");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="offline")this.offline();else this.
+close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?"Not connected":this.summary();
+say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){const{solved,solvedFor,document:document2,
+messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not solved";if(!solved||solvedFor!==document2)return"";
+const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:
+"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothing is lost: the task is in this page, and can st\
+ill be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"save-json"}),h("span",{class:"bs-hint"},"Th\
+e page tries again by itself. If the server has ended, start burmester studio with that file, or drop the file on the new page.")]})}expired(){this.close("offli\
+ne");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed in this tab, and go on here.",[],{actions:[button("Save \
+the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -120,16 +123,28 @@ length>1){const[a,b]=kept.slice(-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*
 ...half(sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
 var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
 ...list.slice(0,index),value,...list.slice(index)];var withList=(document2,key,list)=>withKeys(document2,{[key]:list.length?list:void 0});var filled=table3=>Object.
-keys(table3).length?table3:void 0;var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],
-changes))});var addPose=(document2,pose,index=document2.poses.length)=>withKeys(document2,{poses:inserted(document2.poses,index,pose)});var removePose=(document2,index)=>withKeys(
-document2,{poses:without(document2.poses,index)});var duplicatePose=(document2,index)=>addPose(document2,withKeys(document2.poses[index],{name:void 0}),index+1);
-function movePose(document2,from,to){const poses=without(document2.poses,from);return withKeys(document2,{poses:inserted(poses,to,document2.poses[from])})}function setFree(document2,index,component2,free){
-const pose=document2.poses[index],others=(pose.free??[]).filter(each=>each!==component2);const list=free?[...others,component2]:others;const{[component2]:bound,
-...bounds2}=pose.tolerance??{};return setPose(document2,index,{free:list.length?list:void 0,tolerance:free?filled(bounds2):pose.tolerance})}var setTolerance=(document2,index,key,bound)=>setPose(
-document2,index,{tolerance:filled(withKeys(document2.poses[index].tolerance??{},{[key]:bound}))});var setBody=(document2,corners)=>withList(document2,"body",corners);
-var bodyOf=document2=>Array.isArray(document2.body)?document2.body:[];var regionsOf=document2=>document2.keep_out===void 0?[]:[document2.keep_out].flat();var addRegion=(document2,region)=>withList(
-document2,"keep_out",[...regionsOf(document2),region]);var setRegion=(document2,index,changes)=>withList(document2,"keep_out",replaced(regionsOf(document2),index,
-withKeys(regionsOf(document2)[index],changes)));var removeRegion=(document2,index)=>withList(document2,"keep_out",without(regionsOf(document2),index));var setSurrounding=(document2,key,value)=>withKeys(
+keys(table3).length?table3:void 0;var EXACT={x:0,y:0,angle_deg:0};var FEWEST_TRACED=10;var isFree=(pose,key)=>Boolean(pose?.free?.includes(key))||pose?.tolerance?.[key]===
+"free";var isPoint=pose=>isFree(pose,"angle");var isOfPoints=({poses})=>poses.length>0&&poses.every(isPoint);var isPath=document2=>isOfPoints(document2)&&(document2.
+path!==void 0||document2.poses.length>=FEWEST_TRACED);var setPath=(document2,changes)=>withKeys(document2,{path:withKeys(document2.path??{closed:false},changes)});
+var setUsual=(document2,key,value)=>withKeys(document2,{tolerance:{...EXACT,...document2.tolerance,[key]:value??0}});var pathDocument=(document2,points,closed2)=>withKeys(
+document2,{poses:points.map(([x,y])=>({x,y,free:["angle"]})),path:{closed:closed2},tolerance:isOfPoints(document2)?document2.tolerance??EXACT:EXACT});var isExact=tolerance=>tolerance&&
+["x","y","angle_deg"].every(key=>!tolerance[key]);function settled(document2){const{poses,path:path2,tolerance}=document2,some=poses.some(pose=>pose.free?.length);
+return withKeys(document2,{path:path2&&poses.length&&!poses.every(isPoint)?void 0:path2,tolerance:some?tolerance??EXACT:isExact(tolerance)?void 0:tolerance})}var withCrank=(document2,change)=>document2.
+path?.crank_deg?setPath(document2,{crank_deg:change(document2.path.crank_deg)}):document2;function betweenCranks(angles,index){const[a,b]=[angles[index-1],angles[index]];
+if(a!==void 0&&b!==void 0)return(a+b)/2;return a===void 0?(b??0)-10:a+(a-(angles[index-2]??a-10))}var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(
+document2.poses,index,withKeys(document2.poses[index],changes))});var addPose=(document2,pose,index=document2.poses.length)=>settled(withCrank(withKeys(document2,
+{poses:inserted(document2.poses,index,pose)}),angles=>inserted(angles,index,betweenCranks(angles,index))));var removePose=(document2,index)=>settled(withCrank(withKeys(
+document2,{poses:without(document2.poses,index)}),angles=>without(angles,index)));function setAngle(document2,index,angle){const free=angle===void 0,same=isPoint(
+document2.poses[index])===free;return setPose(same?document2:setFree(document2,index,"angle",free),index,{angle})}var setCrank=(document2,index,angle)=>withCrank(
+document2,angles=>replaced(angles,index,angle));var duplicatePose=(document2,index)=>addPose(document2,withKeys(document2.poses[index],{name:void 0}),index+1);function movePose(document2,from,to){
+const moved=list=>inserted(without(list,from),to,list[from]);return withCrank(withKeys(document2,{poses:moved(document2.poses)}),moved)}function setFree(document2,index,component2,free){
+const pose=document2.poses[index],others=(pose.free??[]).filter(each=>each!==component2);const list=free?[...others,component2]:others;const{[component2]:_,[component2===
+"angle"?"angle_deg":component2]:bound,...bounds2}=pose.tolerance??{};return settled(setPose(document2,index,{free:list.length?list:void 0,tolerance:free||pose.tolerance?.[component2]===
+"free"?filled(bounds2):pose.tolerance}))}var setTolerance=(document2,index,key,bound)=>setPose(document2,index,{tolerance:filled(withKeys(document2.poses[index].
+tolerance??{},{[key]:bound}))});var setBody=(document2,corners)=>withList(document2,"body",corners);var bodyOf=document2=>Array.isArray(document2.body)?document2.
+body:[];var regionsOf=document2=>document2.keep_out===void 0?[]:[document2.keep_out].flat();var addRegion=(document2,region)=>withList(document2,"keep_out",[...regionsOf(
+document2),region]);var setRegion=(document2,index,changes)=>withList(document2,"keep_out",replaced(regionsOf(document2),index,withKeys(regionsOf(document2)[index],
+changes)));var removeRegion=(document2,index)=>withList(document2,"keep_out",without(regionsOf(document2),index));var setSurrounding=(document2,key,value)=>withKeys(
 document2,{surroundings:filled(withKeys(document2.surroundings??{},{[key]:value}))});var limitsOf=document2=>document2.limits===void 0?[]:[document2.limits].flat();
 function setLimit(document2,index,changes){const tables=limitsOf(document2),changed=withKeys(tables[index]??{},changes);const all=index<tables.length?replaced(tables,
 index,changed):[...tables,changed];const kept=all.length>1||filled(changed)?all:[];return withKeys(document2,{limits:kept.length>1?kept:kept[0]})}function splitLimits(document2,apart){
@@ -169,17 +184,17 @@ const name=row.dyad===last?"":row.dyad;last=row.dyad;const side=linkage.led.find
 return table(`Dimensions of ${linkage.id}${data.unit?`, in ${data.unit}`:""}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["±\
  (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data);const heads=["po\
 se",`wanted x`,`y${unit2}`,"angle"];if(linkage)heads.push("coupler x",`y${unit2}`,"angle","off by","turned by","transm.",{name:"where",text:true});const rows=data.
-poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exact)":""),fixed(pose.x,digits),fixed(pose.y,digits),`${fixed(pose.angle_deg,2)}°`];if(linkage){
-const row=linkage.pose_errors[k];values.push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,
-row.said.turned,row.said.transmission,row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,[10]))});return table(
-linkage?`Poses, and where ${linkage.id} takes the body`:"Poses",heads,rows,{class:data.poses.some(pose=>pose.label!==pose.name)?"bm-pose-table bm-named":"bm-pos\
-e-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.
-sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?
-digits:5))]))});const points=table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows);if(!linkage)return[points];const surfaces=linkage.
-led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z\
-1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[points,table(caption,heads,surfaces)]}function wayName(way,linkage){
-const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>
-1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
+poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exact)":""),fixed(pose.x,digits),fixed(pose.y,digits),pose.angle_deg===null?"free":`${fixed(pose.
+angle_deg,2)}°`];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,
+2)}°`,row.said.position,row.said.turned,row.said.transmission,row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(
+values,[10]))});return table(linkage?`Poses, and where ${linkage.id} takes the body`:"Poses",heads,rows,{class:data.poses.some(pose=>pose.label!==pose.name)?"bm\
+-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.map(pose=>{const c=Math.cos(pose.
+angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];return h("tr",{},cells([pose.label,...z.
+map((value,k)=>fixed(value,k<2?digits:5))]))});const points=table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows);
+if(!linkage)return[points];const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,
+8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[points,table(
+caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<
+2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
 x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
 poses.map((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return{x:at.x,y:at.y,a:radians(at.angle_deg)}});function ghosts(data,linkage,view){
 const group=s("g",{class:"bm-ghosts"});if(!data.body)return group;const places=placesAtPoses(data,linkage),last=Math.max(1,places.length-1);places.forEach(({x,y,
@@ -303,49 +318,58 @@ Object.assign(this,{group,make,show,elements:new Map})}draw(items){const kept=ne
 key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.
 values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=
 element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var NAME=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
-0,1],ArrowDown:[0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);function drawnPoses({document:document2,
-selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)return all;const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+
-(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);const stride=Math.ceil(count/clamp(scale*length/ROOM,FEW,MOST)),chosen=selection?.kind==="pose"?selection.index:-1;
-return all.filter(k=>k%stride===0||k===count-1||k===chosen)}var PoseHandles=class{constructor(store,scene){this.store=store;this.scene=scene;this.element=scene.
-layer("poses");this.names=scene.layer("labels");this.kept=new Kept(this.element,k=>this.make(k),(group,k)=>this.show(group,k));this.labels=new Kept(this.names,()=>s(
-"text",{class:"bs-pose-name"}),(text,k)=>this.showName(text,k));store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>store.
-document.poses.map((_,k)=>standing(store.document,k)).map(({x,y})=>[x,y]));scene.on("click",()=>store.select(null));scene.names.avoid(()=>this.obstacles());this.
-draw()}get arm(){const{document:document2}=this.store,{scale}=this.scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.
-slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].x,y-places[k].y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):
-LONGEST_ARM}draw(){this.length=this.scene.dragged?this.length??this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.
-draw(poses);this.labels.draw(poses)}make(k){const origin=s("g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s(
-"circle",{class:"bs-dot",r:5.5}));const turn=s("g",{class:"bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",
-{class:"bs-hold",r:12}),s("circle",{class:"bs-tip",r:5}));const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);
-this.dragTurn(turn,k);for(const part of[origin,turn])part.addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydow\
-n",event=>this.key(event,k,false));turn.addEventListener("keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,
-angle}=standing(store.document,k),pose=store.document.poses[k];const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit2=store.document.length_unit??
-"",name=poseName(store.document,k);if(!isOther(group,[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit2,selected]))return;const[arrow2,origin,
-turn]=group.children;put(group,"transform",transform(view.X(x),view.Y(y),radians(angle)));put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(
-this.length)} 0)`);group.classList.toggle("bs-selected",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const called=pose.name?`Pose ${k+1}, ${name}`:
-`Pose ${k+1}`;put(origin,"aria-label",`${called}: x ${x} ${unit2}, y ${y} ${unit2}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);put(origin,
-"aria-pressed",selected);put(turn,"aria-label",`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",`${angle}°`)}obstacles(){const{store,
-scene:{view},length}=this,boxes=[];for(const k of drawnPoses(store,view.scale)){const{x,y,angle}=standing(store.document,k),a=radians(angle),[c,d]=[Math.cos(a),
-Math.sin(a)];const at=(along2,across,size2)=>boxes.push([view.X(x)+along2*c-across*d,view.Y(y)-along2*d-across*c,size2,size2]);at(0,0,13);at(length,0,12);at(LETTER,
--LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[.3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,
-{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName(store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(
-text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(angle+215),NAME,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(
-document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){const{store,scene}=this;let gesture,off;scene.drag(element,{start:from=>{const{
-x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-from.x,y-from.y]},move:point2=>this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(
-point2.y+off[1])},gesture),cancel:()=>store.abandon(gesture)})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point2=>{const{x,y}=standing(
-store.document,k);return degrees(Math.atan2(point2.y-y,point2.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(store.document,
-k).angle-angleTo(from)},move:point2=>this.set(k,{angle:tenths(unwrapped(angleTo(point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.abandon(
-gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.keyed=Symbol(
-"keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:
--arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){
-store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(
-Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){
+0,1],ArrowDown:[0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);var strideOf=({poses},scale)=>{
+const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);return poses.length<=FEW?1:Math.ceil(poses.length/clamp(scale*
+length/ROOM,FEW,MOST))};function drawnPoses({document:document2,selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)
+return all;const stride=strideOf(document2,scale),chosen=selection?.kind==="pose"?selection.index:-1;return all.filter(k=>k%stride===0||k===count-1||k===chosen)}
+var PoseHandles=class{constructor(store,scene){this.store=store;this.scene=scene;this.element=scene.layer("poses");this.names=scene.layer("labels");this.kept=new Kept(
+this.element,k=>this.make(k),(group,k)=>this.show(group,k));this.labels=new Kept(this.names,()=>s("text",{class:"bs-pose-name"}),(text,k)=>this.showName(text,k));
+store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>store.document.poses.map((_,k)=>standing(store.document,k)).map(({
+x,y})=>[x,y]));scene.on("click",()=>store.select(null));scene.names.avoid(()=>this.obstacles());this.draw()}get arm(){const{document:document2}=this.store,{scale}=this.
+scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].x,y-places[k].
+y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):LONGEST_ARM}draw(){this.length=this.scene.dragged?this.length??
+this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.draw(poses);this.labels.draw(poses.length>FEW&&isPath(this.store.
+document)?[]:poses)}make(k){const origin=s("g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"\
+bs-dot",r:5.5}));const turn=s("g",{class:"bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",{class:"bs-hold",
+r:12}),s("circle",{class:"bs-tip",r:5}));const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);this.dragTurn(turn,
+k);for(const part of[origin,turn])part.addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydown",event=>this.key(
+event,k,false));turn.addEventListener("keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
+document,k),pose=store.document.poses[k];const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit2=store.document.length_unit??"",name=poseName(
+store.document,k);const point2=isPoint(pose);if(!isOther(group,[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit2,selected,point2]))return;const[
+arrow2,origin,turn]=group.children;put(group,"transform",transform(view.X(x),view.Y(y),point2?0:radians(angle)));for(const part of[arrow2,turn])put(part,"displa\
+y",point2?"none":"inline");group.classList.toggle("bs-point",point2);put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(this.length)} 0)`);
+group.classList.toggle("bs-selected",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const what=point2?"Point":"Pose",called=pose.name?`${what}\
+ ${k+1}, ${name}`:`${what} ${k+1}`;put(origin,"aria-label",`${called}: x ${x} ${unit2}, y ${y} ${unit2}, ${point2?"angle free":`angle ${angle}°`}. Drag, or use\
+ the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria\
+-valuetext",`${angle}°`)}obstacles(){const{store,scene:{view},length}=this,boxes=[];for(const k of drawnPoses(store,view.scale)){const{x,y,angle}=standing(store.
+document,k),a=radians(angle),[c,d]=[Math.cos(a),Math.sin(a)];const at=(along2,across,size2)=>boxes.push([view.X(x)+along2*c-across*d,view.Y(y)-along2*d-across*c,
+size2,size2]);at(0,0,13);if(isPoint(store.document.poses[k]))continue;at(length,0,12);at(LETTER,-LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[
+.3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName(
+store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(
+angle+215),NAME,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
+const{store,scene}=this;let gesture,off,before,reach;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-
+from.x,y-from.y];before=store.document;reach=isPath(before)?strideOf(before,scene.view.scale):1},move:point2=>reach>1?this.bend(before,k,reach,[point2.x+off[0]-
+before.poses[k].x,point2.y+off[1]-before.poses[k].y],gesture):this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(point2.y+off[1])},gesture),cancel:()=>store.
+abandon(gesture)})}bend({poses,path:path2},k,reach,[dx,dy],gesture){const count=poses.length;const moved=poses.map((pose,j)=>{const away=path2?.closed?Math.min(
+Math.abs(j-k),count-Math.abs(j-k)):Math.abs(j-k),share=1-away/reach;return share>0?{...pose,x:this.scene.rounded(pose.x+share*dx),y:this.scene.rounded(pose.y+share*
+dy)}:pose});this.store.edit(document2=>({...document2,poses:moved}),{gesture})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point2=>{
+const{x,y}=standing(store.document,k);return degrees(Math.atan2(point2.y-y,point2.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(
+store.document,k).angle-angleTo(from)},move:point2=>this.set(k,{angle:tenths(unwrapped(angleTo(point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.
+abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.
+keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===
+0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key===
+"Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);
+this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PointTool=class{constructor(store,scene){
+Object.assign(this,{store,scene,name:"point"});this.hint="Click where the body's point is to pass; how the body turns there is free. Escape ends."}click({x,y}){
+const{store,scene}=this,index=store.document.poses.length;store.edit(document2=>setAngle(addPose(document2,{x:scene.rounded(x),y:scene.rounded(y)}),index,void 0));
+store.select({kind:"pose",index})}key(event){if(event.key!=="Escape")return false;this.scene.use(null);return true}};var PoseTool=class{constructor(store,scene){
 Object.assign(this,{store,scene,name:"pose",gesture:null});this.hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){
-const{store,scene}=this;if(this.gesture){this.turn(point2);this.gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.at(-1)?.angle??
-0;store.edit(document2=>addPose(document2,{x:scene.rounded(point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.
-document.poses.length-1})}hover(point2){if(this.gesture&&point2)this.turn(point2)}turn(point2){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(
-store.document,k);const away=Math.hypot(point2.x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point2.y-y,
-point2.x-x)),angle));store.edit(document2=>setPose(document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.
-abandon(this.gesture);this.gesture=null;this.scene.use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along2=minus(
+const{store,scene}=this;if(this.gesture){this.turn(point2);this.gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.findLast(
+pose=>Number.isFinite(pose.angle))?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.
+gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point2){if(this.gesture&&point2)this.turn(point2)}turn(point2){const{store,gesture}=this,
+k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point2.x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(
+unwrapped(degrees(Math.atan2(point2.y-y,point2.x-x)),angle));store.edit(document2=>setPose(document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escap\
+e")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along2=minus(
 end,start),away=minus(point2,start),square=along2[0]**2+along2[1]**2;const share=square>0?Math.min(1,Math.max(0,(along2[0]*away[0]+along2[1]*away[1])/square)):0;
 return size(minus(away,[share*along2[0],share*along2[1]]))}var boxCorners=([[a,b],[c,d]])=>[[a,b],[c,b],[c,d],[a,d]];var outlineOf=(shape,points)=>shape==="box"?
 boxCorners(points):points;function isInside([x,y],corners){let inside2=false;corners.forEach(([a,b],k)=>{const[c,d]=corners[(k+1)%corners.length];if(b>y!==d>y&&
@@ -485,16 +509,17 @@ if(given===1)return;const pose_sigma=given?this.wanted:void 0;this.wanted={};thi
 document:document2}=this.store,{pose_sigma}=document2,isOther2=pose_sigma!==this.shown;for(const[name,field]of this.fields)field.show(settings[name]);give(this.
 unit,"value",settings.unit??"mm");give(this.unitRow,"hidden",Boolean(document2.length_unit)&&!settings.unit);give(this.up,"value",settings.up??"y");give(this.dimensions.
 box,"checked",settings.dimensions!==false);give(this.assembled.box,"checked",Boolean(settings.assembled));if(!isOther2)return;this.shown=pose_sigma;this.wanted=
-{};give(this.lack,"hidden",true);for(const{key,field}of this.sigma)field.show(pose_sigma?.[key])}};var DRAWINGS=/\.(svg|dxf)$/i;var TASKS=/\.(toml|json)$/i;var KINDS=".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";var LARGEST=14e5;async function base64Of(file){
-const bytes=new Uint8Array(await file.arrayBuffer());let text="";for(let k=0;k<bytes.length;k+=32768)text+=String.fromCharCode(...bytes.subarray(k,k+32768));return btoa(
-text)}var isTable=text=>/\d/.test(text)&&(/\t/.test(text)||/\n\s*\S/.test(text.trim()));function download(blob,name){const address=URL.createObjectURL(blob),link=h(
-"a",{href:address,download:name});link.click();setTimeout(()=>URL.revokeObjectURL(address),1e4)}function menu(text,items,attributes={}){const list=h("div",{class:"\
-bs-menu-list",role:"menu"});const summary=h("summary",{class:"bm-button"},text),element=h("details",{class:"bs-menu",...attributes},summary,list);const close=()=>{
-if(!element.open)return;element.open=false;summary.focus()};element.addEventListener("toggle",()=>{if(element.open)list.replaceChildren(...items().map(({title,note,
-act:act2,data})=>h("button",{type:"button",role:"menuitem",class:"bs-menu-item",...data,onclick:()=>(close(),act2())},h("b",{},title),note?h("span",{},note):null)))});
-element.addEventListener("keydown",event=>{const all=[...list.children],at=all.indexOf(document.activeElement);if(event.key==="Escape")close();else if(event.key===
-"ArrowDown")all[(at+1)%all.length]?.focus();else if(event.key==="ArrowUp")all[(at+all.length-1)%all.length]?.focus();else return;event.preventDefault();event.stopPropagation()});
-document.addEventListener("pointerdown",event=>element.contains(event.target)||(element.open=false));return element}var Files=class{constructor(store,start,banners){
+{};give(this.lack,"hidden",true);for(const{key,field}of this.sigma)field.show(pose_sigma?.[key])}};var DRAWINGS=/\.(svg|dxf)$/i;var TASKS=/\.(toml|json)$/i;var KINDS=".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";var BESIDE=["limits","requirements",
+"keep_out","surroundings","body"];var HEADERS={2:["x,y","Read them as x, y: points"],3:["x,y,angle_deg","Read them as x, y, angle in degrees"]};var LARGEST=14e5;
+async function base64Of(file){const bytes=new Uint8Array(await file.arrayBuffer());let text="";for(let k=0;k<bytes.length;k+=32768)text+=String.fromCharCode(...bytes.
+subarray(k,k+32768));return btoa(text)}var isTable=text=>/\d/.test(text)&&(/\t/.test(text)||/\n\s*\S/.test(text.trim()));function download(blob,name){const address=URL.
+createObjectURL(blob),link=h("a",{href:address,download:name});link.click();setTimeout(()=>URL.revokeObjectURL(address),1e4)}function menu(text,items,attributes={}){
+const list=h("div",{class:"bs-menu-list",role:"menu"});const summary=h("summary",{class:"bm-button"},text),element=h("details",{class:"bs-menu",...attributes},summary,
+list);const close=()=>{if(!element.open)return;element.open=false;summary.focus()};element.addEventListener("toggle",()=>{if(element.open)list.replaceChildren(...items().
+map(({title,note,act:act2,data})=>h("button",{type:"button",role:"menuitem",class:"bs-menu-item",...data,onclick:()=>(close(),act2())},h("b",{},title),note?h("s\
+pan",{},note):null)))});element.addEventListener("keydown",event=>{const all=[...list.children],at=all.indexOf(document.activeElement);if(event.key==="Escape")close();else if(event.
+key==="ArrowDown")all[(at+1)%all.length]?.focus();else if(event.key==="ArrowUp")all[(at+all.length-1)%all.length]?.focus();else return;event.preventDefault();event.
+stopPropagation()});document.addEventListener("pointerdown",event=>element.contains(event.target)||(element.open=false));return element}var Files=class{constructor(store,start,banners){
 Object.assign(this,{store,start,banners,server:store.connection});this.chooser=h("input",{type:"file",hidden:true,accept:KINDS,"data-file":"open",onchange:()=>this.
 chosen(this.chooser)});this.outlines=h("input",{type:"file",hidden:true,accept:".svg,.dxf","data-file":"outline",onchange:()=>this.chosen(this.outlines)});this.
 dropping=h("div",{class:"bs-dropping",hidden:true,"aria-hidden":"true"},h("p",{},"Drop a task, a table of poses, or the outline of the body"));this.dialog=h("di\
@@ -505,39 +530,48 @@ act:()=>this.template(name),data:{"data-template":name}})),{"data-menu":"templat
 The file that the command reads (Ctrl+S)"}),menu("Export",()=>[...(start.exports??[]).map(({format,title,suffix})=>({title,note:suffix,act:()=>this.export("/exp\
 ort",{format}),data:{"data-export":format}})),{title:"Report",note:".html",act:()=>this.export("/report"),data:{"data-export":"report"}},{title:"Result",note:".\
 json",act:()=>this.export("/result"),data:{"data-export":"result"}}],{"data-menu":"export"}),button("Copy as command",()=>this.commands(),{"data-do":"command",title:"\
-The same from the command line"})]}get task(){const{document:document2,options,name}=this.store;return{document:document2,options,name}}async trying(what,then){
-try{return await then()}catch(error){if(error instanceof Refused&&error.messages.length)this.banners.say("refused",`${what} was not done.`,error.messages);else this.
-banners.say("refused",`${what} was not done: ${error instanceof Refused?error.message:"the server does not answer"}.`);return null}}fresh(){this.store.replace({
-document:{length_unit:"mm",angle_unit:"deg",poses:[]},options:{},name:"task"})}template(name){return this.trying(`Opening ${name}`,async()=>{const made2=await this.
+The same from the command line"})]}get task(){const{document:document2,options,name}=this.store;return{document:document2,options,name}}async trying(what,then,actions=[]){
+try{return await then()}catch(error){if(error instanceof Refused&&error.messages.length)this.banners.say("refused",`${what} was not done.`,error.messages,{actions});else
+this.banners.say("refused",`${what} was not done: ${error instanceof Refused?error.message:"the server does not answer"}.`);return null}}fresh(){this.store.replace(
+{document:{length_unit:"mm",angle_unit:"deg",poses:[]},options:{},name:"task"})}template(name){return this.trying(`Opening ${name}`,async()=>{const made2=await this.
 server.get(`/template/${encodeURIComponent(name)}`);this.store.replace({name,...made2});this.opened?.()})}async chosen(input){for(const file of input.files)await this.
-take(file,input===this.outlines);input.value=""}chooseOutline(){this.outlines.click()}take(file,asOutline=DRAWINGS.test(file.name)){return this.trying(`Reading ${file.
-name}`,async()=>{if(file.size>LARGEST)throw new Refused(413,[{message:`${file.name} has ${Math.round(file.size/1e3)} kB, and the page takes ${LARGEST/1e3}.`,help:"\
-give it to the command: burmester studio FILE"}]);const body={name:file.name,base64:await base64Of(file),length_unit:this.store.document.length_unit};if(asOutline)
-return this.outline(await(await this.server.post("/outline",body)).json(),file.name);const{document:document2,options={},notes=[]}=await(await this.server.post(
-"/read",body)).json();const name=file.name.replace(/\.[^.]*$/,"");const whole=TASKS.test(file.name);this.store.replace(whole?{document:document2,options,name}:{
-document:document2,options:this.store.options,name});this.opened?.();return this.banners.say("note",`${file.name} is open.`,notes,{undo:true})})}outline({outline:corners,
-notes=[]},name){this.store.edit(document2=>setBody(document2,corners));this.store.select({kind:"body",index:0});this.banners.say("note",`The outline of the body\
- is that in ${name}: ${corners.length} corners.`,notes,{undo:true})}paste(text){return this.trying("Pasting",async()=>{const{document:document2,notes=[]}=await(await this.
-server.post("/read",{name:"pasted",text,length_unit:this.store.document.length_unit,angle_unit:"deg"})).json();const{poses,length_unit}=document2;this.store.edit(
-old=>withKeys(old,{poses,length_unit:length_unit??old.length_unit}));this.store.select(null);this.opened?.();this.banners.say("note",`${poses.length} poses were\
- pasted.`,notes,{undo:true})})}save(){return this.trying("Saving",async()=>{try{await this.hand(await this.server.post("/task",this.task),`${this.store.name}.to\
-ml`)}catch(error){if(error instanceof Refused)throw error;this.saveWithoutServer();this.banners.say("note","The server does not answer: the task was saved as JS\
-ON, which the command reads as well.")}})}saveWithoutServer(){download(new Blob([`${JSON.stringify(this.store.document,null,2)}
-`],{type:"application/json"}),`${this.store.name.replace(/[^\w.-]+/g,"-")||"task"}.json`)}export(path2,what={}){return this.trying("Exporting",async()=>{const linkage=this.
-store.chosen==="placed"?null:this.store.chosen;this.hand(await this.server.post(path2,{...this.task,linkage,settings:this.store.settings,...what}),"export")})}async hand(response,otherwise){
-const name=/filename="([^"]+)"/.exec(response.headers.get("Content-Disposition")??"")?.[1]??otherwise;download(await response.blob(),name)}commands(){return this.
-trying("Copying",async()=>{const{commands}=await(await this.server.post("/command",{...this.task,settings:this.store.settings,linkage:this.store.chosen==="place\
-d"?null:this.store.chosen})).json();const close=button("Close",()=>this.dialog.close(),{"data-do":"close"});const said=h("p",{class:"bs-hint",role:"status"});const copy=async command=>{
-try{await navigator.clipboard.writeText(command);said.textContent="Copied."}catch{said.textContent="The browser does not let this page copy: select the text."}};
-this.dialog.replaceChildren(h("h2",{},"The same from the command line"),h("p",{class:"bs-hint"},"Save the task first; the commands read that file."),...commands.
-map(({title,command})=>h("div",{class:"bs-command"},h("h3",{},title),h("pre",{tabindex:0},command),button("Copy",()=>copy(command),{"aria-label":`Copy: ${title}`}))),
-h("div",{class:"bs-row"},close,said));this.dialog.showModal()})}listen(){let inside2=0;const hasFiles=event=>[...event.dataTransfer?.types??[]].includes("Files");
-const show=by=>{inside2=Math.max(0,inside2+by);give(this.dropping,"hidden",inside2===0)};document.addEventListener("dragenter",event=>hasFiles(event)&&(event.preventDefault(),
-show(1)));document.addEventListener("dragover",event=>hasFiles(event)&&event.preventDefault());document.addEventListener("dragleave",event=>hasFiles(event)&&show(
--1));document.addEventListener("drop",async event=>{if(!hasFiles(event))return;event.preventDefault();show(-Infinity);inside2=0;for(const file of event.dataTransfer.
-files)await this.take(file)});document.addEventListener("paste",event=>{const text=event.clipboardData?.getData("text/plain")??"",[file]=event.clipboardData?.files??
-[];const typing=event.target.closest?.("input, textarea, select");if(file)this.take(file);else if(isTable(text))this.paste(text);else return;event.preventDefault();
-if(typing)typing.blur()})}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
+take(file,input===this.outlines);input.value=""}chooseOutline(){this.outlines.click()}take(file,asOutline=DRAWINGS.test(file.name)&&this.store.document.poses.length>
+0&&!isPath(this.store.document)){const isDrawing=DRAWINGS.test(file.name),{document:before}=this.store;const other=isDrawing?button(asOutline?"Take it as a path\
+ to trace":"Take it as the outline of the body",()=>{for(const kind of["note","refused"])this.banners.close(kind);if(this.store.document!==before)this.store.undo();
+this.take(file,!asOutline)},{"data-do":asOutline?"as-path":"as-outline"}):null;return this.trying(`Reading ${file.name}`,async()=>{if(file.size>LARGEST)throw new Refused(
+413,[{message:`${file.name} has ${Math.round(file.size/1e3)} kB, and the page takes ${LARGEST/1e3}.`,help:"give it to the command: burmester studio FILE"}]);const body={
+name:file.name,base64:await base64Of(file),length_unit:this.store.document.length_unit};if(asOutline)return this.outline(await(await this.server.post("/outline",
+body)).json(),file.name,other);const{document:document2,options={},notes=[]}=await(await this.server.post("/read",body)).json();const name=file.name.replace(/\.[^.]*$/,
+"");const whole=TASKS.test(file.name);this.store.replace(whole?{document:document2,options,name}:{document:document2,options:this.store.options,name});this.opened?.();
+return this.banners.say("note",`${file.name} is open.`,notes,{undo:true,actions:other?[other]:[]})},other?[other]:[])}outline({outline:corners,notes=[]},name,other){
+this.store.edit(document2=>setBody(document2,corners));this.store.select({kind:"body",index:0});this.banners.say("note",`The outline of the body is that in ${name}\
+: ${corners.length} corners.`,notes,{undo:true,actions:other?[other]:[]})}paste(text,columns){const[first]=text.trim().split("\n"),header=HEADERS[first.trim().split(
+/\t/.test(first)?/\t/:/[,;\s]+/).length];const again=!columns&&header&&!/[^\d\s.,;+\-eE\u2212]/.test(first)?[button(header[1],()=>(this.banners.close("refused"),
+this.paste(text,header[0])),{"data-do":"read-columns"})]:[];return this.trying("Pasting",async()=>{const old=this.store.document;const{document:document2,notes=[]}=await(await this.
+server.post("/read",{name:"pasted",text,columns,length_unit:old.length_unit,angle_unit:"deg"})).json();const beside=Object.fromEntries(BESIDE.filter(key=>old[key]!==
+void 0&&document2[key]===void 0).map(key=>[key,old[key]]));this.store.replace({document:withKeys(document2,{length_unit:document2.length_unit??old.length_unit}),
+options:this.store.options});this.store.select(null);this.opened?.();this.banners.close("refused");const keep=button("Keep the limits and the body of the task b\
+efore",()=>(keep.remove(),this.store.edit(now=>withKeys(now,beside))),{"data-do":"keep-rest"});const what=document2.poses.some(pose=>pose.angle!==void 0)?"poses":
+"points";this.banners.say("note",`${document2.poses.length} ${what} were pasted.`,notes,{undo:true,actions:Object.keys(beside).length?[keep]:[]})},again)}save(){
+return this.trying("Saving",async()=>{try{await this.hand(await this.server.post("/task",this.task),`${this.store.name}.toml`)}catch(error){if(error instanceof Refused)
+throw error;this.saveWithoutServer();this.banners.say("note","The server does not answer: the task was saved as JSON, which the command reads as well.")}})}saveWithoutServer(){
+download(new Blob([`${JSON.stringify(this.store.document,null,2)}
+`],{type:"application/json"}),`${this.store.name.replace(/[^\w.-]+/g,"-")||"task"}.json`)}get chosenLinkage(){const{chosen,placed}=this.store,dyads=chosen==="pl\
+aced"?placed?.linkage?.dyads:void 0;if(!dyads?.every(dyad=>dyad.kind==="RR"))return{linkage:chosen==="placed"?null:chosen};return{linkage:null,dyads:dyads.map(({
+fixed_pivot,moving_pivot,radius})=>({fixed_pivot,moving_pivot,radius}))}}export(path2,what={}){return this.trying("Exporting",async()=>{this.hand(await this.server.
+post(path2,{...this.task,...this.chosenLinkage,settings:this.store.settings,...what}),"export")})}async hand(response,otherwise){const name=/filename="([^"]+)"/.
+exec(response.headers.get("Content-Disposition")??"")?.[1]??otherwise;download(await response.blob(),name)}commands(){return this.trying("Copying",async()=>{const{
+commands}=await(await this.server.post("/command",{...this.task,settings:this.store.settings,...this.chosenLinkage})).json();const close=button("Close",()=>this.
+dialog.close(),{"data-do":"close"});const said=h("p",{class:"bs-hint",role:"status"});const copy=async command=>{try{await navigator.clipboard.writeText(command);
+said.textContent="Copied."}catch{said.textContent="The browser does not let this page copy: select the text."}};this.dialog.replaceChildren(h("h2",{},"The same \
+from the command line"),h("p",{class:"bs-hint"},"Save the task first; the commands read that file."),...commands.map(({title,command})=>h("div",{class:"bs-comma\
+nd"},h("h3",{},title),h("pre",{tabindex:0},command),button("Copy",()=>copy(command),{"aria-label":`Copy: ${title}`}))),h("div",{class:"bs-row"},close,said));this.
+dialog.showModal()})}listen(){let inside2=0;const hasFiles=event=>[...event.dataTransfer?.types??[]].includes("Files");const show=by=>{inside2=Math.max(0,inside2+
+by);give(this.dropping,"hidden",inside2===0)};document.addEventListener("dragenter",event=>hasFiles(event)&&(event.preventDefault(),show(1)));document.addEventListener(
+"dragover",event=>hasFiles(event)&&event.preventDefault());document.addEventListener("dragleave",event=>hasFiles(event)&&show(-1));document.addEventListener("dr\
+op",async event=>{if(!hasFiles(event))return;event.preventDefault();show(-Infinity);inside2=0;for(const file of event.dataTransfer.files)await this.take(file)});
+document.addEventListener("paste",event=>{const text=event.clipboardData?.getData("text/plain")??"",[file]=event.clipboardData?.files??[];const typing=event.target.
+closest?.("input, textarea, select");if(file)this.take(file);else if(isTable(text))this.paste(text);else return;event.preventDefault();if(typing)typing.blur()})}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
 buffer).getUint32(0,true);const header=JSON.parse(new TextDecoder().decode(new Uint8Array(buffer,4,length)));const numbers=floats(buffer,4+length);for(const linkage of header.
 linkages??[]){if(linkage.ways)linkage.ways=linkage.ways.map(way=>({...way,...pieces(numbers,way,WAY)}));if(!linkage.poses)continue;const{count}=linkage.poses;const columns=pieces(
 numbers,linkage.poses,POSE);linkage.pose_errors=Array.from({length:count},(_,pose)=>{const at=linkage.at?.[pose]??null;const row={way:at?at[0]:null,frame:at?at[1]:
@@ -558,55 +592,93 @@ act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragg
 preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},true);root.addEventListener("input",({
 target})=>target.dataset&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,({target})=>target.dataset&&delete target.
 dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||event.metaKey||event.altKey||
-event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}var PAGE=60;var NUMBERS2=[["x","length"],["y","length"],["angle","angle"]];var BOUNDS=[["x","x","length"],["y","y","length"],["angle","angle_deg","angle"]];var oneLine=name=>(name??
+event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}var POINTS=[12,40];var APART=26;var MEETS=16;var SHARE3=.08;var LEAST_LENGTH=40;var SMOOTHED=9;var OVAL=16;function lineOf({poses,path:path2},view){const points=poses.
+filter(({x,y})=>Number.isFinite(x)&&Number.isFinite(y)).map(({x,y})=>`${px(view.X(x))} ${px(view.Y(y))}`);return points.length?`M${points.join("L")}${path2?.closed?
+"Z":""}`:""}var PathCurve=class{constructor(store,scene){Object.assign(this,{store,scene});this.line=s("path",{class:"bs-path","aria-hidden":"true"});scene.layer(
+"regions").append(this.line);store.on("document",()=>this.draw());scene.on("view",()=>this.draw());this.draw()}draw(){const{store:{document:document2},scene:{view}}=this;
+put(this.line,"d",isPath(document2)?lineOf(document2,view):"");put(this.line,"data-path",isPath(document2)?document2.path?.closed?"closed":"open":null)}};function resampled(stroke,{
+meets,apart,smooth=0}){const gap=Math.hypot(stroke[0][0]-stroke.at(-1)[0],stroke[0][1]-stroke.at(-1)[1]);const size2=Math.hypot(...[0,1].map(k=>Math.max(...stroke.
+map(each=>each[k]))-Math.min(...stroke.map(each=>each[k]))));let length=0;for(let k=1;k<stroke.length;k+=1)length+=Math.hypot(stroke[k][0]-stroke[k-1][0],stroke[k][1]-
+stroke[k-1][1]);const closed2=gap<Math.max(meets,SHARE3*size2)&&length>3*gap+size2;const line2=closed2?[...stroke,stroke[0]]:stroke,along2=[0];for(let k=1;k<line2.
+length;k+=1)along2.push(along2[k-1]+Math.hypot(line2[k][0]-line2[k-1][0],line2[k][1]-line2[k-1][1]));const whole=along2.at(-1),count=clamp(Math.round(whole/apart),
+...POINTS);const at=wanted=>{const u=closed2?(wanted%whole+whole)%whole:clamp(wanted,0,whole);let k=1;while(k<line2.length-1&&along2[k]<u)k+=1;const t=along2[k]>
+along2[k-1]?(u-along2[k-1])/(along2[k]-along2[k-1]):0;return[0,1].map(axis=>line2[k-1][axis]+t*(line2[k][axis]-line2[k-1][axis]))};const near2=(u,k)=>{const half=closed2?
+smooth:Math.min(smooth,u,whole-u);const parts=[-1,-.5,0,.5,1].map(share=>at(u+share*half));return[0,1].map(axis=>parts.reduce((sum,each)=>sum+each[axis],0)/parts.
+length)};return{closed:closed2,points:Array.from({length:count},(_,k)=>near2(whole*k/(closed2?count:count-1),k))}}var PathTool=class{constructor(store,scene,done){
+Object.assign(this,{store,scene,done,name:"path",stroke:null});this.hint="Press, draw the curve that a point of the body is to trace, and let go; where the ends\
+ meet it closes. Enter puts an oval in the middle, Escape gives up.";this.line=s("path",{class:"bs-draft bs-draft-path"});scene.layer("tool").append(this.line)}click(){}drag(point2,held){
+this.stroke??=[[held.from.X,held.from.Y]];this.stroke.push([point2.X,point2.Y]);put(this.line,"d",`M${this.stroke.map(each=>each.map(px).join(" ")).join("L")}`);
+return true}release(){const{stroke}=this;this.stroke=null;put(this.line,"d","");const length=stroke?.slice(1).reduce((sum,[x,y],k)=>sum+Math.hypot(x-stroke[k][0],
+y-stroke[k][1]),0);if(length>LEAST_LENGTH)this.finish(resampled(stroke,{meets:MEETS,apart:APART,smooth:SMOOTHED}))}finish({points,closed:closed2}){const{store,scene}=this,
+{view}=scene;const there=points.map(([X,Y])=>[scene.rounded(view.x(X)),scene.rounded(view.y(Y))]);const{document:document2,options}=store;if(isPath(document2))store.
+replace({document:pathDocument(document2,there,closed2),options});else store.replace({document:pathDocument({length_unit:document2.length_unit,angle_unit:"deg",
+poses:[]},there,closed2),options,name:"path"});store.select(null);scene.use(null);this.done?.(points.length,closed2)}key(event){if(event.key==="Escape")this.scene.
+use(null);else if(event.key==="Enter")this.finish(this.oval());else return false;return true}oval(){const{width,height}=this.scene.size,size2=.2*Math.min(width,
+height);const points=Array.from({length:OVAL},(_,k)=>2*Math.PI*k/OVAL).map(a=>[width/2+1.5*size2*Math.cos(a),height/2-size2*Math.sin(a)]);return{points,closed:true}}end(){
+this.line.remove()}};var PathPanel=class{constructor(store,scene){this.store=store;this.title=h("h3",{});this.closed=tick("closed: the last point leads back to the first",on=>store.
+edit(document2=>setPath(document2,{closed:on})),{"data-key":"path-closed"});this.fields=["x","y"].map(key=>({key,field:new NumberField({label:`how far points ma\
+y be missed in ${key}`,options:()=>({kind:"length",unit:store.document.length_unit,optional:true,least:0}),step:()=>scene.step/10,commit:value=>store.edit(document2=>setUsual(
+document2,key,value)),attributes:{"data-key":`usual-${key}`,placeholder:"–"}})}));this.hint=h("p",{class:"bs-hint"});this.element=h("div",{class:"bs-path-pane\
+l","data-details":"path"},this.title,this.closed.element,h("div",{class:"bs-row"},h("span",{class:"bs-label"},"Points may be missed by"),this.fields.map(({key,field})=>labelled(
+key,field.element))),this.hint);store.on("document",()=>this.draw());this.draw()}draw(){const{document:document2}=this.store,count=document2.poses.length,path2=isPath(
+document2),timed=document2.path?.crank_deg;give(this.element,"hidden",!isOfPoints(document2));if(this.element.hidden)return;say(this.title,path2?`A path of ${count}\
+ points${timed?", timed by the crank":""}`:`${count} point${count===1?"":"s"}`);give(this.closed.box,"checked",Boolean(document2.path?.closed));for(const{key,field}of this.
+fields)field.show(document2.tolerance?.[key]||void 0);say(this.hint,path2?"Blank: as near as possible, and of what is about as near the one that transmits best.":
+"Nine points are met exactly by finitely many linkages, all of which are found; more are a path, which is met as nearly as possible.")}};var PAGE=60;var NUMBERS2=[["x","length"],["y","length"],["angle","angle"]];var BOUNDS=[["x","x","length"],["y","y","length"],["angle","angle_deg","angle"]];var oneLine=name=>(name??
 "").replace(/[\r\n\u2028\u2029]+/g," ");var PoseTable=class{constructor(store,scene){this.store=store;this.scene=scene;this.page=0;this.rows=[];this.body=h("tbo\
 dy",{});this.unit=h("span",{class:"bs-unit"});this.pages=h("div",{class:"bs-pages",hidden:true});this.details=h("div",{class:"bs-details","data-details":"pose"});
-this.table=h("table",{class:"bs-poses","aria-label":"Poses"},h("thead",{},h("tr",{},h("th",{scope:"col"},"#"),h("th",{scope:"col"},"name"),h("th",{scope:"col"},
-"x"),h("th",{scope:"col"},"y"),h("th",{scope:"col"},"angle °"))),this.body);const add=button("Add a pose",()=>this.add(),{"data-do":"add-pose-row"});this.element=
-h("div",{class:"bs-table-box"},this.table,this.pages,h("div",{class:"bs-row"},add,this.unit),this.details);this.makeDetails();this.pace=new Pace(()=>this.draw());
-store.on("document selection",()=>scene.dragged?this.pace.ask():this.draw());scene.on("dropped",()=>this.pace.catchUp());this.draw()}get selected(){const{selection,
-document:document2}=this.store;return selection?.kind==="pose"&&selection.index<document2.poses.length?selection.index:null}draw(){const{document:document2}=this.
-store,count=document2.poses.length,pages=Math.max(1,Math.ceil(count/PAGE));if(this.selected!==null&&this.selected!==this.shownSelection)this.page=Math.floor(this.
-selected/PAGE);this.shownSelection=this.selected;this.page=Math.min(this.page,pages-1);const first=this.page*PAGE,shown2=Math.min(PAGE,count-first);while(this.rows.
-length<shown2)this.rows.push(this.makeRow(this.rows.length));while(this.body.children.length>shown2)this.body.lastChild.remove();for(let k=0;k<shown2;k+=1){if(!this.
-rows[k].tr.isConnected||this.body.children[k]!==this.rows[k].tr)this.body.append(this.rows[k].tr);this.showRow(this.rows[k],first+k)}say(this.unit,document2.length_unit?
-`x and y in ${document2.length_unit}`:"");this.showPages(pages,count);this.showDetails()}makeRow(place){const row={index:place,fields:{}};const change=changes=>this.
-store.edit(document2=>setPose(document2,row.index,changes));row.number=h("button",{type:"button",class:"bs-index",onclick:()=>this.store.select(row.index===this.
-selected?null:{kind:"pose",index:row.index})});row.name=textField("Name",text=>change({name:text.trim()||void 0}),{class:"bs-text bs-name",placeholder:"–"});const cells2=NUMBERS2.
-map(([key,kind])=>{const field=new NumberField({label:key,options:()=>({kind,unit:this.store.document.length_unit,optional:this.isFree(row.index,key)}),step:()=>kind===
-"angle"?1:this.scene.step,commit:value=>change({[key]:value}),attributes:{"data-key":key}});row.fields[key]=field;return h("td",{},field.element)});row.tr=h("tr",
-{class:"bs-pose-row"},h("th",{scope:"row"},row.number),h("td",{},row.name),cells2);row.tr.addEventListener("focusin",event=>event.target!==row.number&&this.store.
-select({kind:"pose",index:row.index}));return row}isFree(index,key){return Boolean(this.store.document.poses[index]?.free?.includes(key))}showRow(row,index){const pose=this.
-store.document.poses[index],moved=row.index!==index,selected=index===this.selected;row.index=index;if(!isOther(row.tr,[index,pose,selected])&&document.activeElement?.
-closest("tr")!==row.tr)return;put(row.tr,"data-row",index+1);row.tr.classList.toggle("bs-selected",selected);say(row.number,index+1);put(row.number,"aria-label",
-`Pose ${index+1}`);put(row.number,"aria-pressed",selected);if(moved||document.activeElement!==row.name)give(row.name,"value",oneLine(pose.name));put(row.name,"a\
-ria-label",`Name of pose ${index+1}`);for(const[key]of NUMBERS2){const{input}=row.fields[key],free=this.isFree(index,key);put(input,"aria-label",`${key} of pose\
- ${index+1}`);put(input,"placeholder",free?"free":"");row.fields[key].turnTo(index,pose[key]);row.fields[key].show(pose[key])}}showPages(pages,count){give(this.
-pages,"hidden",pages<2);if(pages<2)return;const go=page=>{this.page=page;this.draw()};this.pages.replaceChildren(button("‹",()=>go(Math.max(0,this.page-1)),{"\
-aria-label":"Earlier poses",disabled:this.page===0}),h("span",{},`${this.page*PAGE+1}–${Math.min(count,(this.page+1)*PAGE)} of ${count}`),button("›",()=>go(
-Math.min(pages-1,this.page+1)),{"aria-label":"Later poses",disabled:this.page===pages-1}))}add(){const{store,scene}=this,count=store.document.poses.length;const last=count?
-standing(store.document,count-1):{x:0,y:0,angle:0};store.edit(document2=>addPose(document2,count?{...last,x:scene.rounded(last.x+10*scene.step)}:last));store.select(
-{kind:"pose",index:count});const field=this.rows.find(row=>row.index===count&&row.tr.isConnected)?.fields.x.input;field?.focus();field?.select()}makeDetails(){const{
-store}=this;const at=()=>this.selected;const edit=change=>store.edit(document2=>change(document2,at()));this.title=h("h3",{class:"bs-pose-title"});this.exact=tick(
-"met exactly",on=>edit((document2,k)=>setPose(document2,k,{exact:on||void 0})),{"data-key":"exact"});this.weight=new NumberField({label:"weight",options:()=>({optional:true,
-above:0}),commit:value=>edit((document2,k)=>setPose(document2,k,{weight:value})),attributes:{"data-key":"weight",placeholder:"1"}});this.bounds=BOUNDS.map(([component2,
-key,kind])=>{const field=new NumberField({label:`tolerance of ${component2}`,options:()=>({kind,unit:store.document.length_unit,optional:true,least:0}),step:()=>kind===
-"angle"?1:this.scene.step,commit:value=>edit((document2,k)=>setTolerance(document2,k,key,value)),attributes:{"data-key":`tolerance-${component2}`,placeholder:"–"}});
-const free=tick("free",on=>edit((document2,k)=>setFree(document2,k,component2,on)),{"data-key":`free-${component2}`,"aria-label":`${component2} is free`});return{
-component:component2,key,field,free}});this.axes=choice("Axes of the tolerance",[["fixed","along the axes of the ground"],["body","along the axes of the body"]],
-value=>edit((document2,k)=>setTolerance(document2,k,"axes",value==="body"?value:void 0)),{"data-key":"tolerance-axes"});const act2=(text,name,change,then)=>button(
-text,()=>{const k=at();edit(change);store.select(then(k)===null?null:{kind:"pose",index:then(k)})},{"data-do":name});const last=()=>store.document.poses.length-
-1;this.up=act2("Earlier","earlier",(document2,k)=>movePose(document2,k,k-1),k=>k-1);this.down=act2("Later","later",(document2,k)=>movePose(document2,k,k+1),k=>k+
-1);this.details.append(this.title,h("div",{class:"bs-row"},this.exact.element,labelled("weight",this.weight.element)),h("p",{class:"bs-hint"},"Tolerance: how fa\
-r from it the body may be, to either side"),h("table",{class:"bs-tolerances","aria-label":"Tolerance"},h("tbody",{},this.bounds.map(({component:component2,field,
-free})=>h("tr",{},h("th",{scope:"row"},component2==="angle"?"angle °":component2),h("td",{},field.element),h("td",{},free.element))))),this.axes,h("div",{class:"\
-bs-row"},this.up,this.down,act2("Duplicate","duplicate",duplicatePose,k=>k+1),act2("Delete","delete-pose",removePose,k=>last()<0?null:Math.min(k,last()))))}showDetails(){
-const k=this.selected;give(this.details,"hidden",k===null);if(k===null)return;const{poses}=this.store.document,pose=poses[k];if(!isOther(this.details,[k,pose,poses.
-length])&&!this.details.contains(document.activeElement))return;this.title.replaceChildren(`Pose ${k+1}`,...pose.name?[": ",h("bdi",{},oneLine(pose.name))]:[]);
-give(this.exact.box,"checked",Boolean(pose.exact));this.weight.turnTo(k,pose.weight);this.weight.show(pose.weight);for(const{component:component2,key,field,free}of this.
-bounds){const isFree=this.isFree(k,component2)||pose.tolerance?.[component2]==="free";give(free.box,"checked",isFree);give(field.input,"disabled",isFree);const stated=pose.
-tolerance?.[key],bound=typeof stated==="number"?stated:void 0;field.turnTo(k,bound);field.show(bound)}give(this.axes,"hidden",!pose.tolerance);give(this.axes,"v\
-alue",pose.tolerance?.axes??"fixed");give(this.up,"disabled",k===0);give(this.down,"disabled",k===poses.length-1)}};var LONGEST_NAME3=22;var ABOVE=10;var HATCH2=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table:table3,key}){
+this.hint=h("p",{class:"bs-hint"},"A blank angle is free: then the row is a point, which the body passes at any angle.");this.table=h("table",{class:"bs-poses",
+"aria-label":"Poses"},h("thead",{},h("tr",{},h("th",{scope:"col"},"#"),h("th",{scope:"col"},"name"),h("th",{scope:"col"},"x"),h("th",{scope:"col"},"y"),h("th",{
+scope:"col"},"angle °"))),this.body);const add=button("Add a pose",()=>this.add(),{"data-do":"add-pose-row"});this.element=h("div",{class:"bs-table-box"},this.
+table,this.pages,h("div",{class:"bs-row"},add,this.unit),this.hint,this.details);this.makeDetails();this.pace=new Pace(()=>this.draw());store.on("document selec\
+tion",()=>scene.dragged?this.pace.ask():this.draw());scene.on("dropped",()=>this.pace.catchUp());this.draw()}get selected(){const{selection,document:document2}=this.
+store;return selection?.kind==="pose"&&selection.index<document2.poses.length?selection.index:null}draw(){const{document:document2}=this.store,count=document2.poses.
+length,pages=Math.max(1,Math.ceil(count/PAGE));if(this.selected!==null&&this.selected!==this.shownSelection)this.page=Math.floor(this.selected/PAGE);this.shownSelection=
+this.selected;this.page=Math.min(this.page,pages-1);const first=this.page*PAGE,shown2=Math.min(PAGE,count-first);while(this.rows.length<shown2)this.rows.push(this.
+makeRow(this.rows.length));while(this.body.children.length>shown2)this.body.lastChild.remove();for(let k=0;k<shown2;k+=1){if(!this.rows[k].tr.isConnected||this.
+body.children[k]!==this.rows[k].tr)this.body.append(this.rows[k].tr);this.showRow(this.rows[k],first+k)}say(this.unit,document2.length_unit?`x and y in ${document2.
+length_unit}`:"");this.showPages(pages,count);this.showDetails()}makeRow(place){const row={index:place,fields:{}};const change=changes=>this.store.edit(document2=>setPose(
+document2,row.index,changes));row.number=h("button",{type:"button",class:"bs-index",onclick:()=>this.store.select(row.index===this.selected?null:{kind:"pose",index:row.
+index})});row.name=textField("Name",text=>change({name:text.trim()||void 0}),{class:"bs-text bs-name",placeholder:"–"});const cells2=NUMBERS2.map(([key,kind])=>{
+const field=new NumberField({label:key,options:()=>({kind,unit:this.store.document.length_unit,optional:key==="angle"||this.isFree(row.index,key)}),step:()=>kind===
+"angle"?1:this.scene.step,commit:value=>key==="angle"?this.store.edit(document2=>setAngle(document2,row.index,value)):change({[key]:value}),attributes:{"data-ke\
+y":key}});row.fields[key]=field;return h("td",{},field.element)});row.tr=h("tr",{class:"bs-pose-row"},h("th",{scope:"row"},row.number),h("td",{},row.name),cells2);
+row.tr.addEventListener("focusin",event=>event.target!==row.number&&this.store.select({kind:"pose",index:row.index}));return row}isFree(index,key){return isFree(
+this.store.document.poses[index],key)}showRow(row,index){const pose=this.store.document.poses[index],moved=row.index!==index,selected=index===this.selected;row.
+index=index;if(!isOther(row.tr,[index,pose,selected])&&document.activeElement?.closest("tr")!==row.tr)return;put(row.tr,"data-row",index+1);row.tr.classList.toggle(
+"bs-selected",selected);say(row.number,index+1);put(row.number,"aria-label",`Pose ${index+1}`);put(row.number,"aria-pressed",selected);if(moved||document.activeElement!==
+row.name)give(row.name,"value",oneLine(pose.name));put(row.name,"aria-label",`Name of pose ${index+1}`);for(const[key]of NUMBERS2){const{input}=row.fields[key],
+free=this.isFree(index,key);put(input,"aria-label",`${key} of pose ${index+1}`);put(input,"placeholder",free?"free":"");row.fields[key].turnTo(index,pose[key]);
+row.fields[key].show(pose[key])}}showPages(pages,count){give(this.pages,"hidden",pages<2);if(pages<2)return;const go=page=>{this.page=page;this.draw()};this.pages.
+replaceChildren(button("‹",()=>go(Math.max(0,this.page-1)),{"aria-label":"Earlier poses",disabled:this.page===0}),h("span",{},`${this.page*PAGE+1}–${Math.min(
+count,(this.page+1)*PAGE)} of ${count}`),button("›",()=>go(Math.min(pages-1,this.page+1)),{"aria-label":"Later poses",disabled:this.page===pages-1}))}add(){const{
+store,scene}=this,count=store.document.poses.length;const last=count?standing(store.document,count-1):{x:0,y:0,angle:0},ofPoints=isOfPoints(store.document);store.
+edit(document2=>{const more=addPose(document2,count?{...last,x:scene.rounded(last.x+10*scene.step)}:last);return ofPoints?setAngle(more,count,void 0):more});store.
+select({kind:"pose",index:count});const field=this.rows.find(row=>row.index===count&&row.tr.isConnected)?.fields.x.input;field?.focus();field?.select()}makeDetails(){
+const{store}=this;const at=()=>this.selected;const edit=change=>store.edit(document2=>change(document2,at()));this.title=h("h3",{class:"bs-pose-title"});this.exact=
+tick("met exactly",on=>edit((document2,k)=>setPose(document2,k,{exact:on||void 0})),{"data-key":"exact"});this.weight=new NumberField({label:"weight",options:()=>({
+optional:true,above:0}),commit:value=>edit((document2,k)=>setPose(document2,k,{weight:value})),attributes:{"data-key":"weight",placeholder:"1"}});this.bounds=BOUNDS.
+map(([component2,key,kind])=>{const field=new NumberField({label:`tolerance of ${component2}`,options:()=>({kind,unit:store.document.length_unit,optional:true,least:0}),
+step:()=>kind==="angle"?1:this.scene.step,commit:value=>edit((document2,k)=>setTolerance(document2,k,key,value)),attributes:{"data-key":`tolerance-${component2}`,
+placeholder:"–"}});const turned=(document2,k,on)=>setAngle(document2,k,on?void 0:standing(document2,k).angle);const free=tick("free",on=>edit((document2,k)=>component2===
+"angle"?turned(document2,k,on):setFree(document2,k,component2,on)),{"data-key":`free-${component2}`,"aria-label":`${component2} is free`});return{component:component2,
+key,field,free}});this.axes=choice("Axes of the tolerance",[["fixed","along the axes of the ground"],["body","along the axes of the body"]],value=>edit((document2,k)=>setTolerance(
+document2,k,"axes",value==="body"?value:void 0)),{"data-key":"tolerance-axes"});const act2=(text,name,change,then)=>button(text,()=>{const k=at();edit(change);store.
+select(then(k)===null?null:{kind:"pose",index:then(k)})},{"data-do":name});const last=()=>store.document.poses.length-1;this.up=act2("Earlier","earlier",(document2,k)=>movePose(
+document2,k,k-1),k=>k-1);this.down=act2("Later","later",(document2,k)=>movePose(document2,k,k+1),k=>k+1);this.crank=new NumberField({label:"crank angle",options:()=>({
+kind:"angle"}),step:()=>1,commit:value=>edit((document2,k)=>setCrank(document2,k,value)),attributes:{"data-key":"crank"}});this.crankLine=labelled("crank angle \
+°",this.crank.element);this.details.append(this.title,this.crankLine,h("div",{class:"bs-row"},this.exact.element,labelled("weight",this.weight.element)),h("p",
+{class:"bs-hint"},"Tolerance: how far from it the body may be, to either side"),h("table",{class:"bs-tolerances","aria-label":"Tolerance"},h("tbody",{},this.bounds.
+map(({component:component2,field,free})=>h("tr",{},h("th",{scope:"row"},component2==="angle"?"angle °":component2),h("td",{},field.element),h("td",{},free.element))))),
+this.axes,h("div",{class:"bs-row"},this.up,this.down,act2("Duplicate","duplicate",duplicatePose,k=>k+1),act2("Delete","delete-pose",removePose,k=>last()<0?null:
+Math.min(k,last()))))}showDetails(){const k=this.selected;give(this.details,"hidden",k===null);if(k===null)return;const{poses}=this.store.document,pose=poses[k];
+if(!isOther(this.details,[k,pose,poses.length,this.store.document.path])&&!this.details.contains(document.activeElement))return;const turned=this.store.document.
+path?.crank_deg?.[k];give(this.crankLine,"hidden",turned===void 0);this.crank.turnTo(k,turned);this.crank.show(turned);this.title.replaceChildren(`${isPoint(pose)?
+"Point":"Pose"} ${k+1}`,...pose.name?[": ",h("bdi",{},oneLine(pose.name))]:[]);give(this.exact.box,"checked",Boolean(pose.exact));this.weight.turnTo(k,pose.weight);
+this.weight.show(pose.weight);for(const{component:component2,key,field,free}of this.bounds){const isFree2=this.isFree(k,component2)||pose.tolerance?.[component2]===
+"free";give(free.box,"checked",isFree2);give(field.input,"disabled",isFree2);const stated=pose.tolerance?.[key],bound=typeof stated==="number"?stated:void 0;field.
+turnTo(k,bound);field.show(bound)}give(this.axes,"hidden",!pose.tolerance);give(this.axes,"value",pose.tolerance?.axes??"fixed");give(this.up,"disabled",k===0);
+give(this.down,"disabled",k===poses.length-1)}};var LONGEST_NAME3=22;var ABOVE=10;var HATCH2=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table:table3,key}){
 return`${PIVOT2[key]}${limitsOf(document2).length>1?` of dyad ${table3+1}`:""}`}function regionShape(region){if(region.box)return{shape:"box",points:region.box};
 return region.polygon?{shape:"polygon",points:region.polygon}:null}var Regions=class{constructor(store,scene){this.store=store;this.scene=scene;this.shapes=new Map;
 scene.layer("regions").append(s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH2,height:HATCH2,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("\
@@ -663,37 +735,39 @@ best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(s
 [];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());store.on("document",()=>this.takePoses());
 store.on("chosen",()=>this.emit("shown"));store.on("placed",()=>this.takePlaced());this.takePoses();if(store.solved)this.takeSolved()}get shown(){return this.get(
 this.store.chosen)??(this.store.chosen===PLACED?void 0:this.linkages[0])}get(id){return id===PLACED?this.placed??void 0:this.byId.get(id)}get isOld(){return this.
-store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,...surroundingsOf(this.store.document,
-this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,before=this.linkages.filter(each=>!each.gone);const{renamed:names,moved}=this.
-store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{poses,body,keep_out,...rest}=solved;Object.assign(this.data,{body,keep_out,...rest,
-poses:posesOf(document2)});this.gone=this.store.isEmpty?[]:before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.
-map(fresh=>{const kept=was.get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.
-keys(now))delete now[key];Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!stood,followed:false,gone:null,change:null});
-this.byId.set(now.id,now);return now});this.known=!this.store.isEmpty;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.
-linkages){let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.
-hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}
-for(const{id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.
-emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.placed?.linkage;const before=this.placed;this.placed=placed?Object.assign(before??
-{},figured(renamed(linked(placed))),{id:PLACED,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":
-"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.
-assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.range});function renamed(linkage){const names=new Map(linkage.dyads.map(
-(dyad,k)=>[dyad.id,`P${k+1}`]));const named=dyad=>({...dyad,id:names.get(dyad.id)??dyad.id});const dimensions=linkage.said.dimensions.map(row=>({...row,dyad:names.
-get(row.dyad)??row.dyad}));return{...linkage,dyads:linkage.dyads.map(named),led:linkage.led.map(named),said:{...linkage.said,dimensions}}}function posesOf({poses=[]}){
-const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME4);return poses.map((pose,k)=>({...pose,angle_deg:pose.
-angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.isArray(document2.body)?document2.body:document2.body===
-void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=each.worst;now.least=each.transmission_deg;now.reason=each.
-reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=now.ways??[];return}now.ways=each.ways;now.pose_errors=each.
-pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"-",turned:"-",transmission:"-"}:{position:row.position<FOLLOWED*
-data.scene?"exact":figure(row.position),turned:row.turned_deg<EXACT_TURN?"exact":`${figure(row.turned_deg)}°`,transmission:row.transmission_deg===null?"-":`${fixed(
-row.transmission_deg,1)}°`}}))}var appeared=each=>({id:each.id,type:each.type??"linkage",rank:Infinity,dyads:each.led,ways:[],pose_errors:[],isNew:true,followed:true,
-said:{met:"",in_short:each.reason??"",reasons:[],quality:{},dimensions:[],notes:[],links:null,manifolds:[[],[]],turns_fully:false,freedom:null,worst:"–",angle:"\
-–",rms:"–",rms_angle:"–",transmission:"-"},space:null,shortcomings:[],defects:[],unmet:[]});function worstOf(linkage,data){if(linkage.worst===null||linkage.
-worst===void 0)return"–";if(!linkage.followed)return linkage.said.worst==="-"?"–":linkage.said.worst==="exact"?"exact":`${linkage.said.worst}${data.unit?` ${data.
-unit}`:""}`;return linkage.worst<FOLLOWED*data.scene?"exact":`${figure(linkage.worst)}${data.unit?` ${data.unit}`:""}`}function leastOf(linkage){if(!linkage.followed)
-return linkage.said.transmission==="-"?"–":linkage.said.transmission;return linkage.least===null||linkage.least===void 0?"–":`${Math.floor(10*linkage.least+
-1e-6)/10}°`}function dimensionsOf(linkage,data){const digits=decimalsOf(data),point2=p=>`(${p.map(value=>fixed(value,digits)).join(", ")})`;return linkage.led.
-flatMap(dyad=>[...dyad.fixed_pivot?[{dyad:dyad.id,what:"fixed pivot in F",value:point2(dyad.fixed_pivot)}]:[],...dyad.moving_pivot?[{dyad:dyad.id,what:"moving p\
-ivot in M",value:point2(dyad.moving_pivot)}]:[],...dyad.radius!==void 0?[{dyad:dyad.id,what:"length",value:fixed(dyad.radius,digits)}]:[],...dyad.line?[{dyad:dyad.
+store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,isPath:isPath(this.store.document),...surroundingsOf(
+this.store.document,this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,before=this.linkages.filter(each=>!each.gone);const{
+renamed:names,moved}=this.store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{poses,body,keep_out,...rest}=solved;Object.assign(this.
+data,{body,keep_out,...rest,poses:posesOf(document2)});this.gone=this.store.isEmpty||this.store.isAnother?[]:before.filter(each=>!names.has(each.id)).map(each=>each.
+id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&
+kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??
+0,isNew:this.known&&!this.store.isAnother&&!stood,followed:false,gone:null,change:null});this.byId.set(now.id,now);return now});this.known=!this.store.isEmpty;this.
+emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.linkages){let now=this.byId.get(each.id);if(now&&each.fresh===
+false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.
+vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}for(const{id,kind,message}of frame.changes??[]){const now=this.byId.
+get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.
+store.placed?.linkage,{cognateOf}=this.store.placed??{},called=cognateOf?`Cognate of ${cognateOf}`:"By hand";const before=this.placed;this.placed=placed?Object.
+assign(before??{},figured(renamed(linked(placed))),{id:PLACED,called,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(
+before&&placed?"moved":"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});
+var figured=linkage=>Object.assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.range});function renamed(linkage){const names=new Map(
+linkage.dyads.map((dyad,k)=>[dyad.id,`P${k+1}`]));const named=dyad=>({...dyad,id:names.get(dyad.id)??dyad.id});const dimensions=linkage.said.dimensions.map(row=>({
+...row,dyad:names.get(row.dyad)??row.dyad}));return{...linkage,dyads:linkage.dyads.map(named),led:linkage.led.map(named),said:{...linkage.said,dimensions}}}function posesOf({
+poses=[]}){const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME4);return poses.map((pose,k)=>({...pose,
+angle_deg:isPoint(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.isArray(document2.body)?
+document2.body:document2.body===void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=each.worst;now.least=each.
+transmission_deg;now.reason=each.reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=now.ways??[];return}now.
+ways=each.ways;now.pose_errors=each.pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"-",turned:"-",transmission:"\
+-"}:{position:row.position<FOLLOWED*data.scene?"exact":figure(row.position),turned:row.turned_deg<EXACT_TURN?"exact":`${figure(row.turned_deg)}°`,transmission:row.
+transmission_deg===null?"-":`${fixed(row.transmission_deg,1)}°`}}))}var appeared=each=>({id:each.id,type:each.type??"linkage",rank:Infinity,dyads:each.led,ways:[],
+pose_errors:[],isNew:true,followed:true,said:{met:"",in_short:each.reason??"",reasons:[],quality:{},dimensions:[],notes:[],links:null,manifolds:[[],[]],turns_fully:false,
+freedom:null,worst:"–",angle:"–",rms:"–",rms_angle:"–",transmission:"-"},space:null,shortcomings:[],defects:[],unmet:[]});function worstOf(linkage,data){
+if(linkage.worst===null||linkage.worst===void 0)return"–";if(!linkage.followed)return linkage.said.worst==="-"?"–":linkage.said.worst==="exact"?"exact":`${linkage.
+said.worst}${data.unit?` ${data.unit}`:""}`;return linkage.worst<FOLLOWED*data.scene?"exact":`${figure(linkage.worst)}${data.unit?` ${data.unit}`:""}`}function pathErrorOf(linkage,data){
+const{rms}=linkage.said,worst=worstOf(linkage,data);return linkage.followed||!rms||rms==="-"||rms==="exact"?worst:`${rms} rms, ${worst} at most`}function leastOf(linkage){
+if(!linkage.followed)return linkage.said.transmission==="-"?"–":linkage.said.transmission;return linkage.least===null||linkage.least===void 0?"–":`${Math.floor(
+10*linkage.least+1e-6)/10}°`}function dimensionsOf(linkage,data){const digits=decimalsOf(data),point2=p=>`(${p.map(value=>fixed(value,digits)).join(", ")})`;return linkage.
+led.flatMap(dyad=>[...dyad.fixed_pivot?[{dyad:dyad.id,what:"fixed pivot in F",value:point2(dyad.fixed_pivot)}]:[],...dyad.moving_pivot?[{dyad:dyad.id,what:"movi\
+ng pivot in M",value:point2(dyad.moving_pivot)}]:[],...dyad.radius!==void 0?[{dyad:dyad.id,what:"length",value:fixed(dyad.radius,digits)}]:[],...dyad.line?[{dyad:dyad.
 id,what:`line in ${dyad.kind==="PR"?"F":"M"}, normal and offset`,value:`${fixed(dyad.line.normal_deg,2)}°, ${fixed(dyad.line.offset,digits)}`}]:[]])}var placeOf=row=>({
 x:row.x,y:row.y,a:radians(row.angle_deg)});var dot=(a,b)=>a[0]*b[0]+a[1]*b[1]+a[2]*b[2];var scaled=(a,k)=>[a[0]*k,a[1]*k,a[2]*k];var plus=(a,b)=>[a[0]+b[0],a[1]+b[1],a[2]+b[2]];var cross2=(a,b)=>[a[1]*b[2]-
 a[2]*b[1],a[2]*b[0]-a[0]*b[2],a[0]*b[1]-a[1]*b[0]];var unit=a=>scaled(a,1/Math.hypot(...a));var times=(c,p,w)=>[0,4,8,12].map(r=>c[r]*p[0]+c[r+1]*p[1]+c[r+2]*p[2]+
@@ -794,13 +868,13 @@ view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}
 const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>
 count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<
 count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*
-small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group,"transform",transform(
-view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(
-view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(
-Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*
-(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(
-x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(
--1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group.children[0],"display",
+data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm\
+-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.
+from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
+const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";
+const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*
+.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
 led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
 point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
 [null,point2&&point2[key]]:[point2[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
@@ -819,7 +893,28 @@ answers.data.scene;put(this.mark,"visibility",there?"inherit":"hidden");put(this
 data),unit2=this.answers.data.unit?` ${this.answers.data.unit}`:"";this.readout.textContent=centre?`at (${centre.map(value=>fixed(value,digits)).join(", ")})${unit2}`:
 "at infinity: the body only shifts";if(!there)return;const[x,y]=[view.X(centre[0]),view.Y(centre[1])];put(this.mark,"transform",`translate(${px(x)} ${px(y)})`);
 const ends=led.filter(dyad=>dyad.fixed_pivot).map(dyad=>`M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);put(this.rays,
-"d",ends.join(""))}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var GAP=28;var USUAL_LIMIT=40;var MANY_POSES=40;var HEADROOM=1.32;var INSET=8;var LONGEST_NAME5=16;
+"d",ends.join(""))}};var CognatePanel=class{constructor(store,answers){Object.assign(this,{store,answers,known:null,asking:false});this.story=h("p",{class:"bm-story"});this.cards=h(
+"div",{class:"bs-cognates",role:"group","aria-label":"The linkages of one curve"});this.element=h("div",{class:"bs-cognate-panel"},this.story,this.cards);this.pace=
+new Pace(()=>this.renew(),()=>isSeen(this.element));answers.on("answers shown placed",()=>this.pace.ask());store.on("state document",()=>this.pace.ask());watch(
+this.element,()=>this.pace.ask())}get of(){const{placed,chosen}=this.store;return this.answers.get(chosen===PLACED?placed?.cognateOf:chosen)??(chosen===PLACED?void 0:
+this.answers.shown)}async renew(){const{store,answers}=this,{of}=this;if(!isOfPoints(store.document))return;if(!of||of.gone||answers.isOld)return this.show(of&&
+!of.gone?"The cognates are looked for when the answer is there.":"No linkage is there.");const key=store.solved;if(this.known?.key===key&&this.known.of===of.id)
+return this.show();if(this.asking||!store.connection?.isOpen)return void 0;this.asking=true;try{const answer=await store.connection.ask({do:"cognates",document:store.
+document,linkage:of.id});if(answer.kind==="cognates")this.known={key,of:of.id,linkages:answer.linkages.map(linked)}}catch{}this.asking=false;if(this.known?.key===
+store.solved&&this.known.of===this.of?.id)return this.show();if(store.solved!==key)this.pace.ask();return void 0}show(instead){const{known,of}=this,there=!instead&&
+known&&of;const none=there&&!known.linkages.length;say(this.story,instead??(none?`${of.id} has no cognates: a link of theirs would have no length.`:"By Roberts'\
+ theorem these linkages trace the same curve, with the same error. Choose one by its room, its pivots and its transmission."));this.cards.replaceChildren(...there&&
+!none?[of,...known.linkages].map((each,k)=>this.card(each,k)):[]);give(this.cards,"hidden",!there||none);put(this.element,"data-of",there?of.id:null)}card(linkage,k){
+const{store,answers:{data}}=this,{of}=this,digits=decimalsOf(data),unit2=data.unit?` ${data.unit}`:"";const point2=at=>`(${at.map(value=>fixed(value,digits)).join(
+", ")})`,{links}=linkage.said;const chosen=k?store.chosen===PLACED&&store.placed?.linkage?.id===linkage.id:store.chosen===of.id;const facts=[["fixed pivots",linkage.
+led.filter(dyad=>dyad.fixed_pivot).map(dyad=>point2(dyad.fixed_pivot)).join(" and ")],...links?[["links",`${Object.entries(links).map(([name,value])=>`${name} ${value}`).
+join(", ")}${unit2}`]]:[],["transmission",leastOf(linkage)==="–"?"–":`${leastOf(linkage)} or more`],["size",linkage.said.quality.extent??"–"]];return h("a\
+rticle",{class:`bs-card bm-choice ${linkage.usable?"bm-good":"bm-bad"}${chosen?" bs-chosen":""}`,"data-cognate":k},h("button",{type:"button",class:"bs-card-main",
+"aria-pressed":String(Boolean(chosen)),onclick:()=>this.choose(k)},h("span",{class:"bm-choice-head"},h("b",{},k?`Cognate ${k}`:of.id)," ",h("span",{class:"bm-ty\
+pe"},linkage.type)),h("span",{class:"bm-verdict"},linkage.usable?"✓ usable":"✕ not usable"),h("dl",{class:"bs-figures"},facts.map(([name,value])=>[h("dt",{},
+name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){const{store,of,known}=this;if(k)store.takeCognate(
+known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.show();this.cards.children[k]?.querySelector("butt\
+on").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var GAP=28;var USUAL_LIMIT=40;var MANY_POSES=40;var HEADROOM=1.32;var INSET=8;var LONGEST_NAME5=16;
 var NAME_WIDTH=11;var Plots=class{constructor(data,parent,scrub){this.data=data;this.parent=parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":"E\
 rrors and transmission angle"});parent.append(this.svg);const go=event=>{if(!this.way)return;const box=this.svg.getBoundingClientRect();const at=(event.clientX-
 box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);scrub(frameAt(this.way.drive,this.low+clamp(at,0,1)*(this.high-this.low)))};this.svg.addEventListener("poin\
@@ -1066,42 +1161,43 @@ h("button",{type:"button",class:"bs-small",hidden:true,onclick:()=>this.release(
 this.map=new PivotMapPanel(answers,playing,this);this.element=h("div",{class:"bs-surface"},this.story,h("div",{class:"bs-tool"},this.curves.label),this.curves.legend,
 this.map.element,this.readout,h("div",{class:"bs-tool"},this.letGo));answers.on("answers",()=>this.renew());answers.on("poses",()=>{this.explain();if(this.pivots)
 store.place(this.pivots)});answers.on("placed",()=>this.tell());playing.on("shape",()=>this.show());playing.on("place",()=>this.move());scene.on("view",()=>this.
-show());store.on("state document",()=>this.element.classList.toggle("bs-stale",answers.isOld));this.renew()}get dyads(){const placed=this.store.placed?.dyads;if(this.
-pivots&&placed?.length)return placed;return this.answers.shown?.led??[]}pivot(k,plane){const dyad=this.dyads[k];if(!dyad)return null;const wanted=this.pivots?.[k];
-const at=wanted?.plane===plane?wanted.at:plane==="F"?dyad.fixed_pivot:dyad.moving_pivot;return at?{plane,at,id:dyad.id}:null}handle(k,plane){const name=plane===
-"F"?"fixed":"moving";const element=s("g",{class:`bs-pivot bs-pivot-${name} bm-side${k}`,"data-plane":plane,tabindex:0,role:"button"},s("circle",{class:"bs-hold",
-r:13}),s("circle",{class:"bs-pivot-ring",r:8}));let before;this.scene.drag?.(element,{start:()=>{before=this.pivots;this.playing.player.play(false);this.place=this.
-playing.here?.place??null;return this.take(k,plane)},move:({x,y})=>this.put(plane==="F"?[x,y]:back(this.place,[x,y])),end:()=>this.drop(),cancel:()=>{this.drop();
-if(before)this.ask(before);else this.release()}});element.addEventListener("keydown",event=>this.key(event,k,plane));this.handles.append(element);return element}key(event,k,plane){
-if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS4[event.key];if(event.key==="Escape"&&this.pivots){this.release()}else if(arrow2){const{at}=this.pivot(
-k,plane),step=(this.scene.step??this.answers.data.scene/100)*(event.shiftKey?10:event.altKey?.1:1);if(!this.take(k,plane))return;this.put(at.map((value,axis)=>value+
-step*arrow2[axis]),step);this.drop()}else{return}event.preventDefault()}take(k,plane){const start=this.pivot(k,plane);if(!start||plane==="M"&&!this.playing.here)
-return false;const other=this.pivots?.[1-k]??this.pivot(1-k,"F")??this.pivot(1-k,"M");const next=[];next[k]={plane,at:start.at};if(other)next[1-k]={plane:other.
-plane,at:other.at};this.pivots=next;this.held={k,plane};this.keepHeight();return true}keepHeight(){const{element}=this.playing;element.style.minHeight=`${element.
-offsetHeight}px`}put(point2,step=0){const{k,plane}=this.held,digits=decimalsOf(this.answers.data);let at=this.curves.onto(plane,point2);if(!at)at=point2.map(value=>step?
-Number(value.toFixed(digits)):this.scene.rounded(value));this.ask(this.pivots.map((each,n)=>n===k?{plane,at}:each))}drop(){this.held=null}ask(pivots){this.pivots=
-pivots;this.store.place(pivots.map(({plane,at})=>({plane,at})));this.show();this.tell()}release(){this.pivots=null;this.held=null;this.playing.element.style.minHeight=
-"";this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.before??this.answers.linkages[0]?.id??null);this.tell();this.show()}renew(){const{data}=this.
-answers;if(!this.pivots&&this.store.chosen!==PLACED)this.before=this.store.chosen;this.curves.renew();this.map.renew();this.explain();this.show()}explain(){const count=this.
-answers.data.poses.length;const text=count===4&&this.curves.family?"Four poses leave a curve of dyads. Drag a pivot in the drawing: it slides along its curve.":
-count===3?"Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a moving pivot anywhere on the body.":count===2?"Two poses leave much open. \
-Drag a pivot: its best dyad follows.":"Drag a pivot in the drawing or on the map: the best dyad there is shown with what it costs.";say(this.story,text)}show(){
-const{view}=this.scene,place=this.playing.here?.place,there=this.answers.shown&&!this.answers.shown.gone;this.parts.forEach((planes,k)=>{planes.forEach((element,n)=>{
-const plane="FM"[n],pivot=there||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&(plane==="F"||place);put(element,"display",seen2?"inline":"none");if(!seen2)
-return;put(element,"data-pivot",pivot.id);element.classList.toggle("bs-put",this.pivots?.[k]?.plane===plane);if(plane==="F")put(element,"transform",`translate(${px(
-view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`)})});this.name();this.move();this.map.drawHandles()}move(){const{view}=this.scene,place=this.playing.here?.place;
-if(!place)return;this.parts.forEach(([,element],k)=>{const pivot=element.getAttribute("display")==="none"?null:this.pivot(k,"M");if(!pivot)return;const[x,y]=act(
-this.held?.k===k&&this.held.plane==="M"&&this.place?this.place:place,pivot.at);put(element,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))})`)})}name(){
-if(this.held||this.store.state==="dragging")return;const digits=decimalsOf(this.answers.data);this.parts.forEach((planes,k)=>planes.forEach((element,n)=>{const pivot=this.
-pivot(k,"FM"[n]);if(!pivot)return;const text=`${n?"Moving":"Fixed"} pivot of ${pivot.id} at (${pivot.at.map(value=>fixed(value,digits)).join(", ")}) in ${"FM"[n]}\
-. Drag it, or use the arrow keys; the best dyad there is shown.`;put(element,"aria-label",text)}))}tell(){const{store,answers}=this,{placed}=store;give(this.letGo,
-"hidden",!this.pivots);if(!this.pivots||!placed){say(this.readout,"");if(!placed&&this.pivots&&!this.held&&store.placeWanted===null)this.pivots=null;return}put(
-this.readout,"aria-live",this.held?"off":"polite");say(this.readout,placedInWords(placed,answers.data));if(placed.linkage&&store.chosen!==PLACED&&this.pivots){this.
-before=store.chosen;store.choose(PLACED)}this.show()}};function placedInWords(placed,data){const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data);const miss=value=>value===
-null?"an unknown error":value<1e-9*data.scene?"nothing":`${figure(value)}${unit2}`;const dyads=placed.dyads.map(dyad=>`${dyad.id}: fixed pivot (${dyad.fixed_pivot.
-map(v=>fixed(v,digits)).join(", ")}), moving pivot (${dyad.moving_pivot.map(v=>fixed(v,digits)).join(", ")}), misses by ${miss(dyad.max_error)} at most.`);const{
-linkage}=placed;if(!linkage)return[...dyads,...(placed.messages??[]).map(({message})=>`${message[0].toUpperCase()}${message.slice(1)}.`)].join(" ");const both=linkage.
-usable?`usable, ${linkage.said.met}`:`not usable: ${linkage.said.reasons.join("; ")}`;return`${dyads.join(" ")} Together a ${linkage.type}: ${both}.`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
+show());store.on("state document",()=>this.element.classList.toggle("bs-stale",answers.isOld));this.renew()}get dyads(){if(this.store.document.poses.some(isPoint))
+return[];const placed=this.store.placed?.dyads;if(this.pivots&&placed?.length)return placed;return this.answers.shown?.led??[]}pivot(k,plane){const dyad=this.dyads[k];
+if(!dyad)return null;const wanted=this.pivots?.[k];const at=wanted?.plane===plane?wanted.at:plane==="F"?dyad.fixed_pivot:dyad.moving_pivot;return at?{plane,at,id:dyad.
+id}:null}handle(k,plane){const name=plane==="F"?"fixed":"moving";const element=s("g",{class:`bs-pivot bs-pivot-${name} bm-side${k}`,"data-plane":plane,tabindex:0,
+role:"button"},s("circle",{class:"bs-hold",r:13}),s("circle",{class:"bs-pivot-ring",r:8}));let before;this.scene.drag?.(element,{start:()=>{before=this.pivots;this.
+playing.player.play(false);this.place=this.playing.here?.place??null;return this.take(k,plane)},move:({x,y})=>this.put(plane==="F"?[x,y]:back(this.place,[x,y])),
+end:()=>this.drop(),cancel:()=>{this.drop();if(before)this.ask(before);else this.release()}});element.addEventListener("keydown",event=>this.key(event,k,plane));
+this.handles.append(element);return element}key(event,k,plane){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS4[event.key];if(event.key==="Escape"&&this.
+pivots){this.release()}else if(arrow2){const{at}=this.pivot(k,plane),step=(this.scene.step??this.answers.data.scene/100)*(event.shiftKey?10:event.altKey?.1:1);if(!this.
+take(k,plane))return;this.put(at.map((value,axis)=>value+step*arrow2[axis]),step);this.drop()}else{return}event.preventDefault()}take(k,plane){const start=this.
+pivot(k,plane);if(!start||plane==="M"&&!this.playing.here)return false;const other=this.pivots?.[1-k]??this.pivot(1-k,"F")??this.pivot(1-k,"M");const next=[];next[k]=
+{plane,at:start.at};if(other)next[1-k]={plane:other.plane,at:other.at};this.pivots=next;this.held={k,plane};this.keepHeight();return true}keepHeight(){const{element}=this.
+playing;element.style.minHeight=`${element.offsetHeight}px`}put(point2,step=0){const{k,plane}=this.held,digits=decimalsOf(this.answers.data);let at=this.curves.
+onto(plane,point2);if(!at)at=point2.map(value=>step?Number(value.toFixed(digits)):this.scene.rounded(value));this.ask(this.pivots.map((each,n)=>n===k?{plane,at}:
+each))}drop(){this.held=null}ask(pivots){this.pivots=pivots;this.store.place(pivots.map(({plane,at})=>({plane,at})));this.show();this.tell()}release(){this.pivots=
+null;this.held=null;this.playing.element.style.minHeight="";this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.before??this.answers.linkages[0]?.
+id??null);this.tell();this.show()}renew(){const{data}=this.answers;if(!this.pivots&&this.store.chosen!==PLACED)this.before=this.store.chosen;this.curves.renew();
+this.map.renew();this.explain();this.show()}explain(){const count=this.answers.data.poses.length;const text=count===4&&this.curves.family?"Four poses leave a cu\
+rve of dyads. Drag a pivot in the drawing: it slides along its curve.":count===3?"Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a mov\
+ing pivot anywhere on the body.":count===2?"Two poses leave much open. Drag a pivot: its best dyad follows.":"Drag a pivot in the drawing or on the map: the bes\
+t dyad there is shown with what it costs.";say(this.story,text)}show(){const{view}=this.scene,place=this.playing.here?.place,there=this.answers.shown&&!this.answers.
+shown.gone;this.parts.forEach((planes,k)=>{planes.forEach((element,n)=>{const plane="FM"[n],pivot=there||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&
+(plane==="F"||place);put(element,"display",seen2?"inline":"none");if(!seen2)return;put(element,"data-pivot",pivot.id);element.classList.toggle("bs-put",this.pivots?.[k]?.
+plane===plane);if(plane==="F")put(element,"transform",`translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`)})});this.name();this.move();this.map.drawHandles()}move(){
+const{view}=this.scene,place=this.playing.here?.place;if(!place)return;this.parts.forEach(([,element],k)=>{const pivot=element.getAttribute("display")==="none"?
+null:this.pivot(k,"M");if(!pivot)return;const[x,y]=act(this.held?.k===k&&this.held.plane==="M"&&this.place?this.place:place,pivot.at);put(element,"transform",`t\
+ranslate(${px(view.X(x))} ${px(view.Y(y))})`)})}name(){if(this.held||this.store.state==="dragging")return;const digits=decimalsOf(this.answers.data);this.parts.
+forEach((planes,k)=>planes.forEach((element,n)=>{const pivot=this.pivot(k,"FM"[n]);if(!pivot)return;const text=`${n?"Moving":"Fixed"} pivot of ${pivot.id} at (${pivot.
+at.map(value=>fixed(value,digits)).join(", ")}) in ${"FM"[n]}. Drag it, or use the arrow keys; the best dyad there is shown.`;put(element,"aria-label",text)}))}tell(){
+const{store,answers}=this,{placed}=store;give(this.letGo,"hidden",!this.pivots);if(!this.pivots||!placed){say(this.readout,"");if(!placed&&this.pivots&&!this.held&&
+store.placeWanted===null)this.pivots=null;return}put(this.readout,"aria-live",this.held?"off":"polite");say(this.readout,placedInWords(placed,answers.data));if(placed.
+linkage&&store.chosen!==PLACED&&this.pivots){this.before=store.chosen;store.choose(PLACED)}this.show()}};function placedInWords(placed,data){const unit2=data.unit?
+` ${data.unit}`:"",digits=decimalsOf(data);const miss=value=>value===null?"an unknown error":value<1e-9*data.scene?"nothing":`${figure(value)}${unit2}`;const dyads=placed.
+dyads.map(dyad=>`${dyad.id}: fixed pivot (${dyad.fixed_pivot.map(v=>fixed(v,digits)).join(", ")}), moving pivot (${dyad.moving_pivot.map(v=>fixed(v,digits)).join(
+", ")}), misses by ${miss(dyad.max_error)} at most.`);const{linkage}=placed;if(!linkage)return[...dyads,...(placed.messages??[]).map(({message})=>`${message[0].
+toUpperCase()}${message.slice(1)}.`)].join(" ");const both=linkage.usable?`usable, ${linkage.said.met}`:`not usable: ${linkage.said.reasons.join("; ")}`;return`${dyads.
+join(" ")} Together a ${linkage.type}: ${both}.`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
 span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
 ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{static STOP="\
@@ -1141,9 +1237,9 @@ low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return
 const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.
 length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){
 this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach(
-(pose,k)=>{const turn=place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/
-(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2,linkage,data}=this;if(!path2){for(const part of this.parts)
-part.textContent="";return}const place=placeAt(linkage,path2,this.u,data.chart.length);const drive=linear(path2.drive,this.u),transmission=linear(path2.transmission,
+(pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*
+Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2,linkage,data}=this;if(!path2){for(const part of this.
+parts)part.textContent="";return}const place=placeAt(linkage,path2,this.u,data.chart.length);const drive=linear(path2.drive,this.u),transmission=linear(path2.transmission,
 this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,
 "value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}tell(place,drive,transmission,near2){const{data,linkage}=this;
 const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data);const driver=linkage.led[0].kind==="PR"?`${fixed(drive,digits)}${unit2}`:`${fixed(drive,1)}°`;
@@ -1155,7 +1251,7 @@ row.said.position,row.said.turned,unit2)}`;const said=!pose?"between the poses":
 slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*
 text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/
 2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?
-"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}var APART=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
+"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
 !linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=linkage.
 pose_errors.map(()=>null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,led,piece,
 chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.ways[row.
@@ -1169,7 +1265,7 @@ near(one.way,end,other.way,start);if(!other||!(joined(0,0)||joined(1,1))){for(co
 false)});continue}const closed2=joined(0,0)&&joined(1,1),high=joined(1,1);const through=[...stations(one,!high),...stations(other,high).slice(1)];chains.push({circuit,
 closed:closed2,stations:through})}return chains}function near(one,end,other,start){const at=(way,k)=>[way.x[k],way.y[k]],last=(way,k)=>k?way.x.length-1:0;const[
 i,j]=[last(one,end),last(other,start)],inner=end?i-1:1;const step=Math.hypot(...at(one,i).map((v,k)=>v-at(one,inner)[k]));const away=Math.hypot(...at(one,i).map(
-(v,k)=>v-at(other,j)[k]));return away<=APART*step+1e-9*Math.hypot(...at(one,i))}function piecesOf(linkage,driver,{circuit,closed:closed2,stations},length){const placeOf2=({
+(v,k)=>v-at(other,j)[k]));return away<=APART2*step+1e-9*Math.hypot(...at(one,i))}function piecesOf(linkage,driver,{circuit,closed:closed2,stations},length){const placeOf2=({
 way,u})=>placeAt(linkage,linkage.ways[way],u,length);const slides=driver.kind==="PR";let before=null;const driveAt=station=>{let drive=driveOf(driver,placeOf2(station));
 if(!slides&&before!==null)drive-=2*Math.PI*Math.round((drive-before)/(2*Math.PI));return drive};const drives=stations.map(station=>before=driveAt(station));const count=stations.
 length-1,sense=k=>Math.sign(drives[k+1]-drives[k]);const cuts=[];for(let k=1;k<count;k+=1)if(sense(k)*sense(k-1)<0)cuts.push(k);if(closed2&&sense(0)*sense(count-
@@ -1230,28 +1326,91 @@ pinned)&&(!type||each.type===type)).map((each,k)=>({each,k,key:of(each)})).sort(
 "either driver"],[/--any-order/g,"any order of the poses"]];function helpInWords(text){const marked=OPTIONS.reduce((said,[option,words])=>said.replace(option,`${words}\
 `),text);const plain=marked.replaceAll(" "," and ").replaceAll(/[\u0001\u0002]/g,"");return plain.replace(/with (.+?) (L\d+) would do/g,"it would do with $1")}var FIGURES=[["worst","worst miss"],["least","transmission"],["size","size"],["sensitivity","sensitivity"]];var ResultCard=class{constructor(does){this.name=h("\
 b",{});this.type=h("span",{class:"bm-type"});this.was=h("span",{class:"bs-was"});this.verdict=h("span",{class:"bm-verdict"});this.figures=new Map(FIGURES.map(([
-key])=>[key,h("dd",{"data-figure":key})]));this.note=h("span",{class:"bs-card-note"});this.reason=h("span",{class:"bm-reason"});this.help=h("span",{class:"bs-he\
-lp"});this.main=h("button",{type:"button",class:"bs-card-main","aria-pressed":"false",onclick:()=>does.choose(this.id)},h("span",{class:"bm-choice-head"},this.name,
-" ",this.type," ",this.was),this.verdict,h("dl",{class:"bs-figures"},FIGURES.map(([key,name])=>[h("dt",{},name),this.figures.get(key)])),this.note,this.reason,this.
-help);this.pin=h("button",{type:"button",class:"bs-small","aria-pressed":"false",onclick:()=>does.pin(this.id)},"Pin");this.compare=h("button",{type:"button",class:"\
-bs-small","aria-pressed":"false",onclick:()=>does.compare(this.id)},"Compare");this.improve=h("button",{type:"button",class:"bs-small",onclick:()=>does.improve(
-this.id)},"Look near it");this.letGo=h("button",{type:"button",class:"bs-small",onclick:()=>does.letGo()},"Let go of the pivots");this.better=h("ul",{class:"bs-\
-better","aria-live":"polite"});this.element=h("article",{class:"bs-card bm-choice"},this.main,h("div",{class:"bs-card-tools"},this.pin,this.compare,this.improve,
-this.letGo),this.better)}show(linkage,{data,old,chosen,pinned,compared}){const{said}=linkage,{classList}=this.element,isPlaced=linkage.id===PLACED;if(this.id!==
-linkage.id||old)this.better.replaceChildren();if(this.id!==linkage.id){this.id=linkage.id;put(this.element,"data-linkage",linkage.id);say(this.name,isPlaced?"By\
- hand":linkage.id)}say(this.type,linkage.type);say(this.was,pastOf(linkage));say(this.verdict,linkage.gone?"✕ gone":linkage.usable?"✓ usable":"✕ not usable");
-say(this.figures.get("worst"),worstOf(linkage,data));say(this.figures.get("least"),least(linkage));say(this.figures.get("size"),said.quality.extent??"–");say(
-this.figures.get("sensitivity"),said.quality.sensitivity??"–");say(this.note,linkage.gone??(linkage.usable&&linkage.change||(linkage.usable&&!linkage.followed&&
-linkage.shortcomings?.length?`Falls short: ${linkage.shortcomings.join("; ")}`:"")));const reason=linkage.usable||linkage.gone?"":linkage.followed?linkage.reason??
-"":said.reasons.join("; ");say(this.reason,reason);say(this.help,reason&&said.help&&!linkage.followed?`What would help: ${helpInWords(said.help)}.`:"");classList.
-toggle("bm-good",linkage.usable&&!linkage.gone);classList.toggle("bm-bad",!linkage.usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));
-classList.toggle("bs-old",old||Boolean(linkage.followed));classList.toggle("bs-chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(
-this.compare,compared);say(this.pin,pinned?"Pinned":"Pin");give(this.pin,"hidden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidd\
-en",isPlaced||linkage.usable||old||Boolean(linkage.gone));give(this.letGo,"hidden",!isPlaced);for(const button2 of[this.pin,this.compare,this.improve])labelled2(
-button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,shift,isNew,followed}){
-if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).join(", ")}function least(linkage){
-const angle=leastOf(linkage);return angle==="–"?angle:angle==="0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){put(button2,"aria-pressed",
-Boolean(on))}function labelled2(button2,id){put(button2,"aria-label",`${button2.textContent}: ${id}`)}var MOST3=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
+key])=>[key,h("dd",{"data-figure":key})]));this.worst=h("dt",{});this.note=h("span",{class:"bs-card-note"});this.reason=h("span",{class:"bm-reason"});this.help=
+h("span",{class:"bs-help"});this.main=h("button",{type:"button",class:"bs-card-main","aria-pressed":"false",onclick:()=>does.choose(this.id)},h("span",{class:"b\
+m-choice-head"},this.name," ",this.type," ",this.was),this.verdict,h("dl",{class:"bs-figures"},FIGURES.map(([key,name])=>[key==="worst"?this.worst:h("dt",{},name),
+this.figures.get(key)])),this.note,this.reason,this.help);this.pin=h("button",{type:"button",class:"bs-small","aria-pressed":"false",onclick:()=>does.pin(this.id)},
+"Pin");this.compare=h("button",{type:"button",class:"bs-small","aria-pressed":"false",onclick:()=>does.compare(this.id)},"Compare");this.improve=h("button",{type:"\
+button",class:"bs-small",onclick:()=>does.improve(this.id)},"Look near it");this.letGo=h("button",{type:"button",class:"bs-small",onclick:()=>does.letGo()});this.
+better=h("ul",{class:"bs-better","aria-live":"polite"});this.element=h("article",{class:"bs-card bm-choice"},this.main,h("div",{class:"bs-card-tools"},this.pin,
+this.compare,this.improve,this.letGo),this.better)}show(linkage,{data,old,chosen,pinned,compared}){const{said}=linkage,{classList}=this.element,isPlaced=linkage.
+id===PLACED;if(this.id!==linkage.id||old)this.better.replaceChildren();if(this.id!==linkage.id){this.id=linkage.id;put(this.element,"data-linkage",linkage.id)}say(
+this.name,isPlaced?linkage.called:linkage.id);say(this.type,linkage.type);say(this.was,pastOf(linkage));say(this.verdict,linkage.gone?"✕ gone":linkage.usable?
+"✓ usable":"✕ not usable");say(this.worst,data.isPath?"path error":"worst miss");say(this.figures.get("worst"),data.isPath?pathErrorOf(linkage,data):worstOf(
+linkage,data));say(this.figures.get("least"),least(linkage));say(this.figures.get("size"),said.quality.extent??"–");say(this.figures.get("sensitivity"),said.quality.
+sensitivity??"–");say(this.note,linkage.gone??(linkage.usable&&linkage.change||(linkage.usable&&!linkage.followed&&linkage.shortcomings?.length?`Falls short: ${linkage.
+shortcomings.join("; ")}`:"")));const reason=linkage.usable||linkage.gone?"":linkage.followed?linkage.reason??"":said.reasons.join("; ");say(this.reason,reason);
+say(this.help,reason&&said.help&&!linkage.followed?`What would help: ${helpInWords(said.help)}.`:"");classList.toggle("bm-good",linkage.usable&&!linkage.gone);classList.
+toggle("bm-bad",!linkage.usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));classList.toggle("bs-old",old||Boolean(linkage.followed));
+classList.toggle("bs-chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(this.compare,compared);say(this.pin,pinned?"Pinned":"Pi\
+n");give(this.pin,"hidden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidden",isPlaced||linkage.usable||old||Boolean(linkage.gone));
+give(this.letGo,"hidden",!isPlaced);say(this.letGo,linkage.called==="By hand"?"Let go of the pivots":"Put it away");for(const button2 of[this.pin,this.compare,this.
+improve])labelled2(button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,
+shift,isNew,followed}){if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).
+join(", ")}function least(linkage){const angle=leastOf(linkage);return angle==="–"?angle:angle==="0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){
+put(button2,"aria-pressed",Boolean(on))}function labelled2(button2,id){put(button2,"aria-label",`${button2.textContent}: ${id}`)}var MOST3=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
+gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST3)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
+this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
+if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
+0}};var REST2=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var FEWEST=2;var QUICK=1.2;var NO_ANSWER={linkages:[],dyads:[],best:[],warnings:[],pivot_map:null,
+family_map:null,outcome:{message:"Two poses or more make a task"}};var PLACED2="placed";var kindOf=({poses,path:path2})=>`${poses.map(({free})=>free?.join("")??
+"-").join()} ${path2?path2.closed:""}`;var Store=class{constructor({connection,document:document2,options={},name="task",settings={},mostFlying=MOST_FLYING}){this.
+connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;this.name=name;this.settings=
+settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";this.progress="";this.chosen=
+null;this.pinned=new Set;this.compared=null;this.placed=null;this.whole=null;this.task=0;this.solvedTask=0;this.selection=null;this.messages=[];this.listeners=new Map;
+this.basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;connection.on("message",message=>this.take(message));connection.on("op\
+en",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){if(!this.listeners.has(name))
+this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.listeners.get(name)??
+[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)return;this.history.
+record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.options;this.
+options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(this.settings,
+{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,options={},
+name=this.name,settings=this.settings}){this.history.record(this.version,null);this.tasks=(this.tasks??0)+1;Object.assign(this,{document:document2,options,name,
+settings,selection:null,placed:null,task:this.tasks});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.
+goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,
+name:this.name,settings:this.settings,task:this.task}}goTo(version){if(!version)return;const isSame=version.document===this.document&&version.options===this.options;
+Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){if(this.placed?.cognateOf)this.letCognateGo();this.follow();this.emit(
+"document");if(this.isEmpty)this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.
+compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=this.mostFlying)return;if(!this.canFollow){
+this.solveMeanwhile();return}const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,options,shown:shown2});
+if(n!==null)this.flying.set(n,{document:document2,isOld:false})}get canFollow(){return this.whole!==kindOf(this.document)}get slow(){return this.canFollow||this.
+seconds===void 0?null:this.seconds}solveMeanwhile(){if(this.solving||this.state==="offline"||this.isEmpty||this.slow===null||this.slow>QUICK)return;const{document:document2,
+options}=this,n=this.connection.send({do:"solve",document:document2,options});if(n!==null)this.solving={n,document:document2,options}}solveAfterRest(){clearTimeout(
+this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST2/3);else this.
+solve()};this.resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document:document2,options}=this;if(this.solving?.document===document2&&this.
+solving.options===options){this.setState("solving","");return}const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.solving=
+{n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;
+if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;
+const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind===
+"followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.
+solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)return;
+const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(this.
+pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=document2;
+this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,...[
+...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false,whole=false}){const{
+document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){
+const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind===
+"refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,
+isNow=document2===this.document,isAnother=this.solvedTask!==this.task;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.
+before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;
+this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){
+this.forget("There is no answer to this task yet")}if(message.kind==="refused"){this.say(message.messages)}else if(message.kind!=="solved"){const[said]=[message.
+message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.
+poses.length<FEWEST}forget(message=NO_ANSWER.outcome.message){if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.
+solved.space,quadrics:[]}};this.install({n:null,result,document:this.document,seconds:null});if(this.placed)this.place([])}install({n,result,document:document2,
+seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
+if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
+linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.task,seconds,
+basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.
+linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved",
+"chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,
+messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)
+this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=null;this.setState("resting","");this.basis=null;this.
+solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;this.setState("offline","")}setState(state,progress=""){if(state===
+this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){
+if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(
+id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.
+selection?.kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var MOST4=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
 const choice2=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
 "option",{value},text))));this.types=choice2("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"sta\
 tus"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\
@@ -1261,31 +1420,33 @@ rt by",Object.entries(ORDERS).map(([key,{name}])=>[key,name]),"order"),this.type
 "keydown",event=>this.walk(event));answers.on("answers placed",()=>this.arrange());answers.on("moved",()=>this.pace.ask());answers.on("shown",()=>this.update());
 store.on("pinned",()=>this.arrange());store.on("state document",()=>this.tell());this.arrange()}want(key,value){this.wanted[key]=value;this.arrange()}showAll(){
 this.all=true;this.arrange()}arrange(){const{answers,store,wanted}=this;this.buildTypes();const every=arranged(answers.linkages,{...wanted,pinned:store.pinned});
-const shown2=this.all?every:every.slice(0,MOST3);const list=answers.placed?[answers.placed,...shown2]:shown2;const cards=new Map;for(const linkage of list)cards.
+const shown2=this.all?every:every.slice(0,MOST4);const list=answers.placed?[answers.placed,...shown2]:shown2;const cards=new Map;for(const linkage of list)cards.
 set(linkage,this.cards.get(linkage)??this.card());for(const[linkage,card]of this.cards)if(!cards.has(linkage))card.element.remove();this.cards=cards;let before=null;
 for(const card of cards.values()){const next=before?before.nextSibling:this.list.firstChild;if(card.element!==next)this.list.insertBefore(card.element,next);before=
 card.element}give(this.more,"hidden",every.length<=shown2.length);if(!this.more.hidden)say(this.more,`Show all ${every.length}`);this.hidden=answers.linkages.length-
 every.length;this.update()}card(){const{store}=this;return new ResultCard({choose:id=>store.choose(id),pin:id=>store.pin(id),compare:id=>store.compare(id),improve:id=>this.
-improve(id),letGo:()=>this.letGo()})}letGo(){this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.answers.linkages[0]?.id??null)}buildTypes(){
-const types=[...new Set(this.answers.linkages.map(each=>each.type))].sort(),key=types.join();const select=this.types.querySelector("select");if(key===this.typesKey)
-return;this.typesKey=key;if(!types.includes(this.wanted.type))this.wanted.type="";select.replaceChildren(...["",...types].map(type=>h("option",{value:type,selected:type===
-this.wanted.type},type||"any")));give(this.types,"hidden",types.length<2)}update(){const{answers,store}=this,{data,isOld,shown:shown2}=answers;for(const[linkage,
-card]of this.cards){card.show(linkage,{data,old:isOld&&linkage.id!==PLACED,chosen:linkage===shown2,pinned:store.pinned.has(linkage.id),compared:store.compared===
-linkage.id})}this.tell()}tell(){const{answers,store}=this,there=answers.linkages.filter(each=>!each.gone);const usable=there.filter(each=>each.usable).length;say(
-this.title,there.length?`${there.length} linkage${there.length===1?"":"s"}, ${usable} usable`:store.solved?"No linkage":"Linkages");put(this.status,"aria-live",
-store.state==="dragging"?"off":"polite");say(this.status,this.statusText());const uncertain=store.followed?.uncertain??[];say(this.doubt,store.followed&&answers.
-isOld?uncertain.length?`May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0])?"":"."}`:store.followed.complete===false?"A linkage that appears\
- now is seen when you let go.":"":"");say(this.gone,!answers.isOld&&answers.gone.length?`Not in the new answer: ${listed(answers.gone)} of the one before.`:"");
-this.element.classList.toggle("bs-stale",answers.isOld)}statusText(){const{store,answers}=this,hidden=this.hidden?`${this.hidden} not shown by the filter. `:"";
-if(store.state==="offline")return"The connection is gone; what you see is the last answer.";if(answers.isOld&&store.state==="dragging")return store.followed?"Mo\
-ving along.":"The new answer comes when you let go.";if(store.state==="solving")return"Looking for all linkages.";if(!store.solved)return"";const{best,outcome}=store.
+improve(id),letGo:()=>this.letGo()})}letGo(){if(this.store.placed?.cognateOf)this.store.letCognateGo();else this.store.place([]);if(this.store.chosen===PLACED)this.
+store.choose(this.answers.linkages[0]?.id??null)}buildTypes(){const types=[...new Set(this.answers.linkages.map(each=>each.type))].sort(),key=types.join();const select=this.
+types.querySelector("select");if(key===this.typesKey)return;this.typesKey=key;if(!types.includes(this.wanted.type))this.wanted.type="";select.replaceChildren(...[
+"",...types].map(type=>h("option",{value:type,selected:type===this.wanted.type},type||"any")));give(this.types,"hidden",types.length<2)}update(){const{answers,store}=this,
+{data,isOld,shown:shown2}=answers;for(const[linkage,card]of this.cards){card.show(linkage,{data,old:isOld&&linkage.id!==PLACED,chosen:linkage===shown2,pinned:store.
+pinned.has(linkage.id),compared:store.compared===linkage.id})}this.tell()}tell(){const{answers,store}=this,there=answers.linkages.filter(each=>!each.gone);const usable=there.
+filter(each=>each.usable).length;say(this.title,there.length?`${there.length} linkage${there.length===1?"":"s"}, ${usable} usable`:store.solved?"No linkage":"Li\
+nkages");put(this.status,"aria-live",store.state==="dragging"?"off":"polite");say(this.status,this.statusText());const uncertain=store.followed?.uncertain??[];say(
+this.doubt,store.followed&&answers.isOld?uncertain.length?`May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0])?"":"."}`:store.followed.complete===
+false?"A linkage that appears now is seen when you let go.":"":"");say(this.gone,!answers.isOld&&answers.gone.length?`Not in the new answer: ${listed(answers.gone)}\
+ of the one before.`:"");this.element.classList.toggle("bs-stale",answers.isOld)}statusText(){const{store,answers}=this,hidden=this.hidden?`${this.hidden} not s\
+hown by the filter. `:"";if(store.state==="offline")return"The connection is gone; what you see is the last answer.";if(answers.isOld&&store.state==="dragging")
+return store.followed?"Moving along.":this.whenSolved();if(store.state==="solving")return"Looking for all linkages.";if(!store.solved)return"";const{best,outcome}=store.
 solved;if(!store.solved.linkages.some(each=>each.usable))return`${hidden}${sentence(outcome?.message)}${outcome?.help?` What helps: ${outcome.help}.`:""}`;return`${hidden}${best?.[0]??
-""}`}async improve(id){const{document:document2,options,connection}=this.store;const card=()=>[...this.cards].find(([linkage])=>linkage.id===id)?.[1];card()?.tellBetter(
-["Looking near it …"]);let said;try{said=(await(await connection.post("/improve",{document:document2,options,linkage:id})).json()).better}catch(error){said=[`\
-That did not work: ${error.message}`]}if(document2===this.store.document)card()?.tellBetter(said.length?said.map(nearIt):["Nothing better lies near it."])}walk(event){
-const step={ArrowDown:1,ArrowRight:1,ArrowUp:-1,ArrowLeft:-1}[event.key];const mains=[...this.cards.values()].map(card=>card.main),at=mains.indexOf(this.list.getRootNode().
-activeElement);if(!step||at<0)return;event.preventDefault();mains[clamp(at+step,0,mains.length-1)].focus()}};var nearIt=text=>text.replace(/^L\d+ changes/,"One \
-changes");var sentence=text=>text?`${text[0].toUpperCase()}${text.slice(1)}.`:"";var WIDTH=440;var TURNING_SHARE=.35;function drawStill(canvas,scene,size2,turning){const share=turning?TURNING_SHARE:Math.min(1,WIDTH/size2.width);const width=Math.
+""}`}whenSolved(){const{slow}=this.store;if(slow===null)return"The new answer comes when you let go.";const took=`All linkages are looked for anew, which took ${slow<
+.95?"less than a second":`${Math.round(slow)} s`} last time`;return slow>QUICK?`${took}: the new answer comes when you let go.`:`${took}: the answer lags behind\
+ your hand by so much.`}async improve(id){const{document:document2,options,connection}=this.store;const card=()=>[...this.cards].find(([linkage])=>linkage.id===
+id)?.[1];card()?.tellBetter(["Looking near it …"]);let said;try{said=(await(await connection.post("/improve",{document:document2,options,linkage:id})).json()).
+better}catch(error){said=[`That did not work: ${error.message}`]}if(document2===this.store.document)card()?.tellBetter(said.length?said.map(nearIt):["Nothing be\
+tter lies near it."])}walk(event){const step={ArrowDown:1,ArrowRight:1,ArrowUp:-1,ArrowLeft:-1}[event.key];const mains=[...this.cards.values()].map(card=>card.main),
+at=mains.indexOf(this.list.getRootNode().activeElement);if(!step||at<0)return;event.preventDefault();mains[clamp(at+step,0,mains.length-1)].focus()}};var nearIt=text=>text.
+replace(/^L\d+ changes/,"One changes");var sentence=text=>text?`${text[0].toUpperCase()}${text.slice(1)}.`:"";var WIDTH=440;var TURNING_SHARE=.35;function drawStill(canvas,scene,size2,turning){const share=turning?TURNING_SHARE:Math.min(1,WIDTH/size2.width);const width=Math.
 round(size2.width*share),height=Math.round(size2.height*share);canvas.width=width;canvas.height=height;if(!scene.quadrics.length)return;const context=canvas.getContext(
 "2d"),image=context.createImageData(width,height);cast(image,scene);context.putImageData(image,0,0)}function cast(image,{eye,ahead,right,up,reach,quadrics,paint,
 angles}){const{data,width,height}=image,[ex,ey,ez]=eye,[zc,zh,middleAngle,step]=angles;const lamp=unit(plus(plus(scaled(ahead,-1),scaled(up,.5)),scaled(right,-.6)));
@@ -1469,69 +1630,15 @@ gone?linkage:{ways:[],led:dyads},space:{...box,quadrics}};const key=dyads.map(dy
 space.hide()}};var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);
 function addResults(store,scene,{player,results,panels}){const answers=new Answers(store),playing=new Playing(store,answers);const live=new LiveLinkage(answers,
 playing,scene),surface=new PivotSurface(store,answers,playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(answers,playing,
-scene);const cards=new Results(store,answers),charts=new Charts(answers,playing),space=new SpacePanel(answers,playing);const compare=new Compare(store,answers,playing),
-facts=new FactsTable(store,answers,playing,curves);player.append(playing.element,h("div",{class:"bs-player-tools"},centrodes.element,curves.element));results.append(
-cards.element);panels.append(panel("pivots","Put a pivot somewhere",true,surface.element),panel("space","Image space",true,space.element),panel("charts","Errors\
- and transmission",true,charts.element),panel("compare","Compare two linkages",false,compare.element),panel("facts","Every number in tables",false,facts.element));
-for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(panels,new AbortController().signal);catchUpForPrint();
-listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{
-answers,playing,live,surface,centrodes,curves,cards,charts,space,compare,facts}}var MOST4=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
-gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST4)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
-this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
-if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
-0}};var REST2=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var FEWEST=2;var NO_ANSWER={linkages:[],dyads:[],best:[],warnings:[],pivot_map:null,family_map:null,
-outcome:{message:"Two poses or more make a task"}};var PLACED2="placed";var Store=class{constructor({connection,document:document2,options={},name="task",settings={},
-mostFlying=MOST_FLYING}){this.connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;
-this.name=name;this.settings=settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";
-this.progress="";this.chosen=null;this.pinned=new Set;this.compared=null;this.placed=null;this.selection=null;this.messages=[];this.listeners=new Map;this.basis=
-null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;this.improving=null;this.improved=null;connection.on("message",message=>this.take(
-message));connection.on("open",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){
-if(!this.listeners.has(name))this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.
-listeners.get(name)??[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)
-return;this.history.record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.
-options;this.options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(
-this.settings,{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,
-options={},name=this.name,settings=this.settings}){this.history.record(this.version,null);Object.assign(this,{document:document2,options,name,settings,selection:null,
-placed:null});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.goTo(this.history.redo(this.version))}abandon(gesture){
-this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,name:this.name,settings:this.settings}}goTo(version){if(!version)
-return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){
-this.follow();this.emit("document");if(this.isEmpty)this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set(
-[this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=this.mostFlying)return;
-const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,options,shown:shown2});if(n!==null)this.flying.
-set(n,{document:document2,isOld:false})}solveAfterRest(){clearTimeout(this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.
-now()-since<MOST_REST)this.resting=setTimeout(rest,REST2/3);else this.solve()};this.resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document:document2,
-options}=this;const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.solving={n,document:document2,options};this.setState(
-"solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;if(!this.placeWanted){this.placed=null;this.
-emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;const n=this.connection.send({do:"\
-place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind==="followed")this.takeFollowed(message);else if(this.
-flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.improving?.n)this.takeImproved(message);else if(n===
-this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)
-return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(
-this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=
-document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,
-...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false}){const{document:document2}=this.
-flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=
-null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}
-if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document;if(message.
-kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.
-kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
-if(isNow)this.install(answer);else this.pending=answer}else if(message.kind==="refused"){this.say(message.messages)}else{const[said]=[message.message].flat();this.
-say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}improve(linkage){const{document:document2,options}=this,
-n=this.connection.send({do:"improve",document:document2,options,linkage});this.improving=n===null?null:{n,linkage};this.emit("improved")}takeImproved(message){if(message.
-kind==="progress"||message.kind==="waiting"||message.kind==="solving")return;this.improving=null;if(message.kind==="improved")this.improved=message;else if(message.
-messages)this.say(message.messages);this.emit("improved")}get isEmpty(){return this.document.poses.length<FEWEST}forget(){if(!this.solved)return;const result={...this.
-solved,...NO_ANSWER,space:{...this.solved.space,quadrics:[]}};this.install({n:null,result,document:this.document,seconds:null});if(this.placed)this.place([])}install({
-n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(
-([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===
-PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;Object.assign(this,{solved:result,solvedFor:document2,seconds,basis:n,pending:null,followed:null,followedFor:null});
-for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.
-pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.
-follow()}opened(){this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(
-this.resting);this.flying.clear();this.solving=this.placing=this.improving=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===
-this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.
-chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.
-pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.
-kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
+scene);const cards=new Results(store,answers),charts=new Charts(answers,playing),space=new SpacePanel(answers,playing);const cognates=new CognatePanel(store,answers);
+const compare=new Compare(store,answers,playing),facts=new FactsTable(store,answers,playing,curves);player.append(playing.element,h("div",{class:"bs-player-tool\
+s"},centrodes.element,curves.element));results.append(cards.element);const ofAngles=[panel("pivots","Put a pivot somewhere",true,surface.element),panel("space",
+"Image space",true,space.element)];const ofCurve=panel("cognates","The same curve by three linkages",true,cognates.element);const fold=()=>{const{document:document2}=store;
+for(const each of ofAngles)give(each,"hidden",document2.poses.some(isPoint));give(ofCurve,"hidden",!isOfPoints(document2))};store.on("document",fold);fold();panels.
+append(ofCurve,...ofAngles,panel("charts","Errors and transmission",true,charts.element),panel("compare","Compare two linkages",false,compare.element),panel("fa\
+cts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(
+panels,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(prefers-color-scheme: dark)").addEventListener(
+"change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,cards,charts,space,cognates,compare,facts}}var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
 this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.shape,this.pairs,this.more)}show(shape,points){
 const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];say(this.shape,shape);while(this.fields.length<count)this.fields.push(
 this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==this.pairs.children.length||wanted.some(
@@ -1628,36 +1735,40 @@ this.drawOptions();this.drawVerdicts()}};function tell(element,sentences){give(e
 const[[shape,stated]]=Object.entries(limitsOf(document2)[k][key]);return setLimit(document2,k,{[key]:shapeOf(shape,change(shape==="point"?[stated]:stated))})}var range=(least2,most)=>least2===
 void 0&&most===void 0?void 0:{...least2===void 0?{}:{least:least2},...most===void 0?{}:{most}};function kindsOf2(kinds){const list=kinds.filter(({box})=>box.checked).
 map(({kind})=>kind);return list.length===kinds.length||!list.length?void 0:list}function typesOf(types){const list=types.filter(({box})=>box.checked).map(({type})=>type);
-return list.length?list:void 0}var EMPTY="An empty task: add poses here, paste rows of a spreadsheet, drop a file, or take a template.";var FIRST="Drag a pose by its point, turn it by the tip\
- of its arrow: every linkage answers at once.";function layOut(root,store,start){const scene=new Scene(store),banners=new Banners(store),files=new Files(store,start,
-banners);banners.files=files;const body=new BodyEditor(store,scene),regions=new Regions(store,scene);const panel2=new TaskPanel(store,scene,regions,body,files),
-handles=new PoseHandles(store,scene),table3=new PoseTable(store,scene);const player=h("div",{id:"bs-player"}),results=h("aside",{id:"bs-results","aria-label":"L\
-inkages"}),panels=h("div",{id:"bs-panels"});const name=h("input",{class:"bs-text bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"fa\
-lse",onchange:()=>store.rename(name.value.trim()||"task")});const undo=button("↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),
-redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctrl+Shift+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,
-"value",store.name.replace(/[\r\n]+/g," "));give(undo,"disabled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);
-show();root.replaceChildren(h("header",{class:"bs-head"},h("h1",{},"burmester studio"),name,h("div",{class:"bs-row"},undo,redo),files.element,banners.status,banners.
-live),banners.element,h("main",{class:"bs-main"},h("section",{class:"bs-left","aria-label":"The task"},h("div",{class:"bm-card"},h("h2",{},"Poses"),table3.element),
-h("div",{class:"bm-card"},panel2.element,new ExportSettings(store,scene).element)),h("section",{class:"bs-stage bm-card","aria-label":"The plane"},stageBar(store,
-scene),scene.element,player),results,panels));scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);
-files.opened=refitWhenSolved(store,scene);return{scene,banners,files,body,regions,panel:panel2,handles,table:table3}}function stageBar(store,scene){const pose=button(
-"Add poses",()=>scene.use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const stop=button("Stop solv\
-ing",()=>store.cancel(),{"data-do":"cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.
-length?FIRST:EMPTY));put(pose,"aria-pressed",scene.tool?.name==="pose")};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(
-waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"bs-bar"},
-h("div",{class:"bs-row"},pose,button("Fit",()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),button(
-"+",()=>scene.zoom(1.25,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.size.height/2),
-{"aria-label":"Zoom out"}),...keyList(),stop),line2)}function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(store)?.led??[]).
-map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&isNear(store,point2)));store.on("solved",()=>{const refit=waits&&scene.isFitted;waits=false;if(refit)scene.fit()});
-return()=>{waits=true;scene.fit()}}function isNear({solved,document:{poses}},[x,y]){return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<3*(solved?.scene??Infinity))}
-function listenToTokens(connection,banners){addEventListener("hashchange",async()=>{if(!location.hash)return;await connection.session();banners.close("expired");
-connection.open()});let asked=false;connection.on("closed",async()=>{if(asked)return;asked=true;try{await connection.get("/start")}catch(error){if(error instanceof
-Refused&&error.status===401)banners.expired()}asked=false})}async function main(){const root=document.getElementById("studio"),connection=new Connection(decodeFrame);
-try{await connection.session();const start=await connection.get("/start"),kept=keptHere();const store=new Store({connection,document:start.document,options:start.
-options,name:start.name,...kept});const parts=layOut(root,store,start);if(start.saved&&!kept)offerSaved(store,parts,start.saved);listenToTokens(connection,parts.
-banners);document.documentElement.dataset.ready="true";connection.open()}catch(error){root.replaceChildren(h("p",{class:"bs-failed",role:"alert"},error instanceof
-Refused&&error.status===401?"This page needs the address that burmester studio printed, with the token in it. Open that address, or start burmester studio again\
-.":`The page could not start: ${error.message}. Is burmester studio still running? Start it again and open the address that it prints.`));if(!(error instanceof Refused))
-throw error}}function offerSaved(store,{banners,files},saved){const when=typeof saved.when==="number"?new Date(1e3*saved.when).toLocaleString():saved.when;banners.
-say("saved",`Your task of last time, ${saved.name}${when?` (${when})`:""}, was kept.`,[],{actions:[button("Go on with it",()=>{banners.close("saved");store.replace(
-saved);files.opened()},{"data-do":"restore"})]})}main();
+return list.length?list:void 0}var EMPTY="An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";var CURVE="Drag a point of the c\
+urve, or draw another one: the linkages are looked for anew.";var POINTS2="Drag a pose or a point: the linkages are looked for anew.";var FIRST="Drag a pose by \
+its point, turn it by the tip of its arrow: every linkage answers at once.";function layOut(root,store,start){const scene=new Scene(store),banners=new Banners(store),
+files=new Files(store,start,banners);banners.files=files;const body=new BodyEditor(store,scene),regions=new Regions(store,scene);const panel2=new TaskPanel(store,
+scene,regions,body,files),handles=new PoseHandles(store,scene),table3=new PoseTable(store,scene);const curve=new PathCurve(store,scene),path2=new PathPanel(store,
+scene);const player=h("div",{id:"bs-player"}),results=h("aside",{id:"bs-results","aria-label":"Linkages"}),panels=h("div",{id:"bs-panels"});const name=h("input",
+{class:"bs-text bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"false",onchange:()=>store.rename(name.value.trim()||"task")});const undo=button(
+"↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctrl+Shif\
+t+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,"value",store.name.replace(/[\r\n]+/g," "));give(undo,"disabled",!store.history.
+canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);show();root.replaceChildren(h("header",{class:"bs-head"},h("h1",{},"burmester s\
+tudio"),name,h("div",{class:"bs-row"},undo,redo),files.element,banners.status,banners.live),banners.element,h("main",{class:"bs-main"},h("section",{class:"bs-le\
+ft","aria-label":"The task"},h("div",{class:"bm-card"},h("h2",{},"Poses"),table3.element,path2.element),h("div",{class:"bm-card"},panel2.element,new ExportSettings(
+store,scene).element)),h("section",{class:"bs-stage bm-card","aria-label":"The plane"},stageBar(store,scene,()=>files.opened()),scene.element,player),results,panels));
+scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);files.opened=refitWhenSolved(store,scene);return{
+scene,banners,files,body,regions,panel:panel2,handles,table:table3,curve,path:path2}}function stageBar(store,scene,drawn){const pose=button("Add poses",()=>scene.
+use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const toggle=(text,name,make,data)=>button(text,()=>scene.
+use(scene.tool?.name===name?null:make()),{"data-do":data,"aria-pressed":"false"});const point2=toggle("Add points","point",()=>new PointTool(store,scene),"add-p\
+oints");const path2=toggle("Draw a path","path",()=>new PathTool(store,scene,drawn),"draw-path");const stop=button("Stop solving",()=>store.cancel(),{"data-do":"\
+cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.length?isPath(store.document)?CURVE:
+store.document.poses.some(isPoint)?POINTS2:FIRST:EMPTY));for(const[each,name]of[[pose,"pose"],[point2,"point"],[path2,"path"]])put(each,"aria-pressed",scene.tool?.
+name===name)};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(
+()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"bs-bar"},h("div",{class:"bs-row"},pose,point2,path2,button("Fit",
+()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),button("+",()=>scene.zoom(1.25,scene.size.width/
+2,scene.size.height/2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom out"}),...keyList(),
+stop),line2)}function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(store)?.led??[]).map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&
+isNear(store,point2)));store.on("solved",()=>{const refit=waits&&scene.isFitted;waits=false;if(refit)scene.fit()});return()=>{waits=true;scene.fit()}}function isNear({
+solved,document:{poses}},[x,y]){return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<3*(solved?.scene??Infinity))}function listenToTokens(connection,banners){addEventListener(
+"hashchange",async()=>{if(!location.hash)return;await connection.session();banners.close("expired");connection.open()});let asked=false;connection.on("closed",async()=>{
+if(asked)return;asked=true;try{await connection.get("/start")}catch(error){if(error instanceof Refused&&error.status===401)banners.expired()}asked=false})}async function main(){
+const root=document.getElementById("studio"),connection=new Connection(decodeFrame);try{await connection.session();const start=await connection.get("/start"),kept=keptHere();
+const store=new Store({connection,document:start.document,options:start.options,name:start.name,...kept});const parts=layOut(root,store,start);if(start.saved&&!kept)
+offerSaved(store,parts,start.saved);listenToTokens(connection,parts.banners);document.documentElement.dataset.ready="true";connection.open()}catch(error){root.replaceChildren(
+h("p",{class:"bs-failed",role:"alert"},error instanceof Refused&&error.status===401?"This page needs the address that burmester studio printed, with the token i\
+n it. Open that address, or start burmester studio again.":`The page could not start: ${error.message}. Is burmester studio still running? Start it again and op\
+en the address that it prints.`));if(!(error instanceof Refused))throw error}}function offerSaved(store,{banners,files},saved){const when=typeof saved.when==="n\
+umber"?new Date(1e3*saved.when).toLocaleString():saved.when;banners.say("saved",`Your task of last time, ${saved.name}${when?` (${when})`:""}, was kept.`,[],{actions:[
+button("Go on with it",()=>{banners.close("saved");store.replace(saved);files.opened()},{"data-do":"restore"})]})}main();

@@ -198,7 +198,7 @@ function poseTable(data, linkage) {
       poseName(pose) + (pose.exact ? " (exact)" : ""),
       fixed(pose.x, digits),
       fixed(pose.y, digits),
-      `${fixed(pose.angle_deg, 2)}°`
+      pose.angle_deg === null ? "free" : `${fixed(pose.angle_deg, 2)}°`
     ];
     if (linkage) {
       const row = linkage.pose_errors[k];
@@ -843,7 +843,7 @@ var Player = class {
   nearest(place) {
     let near2 = 0, least = Infinity;
     this.data.poses.forEach((pose, k) => {
-      const turn = place.a - radians(pose.angle_deg);
+      const turn = pose.angle_deg === null ? 0 : place.a - radians(pose.angle_deg);
       const away = Math.hypot(place.x - pose.x, place.y - pose.y, this.data.chart.length * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI))));
       if (away < least) [near2, least] = [k, away];
     });

@@ -1,11 +1,13 @@
 // The parts that show answers, and where they stand.
 
-import { h } from "../widget/dom.mjs";
+import { give, h } from "../widget/dom.mjs";
 import { unfoldForPrint } from "../widget/printing.mjs";
 import { Answers } from "./answers.mjs";
 import { Centrodes } from "./centrodes.mjs";
+import { CognatePanel } from "./cognate_panel.mjs";
 import { Charts } from "./charts.mjs";
 import { Compare } from "./compare.mjs";
+import { isOfPoints, isPoint } from "./document.mjs";
 import { CouplerCurves } from "./coupler_curve.mjs";
 import { FactsTable } from "./facts_table.mjs";
 import { listenToSpace } from "./keyboard.mjs";
@@ -27,12 +29,22 @@ export function addResults(store, scene, { player, results, panels }) {
   const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
   const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
   const cards = new Results(store, answers), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
+  const cognates = new CognatePanel(store, answers);
   const compare = new Compare(store, answers, playing), facts = new FactsTable(store, answers, playing, curves);
   player.append(playing.element, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element));
   results.append(cards.element);
+  const ofAngles = [panel("pivots", "Put a pivot somewhere", true, surface.element), panel("space", "Image space", true, space.element)];
+  const ofCurve = panel("cognates", "The same curve by three linkages", true, cognates.element);
+  const fold = () => {
+    const { document } = store;
+    for (const each of ofAngles) give(each, "hidden", document.poses.some(isPoint)); // they tell of angles, which points leave free
+    give(ofCurve, "hidden", !isOfPoints(document));
+  };
+  store.on("document", fold);
+  fold();
   panels.append(
-    panel("pivots", "Put a pivot somewhere", true, surface.element),
-    panel("space", "Image space", true, space.element),
+    ofCurve,
+    ...ofAngles,
     panel("charts", "Errors and transmission", true, charts.element),
     panel("compare", "Compare two linkages", false, compare.element),
     panel("facts", "Every number in tables", false, facts.element),
@@ -43,5 +55,5 @@ export function addResults(store, scene, { player, results, panels }) {
   listenToSpace(playing);
   playOnce(store, answers, playing);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
-  return { answers, playing, live, surface, centrodes, curves, cards, charts, space, compare, facts };
+  return { answers, playing, live, surface, centrodes, curves, cards, charts, space, cognates, compare, facts };
 }

@@ -5,6 +5,7 @@
 
 import { figure, fixed, radians } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
+import { isPath, isPoint } from "./document.mjs";
 import { Events } from "./events.mjs";
 
 const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room for
@@ -61,7 +62,7 @@ export class Answers extends Events {
 
   takePoses() {
     const poses = posesOf(this.store.document);
-    Object.assign(this.data, { poses, ...surroundingsOf(this.store.document, this.data) });
+    Object.assign(this.data, { poses, isPath: isPath(this.store.document), ...surroundingsOf(this.store.document, this.data) });
     this.emit("poses");
   }
 
@@ -71,14 +72,14 @@ export class Answers extends Events {
     const was = new Map([...names].map(([old, id]) => [id, this.byId.get(old)]));
     const { poses, body, keep_out, ...rest } = solved;
     Object.assign(this.data, { body, keep_out, ...rest, poses: posesOf(document) });
-    this.gone = this.store.isEmpty ? [] : before.filter((each) => !names.has(each.id)).map((each) => each.id);
+    this.gone = this.store.isEmpty || this.store.isAnother ? [] : before.filter((each) => !names.has(each.id)).map((each) => each.id);
     this.byId = new Map();
     this.linkages = solved.linkages.map((fresh) => {
       const kept = was.get(fresh.id), now = kept ?? {};
       const stood = kept && kept.rank !== Infinity; // in the last whole answer, not only since
       const before = stood && kept.id !== fresh.id ? kept.id : null;
       for (const key of Object.keys(now)) delete now[key];
-      Object.assign(now, figured(linked(fresh)), { was: before, shift: moved.get(fresh.id) ?? 0, isNew: this.known && !stood, followed: false, gone: null, change: null });
+      Object.assign(now, figured(linked(fresh)), { was: before, shift: moved.get(fresh.id) ?? 0, isNew: this.known && !this.store.isAnother && !stood, followed: false, gone: null, change: null });
       this.byId.set(now.id, now);
       return now;
     });
@@ -117,9 +118,9 @@ export class Answers extends Events {
   }
 
   takePlaced() {
-    const placed = this.store.placed?.linkage;
+    const placed = this.store.placed?.linkage, { cognateOf } = this.store.placed ?? {}, called = cognateOf ? `Cognate of ${cognateOf}` : "By hand";
     const before = this.placed;
-    this.placed = placed ? Object.assign(before ?? {}, figured(renamed(linked(placed))), { id: PLACED, gone: null, followed: false }) : null;
+    this.placed = placed ? Object.assign(before ?? {}, figured(renamed(linked(placed))), { id: PLACED, called, gone: null, followed: false }) : null;
     this.emit("placed");
     if (this.store.chosen === PLACED) this.emit(before && placed ? "moved" : "shown");
   }
@@ -146,7 +147,7 @@ function renamed(linkage) {
 export function posesOf({ poses = [] }) {
   const names = poses.map((pose, k) => pose.name || String(k + 1));
   const short = names.every((name) => name.length <= LONGEST_NAME);
-  return poses.map((pose, k) => ({ ...pose, angle_deg: pose.angle, name: names[k], label: short ? names[k] : String(k + 1) }));
+  return poses.map((pose, k) => ({ ...pose, angle_deg: isPoint(pose) ? null : pose.angle, name: names[k], label: short ? names[k] : String(k + 1) }));
 }
 
 /** The outline of the body as the document has it, where it is stated in numbers. */
@@ -191,6 +192,12 @@ export function worstOf(linkage, data) {
   if (linkage.worst === null || linkage.worst === undefined) return "–";
   if (!linkage.followed) return linkage.said.worst === "-" ? "–" : linkage.said.worst === "exact" ? "exact" : `${linkage.said.worst}${data.unit ? ` ${data.unit}` : ""}`;
   return linkage.worst < FOLLOWED * data.scene ? "exact" : `${figure(linkage.worst)}${data.unit ? ` ${data.unit}` : ""}`;
+}
+
+/** How far the coupler point passes from the points of a path: root mean square, and at most. */
+export function pathErrorOf(linkage, data) {
+  const { rms } = linkage.said, worst = worstOf(linkage, data);
+  return linkage.followed || !rms || rms === "-" || rms === "exact" ? worst : `${rms} rms, ${worst} at most`;
 }
 
 /** The least transmission angle, in the same way; a bound, so it is rounded down. */

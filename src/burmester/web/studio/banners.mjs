@@ -5,6 +5,7 @@ import { button } from "./fields.mjs";
 
 const ROLES = { refused: "alert", offline: "alert", limit: "alert", expired: "alert" };
 
+const LONGEST_HELP = 240; // characters; of a longer one the rest is folded
 const NO_FILE = "task.json"; // what the server calls the task of this page, which is in no file
 
 /** A message of the readers: what happened and where, why, and what to do. */
@@ -12,7 +13,15 @@ function sentenceOf({ code, message, where, why, help }) {
   return h("li", {},
     code ? h("span", { class: "bm-code" }, code) : null, " ", h("span", {}, message),
     where && !where.startsWith(NO_FILE) ? h("pre", { class: "bs-where" }, where) : null,
-    why ? h("p", { class: "bs-why" }, `Why: ${why}.`) : null, help ? h("p", { class: "bs-help" }, `What to do: ${help}.`) : null);
+    why ? h("p", { class: "bs-why" }, `Why: ${why}.`) : null, help ? helpOf(help) : null);
+}
+
+/** What to do; of a long help the first clause, the rest folded. */
+function helpOf(help) {
+  if (help.length <= LONGEST_HELP) return h("p", { class: "bs-help" }, `What to do: ${help}.`);
+  const end = help.slice(0, LONGEST_HELP).lastIndexOf("; "), cut = end > 0 ? end : help.slice(0, LONGEST_HELP).lastIndexOf(" ");
+  return h("div", { class: "bs-help" }, h("p", {}, `What to do: ${help.slice(0, cut)}${end > 0 ? "." : " …"}`),
+    h("details", {}, h("summary", {}, "More"), h("p", {}, `${help.slice(cut).replace(/^[; ]+/, "")}.`)));
 }
 
 export class Banners {
@@ -48,8 +57,9 @@ export class Banners {
     this.close("limit");
     this.close("refused");
     if (!first || store.document.poses.length < 2) return; // the line above the plane says what to do
-    if (first.tone === "cancelled") this.say("note", "Solving was stopped. What is shown was followed from the answer before.", [], { actions: [this.again()] });
-    else if (first.tone === "limit") this.say("limit", "Solving took too long and was stopped. Nothing is lost: what is shown was followed from the answer before.", messages, { actions: [this.again()] });
+    const shown = store.solved?.linkages.length ? " What is shown was followed from the answer before." : "";
+    if (first.tone === "cancelled") this.say("note", `Solving was stopped.${shown}`, [], { actions: [this.again()] });
+    else if (first.tone === "limit") this.say("limit", `Solving took too long and was stopped. Nothing of the task is lost.${shown}`, messages, { actions: [this.again()] });
     else this.say("refused", "The task cannot be solved as it is.", messages);
   }
 

@@ -19,31 +19,92 @@ const withList = (document, key, list) => withKeys(document, { [key]: list.lengt
 /** The keys of a table, or no table where none is left. */
 const filled = (table) => (Object.keys(table).length ? table : undefined);
 
+// Points are poses whose angle is free; points alone, with a path or too many to be met exactly, are a path
+
+const EXACT = { x: 0, y: 0, angle_deg: 0 }; // the tolerance of what states none, where something is free
+const FEWEST_TRACED = 10; // points without angles that are a path in any case
+
+/** Whether a component of a pose counts for nothing. */
+export const isFree = (pose, key) => Boolean(pose?.free?.includes(key)) || pose?.tolerance?.[key] === "free";
+
+export const isPoint = (pose) => isFree(pose, "angle");
+
+/** Whether the task is points alone. */
+export const isOfPoints = ({ poses }) => poses.length > 0 && poses.every(isPoint);
+
+/** Whether the task is a path: points that are traced one after the other, and may be missed. */
+export const isPath = (document) => isOfPoints(document) && (document.path !== undefined || document.poses.length >= FEWEST_TRACED);
+
+/** Some keys of the path; undefined takes a key away. */
+export const setPath = (document, changes) => withKeys(document, { path: withKeys(document.path ?? { closed: false }, changes) });
+
+/** The tolerance of all points: key is x or y. */
+export const setUsual = (document, key, value) => withKeys(document, { tolerance: { ...EXACT, ...document.tolerance, [key]: value ?? 0 } });
+
+/** A task of points alone: those of a path are as near as possible, as long as no tolerance is stated. */
+export const pathDocument = (document, points, closed) =>
+  withKeys(document, {
+    poses: points.map(([x, y]) => ({ x, y, free: ["angle"] })), path: { closed },
+    tolerance: isOfPoints(document) ? document.tolerance ?? EXACT : EXACT,
+  });
+
+const isExact = (tolerance) => tolerance && ["x", "y", "angle_deg"].every((key) => !tolerance[key]);
+
+/** What is free needs a tolerance beside it, and a path points alone. */
+function settled(document) {
+  const { poses, path, tolerance } = document, some = poses.some((pose) => pose.free?.length);
+  return withKeys(document, {
+    path: path && poses.length && !poses.every(isPoint) ? undefined : path,
+    tolerance: some ? tolerance ?? EXACT : isExact(tolerance) ? undefined : tolerance,
+  });
+}
+
+/** Crank angles go with their points: `change` of the list, where there is one. */
+const withCrank = (document, change) => (document.path?.crank_deg ? setPath(document, { crank_deg: change(document.path.crank_deg) }) : document);
+
+/** The crank angle of a point put among others: between its neighbours, or a step on. */
+function betweenCranks(angles, index) {
+  const [a, b] = [angles[index - 1], angles[index]];
+  if (a !== undefined && b !== undefined) return (a + b) / 2;
+  return a === undefined ? (b ?? 0) - 10 : a + (a - (angles[index - 2] ?? a - 10));
+}
+
 // Poses
 
 /** Some keys of a pose changed, counted from 0; undefined takes a key away. */
 export const setPose = (document, index, changes) =>
   withKeys(document, { poses: replaced(document.poses, index, withKeys(document.poses[index], changes)) });
 
-export const addPose = (document, pose, index = document.poses.length) => withKeys(document, { poses: inserted(document.poses, index, pose) });
+export const addPose = (document, pose, index = document.poses.length) =>
+  settled(withCrank(withKeys(document, { poses: inserted(document.poses, index, pose) }), (angles) => inserted(angles, index, betweenCranks(angles, index))));
 
-export const removePose = (document, index) => withKeys(document, { poses: without(document.poses, index) });
+export const removePose = (document, index) =>
+  settled(withCrank(withKeys(document, { poses: without(document.poses, index) }), (angles) => without(angles, index)));
+
+/** The angle of a pose; none makes it a point, whose angle is free. */
+export function setAngle(document, index, angle) {
+  const free = angle === undefined, same = isPoint(document.poses[index]) === free;
+  return setPose(same ? document : setFree(document, index, "angle", free), index, { angle });
+}
+
+/** How far the crank has turned at a point. */
+export const setCrank = (document, index, angle) => withCrank(document, (angles) => replaced(angles, index, angle));
 
 /** A copy of a pose behind it, without its name, which is that pose's alone. */
 export const duplicatePose = (document, index) => addPose(document, withKeys(document.poses[index], { name: undefined }), index + 1);
 
 /** A pose at another place in the order. */
 export function movePose(document, from, to) {
-  const poses = without(document.poses, from);
-  return withKeys(document, { poses: inserted(poses, to, document.poses[from]) });
+  const moved = (list) => inserted(without(list, from), to, list[from]);
+  return withCrank(withKeys(document, { poses: moved(document.poses) }), moved);
 }
 
 /** A component of a pose (x, y or angle) that counts, or does not. */
 export function setFree(document, index, component, free) {
   const pose = document.poses[index], others = (pose.free ?? []).filter((each) => each !== component);
   const list = free ? [...others, component] : others;
-  const { [component]: bound, ...bounds } = pose.tolerance ?? {}; // a bound of what is free says nothing
-  return setPose(document, index, { free: list.length ? list : undefined, tolerance: free ? filled(bounds) : pose.tolerance });
+  const { [component]: _, [component === "angle" ? "angle_deg" : component]: bound, ...bounds } = pose.tolerance ?? {}; // a bound of what is free says nothing
+  return settled(setPose(document, index, { free: list.length ? list : undefined, tolerance: free || pose.tolerance?.[component] === "free" ? filled(bounds) : pose.tolerance }));
 }
 
 /** A bound of a pose's tolerance: key is x, y or angle_deg; undefined takes it away. */

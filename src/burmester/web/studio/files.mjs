@@ -1,13 +1,15 @@
 // Files: opened, dropped, pasted, saved, exported; and the command line that does the same.
 
 import { give, h } from "../widget/dom.mjs";
-import { setBody, withKeys } from "./document.mjs";
+import { isPath, setBody, withKeys } from "./document.mjs";
 import { Refused } from "./connection.mjs";
 import { button } from "./fields.mjs";
 
 const DRAWINGS = /\.(svg|dxf)$/i;
 const TASKS = /\.(toml|json)$/i;
 const KINDS = ".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";
+const BESIDE = ["limits", "requirements", "keep_out", "surroundings", "body"]; // what a task says beside its poses
+const HEADERS = { 2: ["x,y", "Read them as x, y: points"], 3: ["x,y,angle_deg", "Read them as x, y, angle in degrees"] }; // by the number of columns
 const LARGEST = 1_400_000; // bytes of a file: in base64 they are 2 MB with what is around them
 
 /** A file's bytes in base64. */
@@ -87,11 +89,11 @@ export class Files {
   }
 
   /** Do what asks the server; what it refuses is told, and so is that it is not there. */
-  async trying(what, then) {
+  async trying(what, then, actions = []) {
     try {
       return await then();
     } catch (error) {
-      if (error instanceof Refused && error.messages.length) this.banners.say("refused", `${what} was not done.`, error.messages);
+      if (error instanceof Refused && error.messages.length) this.banners.say("refused", `${what} was not done.`, error.messages, { actions });
       else this.banners.say("refused", `${what} was not done: ${error instanceof Refused ? error.message : "the server does not answer"}.`);
       return null;
     }
@@ -119,36 +121,48 @@ export class Files {
   }
 
   /** A file that was chosen or dropped: an outline, a task, or a table of poses. */
-  take(file, asOutline = DRAWINGS.test(file.name)) {
+  take(file, asOutline = DRAWINGS.test(file.name) && this.store.document.poses.length > 0 && !isPath(this.store.document)) {
+    const isDrawing = DRAWINGS.test(file.name), { document: before } = this.store;
+    const other = isDrawing ? button(asOutline ? "Take it as a path to trace" : "Take it as the outline of the body", () => {
+      for (const kind of ["note", "refused"]) this.banners.close(kind);
+      if (this.store.document !== before) this.store.undo();
+      this.take(file, !asOutline);
+    }, { "data-do": asOutline ? "as-path" : "as-outline" }) : null;
     return this.trying(`Reading ${file.name}`, async () => {
       if (file.size > LARGEST) throw new Refused(413, [{ message: `${file.name} has ${Math.round(file.size / 1000)} kB, and the page takes ${LARGEST / 1000}.`, help: "give it to the command: burmester studio FILE" }]);
       const body = { name: file.name, base64: await base64Of(file), length_unit: this.store.document.length_unit };
-      if (asOutline) return this.outline(await (await this.server.post("/outline", body)).json(), file.name);
+      if (asOutline) return this.outline(await (await this.server.post("/outline", body)).json(), file.name, other);
       const { document, options = {}, notes = [] } = await (await this.server.post("/read", body)).json();
       const name = file.name.replace(/\.[^.]*$/, "");
       const whole = TASKS.test(file.name);
       this.store.replace(whole ? { document, options, name } : { document, options: this.store.options, name });
       this.opened?.();
-      return this.banners.say("note", `${file.name} is open.`, notes, { undo: true });
-    });
+      return this.banners.say("note", `${file.name} is open.`, notes, { undo: true, actions: other ? [other] : [] });
+    }, other ? [other] : []);
   }
 
-  outline({ outline: corners, notes = [] }, name) {
+  outline({ outline: corners, notes = [] }, name, other) {
     this.store.edit((document) => setBody(document, corners));
     this.store.select({ kind: "body", index: 0 });
-    this.banners.say("note", `The outline of the body is that in ${name}: ${corners.length} corners.`, notes, { undo: true });
+    this.banners.say("note", `The outline of the body is that in ${name}: ${corners.length} corners.`, notes, { undo: true, actions: other ? [other] : [] });
   }
 
-  /** Rows of a spreadsheet: the poses are theirs, the rest of the task stays. */
-  paste(text) {
+  /** Rows of a spreadsheet are another task; what the one before said beside its poses can be kept. */
+  paste(text, columns) {
+    const [first] = text.trim().split("\n"), header = HEADERS[first.trim().split(/\t/.test(first) ? /\t/ : /[,;\s]+/).length];
+    const again = !columns && header && !/[^\d\s.,;+\-eE\u2212]/.test(first) ? [button(header[1], () => (this.banners.close("refused"), this.paste(text, header[0])), { "data-do": "read-columns" })] : [];
     return this.trying("Pasting", async () => {
-      const { document, notes = [] } = await (await this.server.post("/read", { name: "pasted", text, length_unit: this.store.document.length_unit, angle_unit: "deg" })).json();
-      const { poses, length_unit } = document;
-      this.store.edit((old) => withKeys(old, { poses, length_unit: length_unit ?? old.length_unit }));
+      const old = this.store.document;
+      const { document, notes = [] } = await (await this.server.post("/read", { name: "pasted", text, columns, length_unit: old.length_unit, angle_unit: "deg" })).json();
+      const beside = Object.fromEntries(BESIDE.filter((key) => old[key] !== undefined && document[key] === undefined).map((key) => [key, old[key]]));
+      this.store.replace({ document: withKeys(document, { length_unit: document.length_unit ?? old.length_unit }), options: this.store.options });
       this.store.select(null);
       this.opened?.();
-      this.banners.say("note", `${poses.length} poses were pasted.`, notes, { undo: true });
-    });
+      this.banners.close("refused");
+      const keep = button("Keep the limits and the body of the task before", () => (keep.remove(), this.store.edit((now) => withKeys(now, beside))), { "data-do": "keep-rest" });
+      const what = document.poses.some((pose) => pose.angle !== undefined) ? "poses" : "points";
+      this.banners.say("note", `${document.poses.length} ${what} were pasted.`, notes, { undo: true, actions: Object.keys(beside).length ? [keep] : [] });
+    }, again);
   }
 
   /** As a task file in TOML; where there is no server, as the same in JSON. */
@@ -169,10 +183,16 @@ export class Files {
     download(new Blob([`${JSON.stringify(this.store.document, null, 2)}\n`], { type: "application/json" }), `${this.store.name.replace(/[^\w.-]+/g, "-") || "task"}.json`);
   }
 
+  /** The linkage that is chosen: its id, or the dyads of one that is none of the answer. */
+  get chosenLinkage() {
+    const { chosen, placed } = this.store, dyads = chosen === "placed" ? placed?.linkage?.dyads : undefined;
+    if (!dyads?.every((dyad) => dyad.kind === "RR")) return { linkage: chosen === "placed" ? null : chosen };
+    return { linkage: null, dyads: dyads.map(({ fixed_pivot, moving_pivot, radius }) => ({ fixed_pivot, moving_pivot, radius })) };
+  }
+
   export(path, what = {}) {
     return this.trying("Exporting", async () => {
-      const linkage = this.store.chosen === "placed" ? null : this.store.chosen;
-      this.hand(await this.server.post(path, { ...this.task, linkage, settings: this.store.settings, ...what }), "export");
+      this.hand(await this.server.post(path, { ...this.task, ...this.chosenLinkage, settings: this.store.settings, ...what }), "export");
     });
   }
 
@@ -183,7 +203,7 @@ export class Files {
 
   commands() {
     return this.trying("Copying", async () => {
-      const { commands } = await (await this.server.post("/command", { ...this.task, settings: this.store.settings, linkage: this.store.chosen === "placed" ? null : this.store.chosen })).json();
+      const { commands } = await (await this.server.post("/command", { ...this.task, settings: this.store.settings, ...this.chosenLinkage })).json();
       const close = button("Close", () => this.dialog.close(), { "data-do": "close" });
       const said = h("p", { class: "bs-hint", role: "status" });
       const copy = async (command) => {

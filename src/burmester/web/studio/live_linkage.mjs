@@ -169,6 +169,7 @@ export class LiveLinkage {
         continue;
       }
       put(group, "display", "inline");
+      put(group.children[0], "display", data.poses[k]?.angle_deg === null ? "none" : "inline"); // how the body turns at a point is not asked for
       put(group, "transform", transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)));
       group.classList.toggle("bm-elsewhere", row.at !== this.playing.path);
       if (this.factor && data.poses[k]) arrows += arrow(view, data.poses[k], row, this.factor);

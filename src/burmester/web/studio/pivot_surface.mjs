@@ -7,6 +7,7 @@ import { act, back } from "../widget/kinematics.mjs";
 import { figure, fixed, px } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
 import { PLACED } from "./answers.mjs";
+import { isPoint } from "./document.mjs";
 import { FamilyCurves } from "./family_curves.mjs";
 import { PivotMapPanel } from "./pivot_map_panel.mjs";
 
@@ -39,6 +40,7 @@ export class PivotSurface {
 
   /** The dyads whose pivots can be taken: those put down by hand, or those of the linkage. */
   get dyads() {
+    if (this.store.document.poses.some(isPoint)) return []; // the best dyad of a pivot is one for angles
     const placed = this.store.placed?.dyads;
     if (this.pivots && placed?.length) return placed;
     return this.answers.shown?.led ?? [];

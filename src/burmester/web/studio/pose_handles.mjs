@@ -5,7 +5,7 @@ import { axes, transform } from "../widget/drawing.mjs";
 import { LETTER } from "../widget/mechanism.mjs";
 import { clamp, degrees, px, radians } from "../widget/numbers.mjs";
 import { shortened } from "../widget/tables.mjs";
-import { addPose, poseName, removePose, setPose, standing, statedOf } from "./document.mjs";
+import { addPose, isPath, isPoint, poseName, removePose, setAngle, setPose, standing, statedOf } from "./document.mjs";
 import { stepOf, stepped } from "./fields.mjs";
 import { around } from "./name_places.mjs";
 import { isOther } from "./pacing.mjs";
@@ -24,12 +24,17 @@ const tenths = (angle) => Number(angle.toFixed(1)) + 0;
 /** The angle nearest to another one that points the same way. */
 const unwrapped = (angle, near) => angle + 360 * Math.round((near - angle) / 360);
 
+/** How many poses of a task there are from one handle to the next. */
+const strideOf = ({ poses }, scale) => {
+  const length = poses.slice(1).reduce((sum, { x, y }, k) => sum + (Math.hypot(x - poses[k].x, y - poses[k].y) || 0), 0);
+  return poses.length <= FEW ? 1 : Math.ceil(poses.length / clamp((scale * length) / ROOM, FEW, MOST));
+};
+
 /** The indices of the poses that are drawn: as many as have room at this scale. */
 export function drawnPoses({ document, selection }, scale) {
   const { poses } = document, count = poses.length, all = [...poses.keys()];
   if (count <= FEW) return all;
-  const length = poses.slice(1).reduce((sum, { x, y }, k) => sum + (Math.hypot(x - poses[k].x, y - poses[k].y) || 0), 0);
-  const stride = Math.ceil(count / clamp((scale * length) / ROOM, FEW, MOST)), chosen = selection?.kind === "pose" ? selection.index : -1;
+  const stride = strideOf(document, scale), chosen = selection?.kind === "pose" ? selection.index : -1;
   return all.filter((k) => k % stride === 0 || k === count - 1 || k === chosen);
 }
 
@@ -60,7 +65,7 @@ export class PoseHandles {
     this.length = this.scene.dragged ? this.length ?? this.arm : this.arm; // a handle does not run from the hand
     const poses = drawnPoses(this.store, this.scene.view.scale).map((k) => [k, k]);
     this.kept.draw(poses);
-    this.labels.draw(poses);
+    this.labels.draw(poses.length > FEW && isPath(this.store.document) ? [] : poses); // a curve of many points needs no numbers
   }
 
   make(k) {
@@ -83,15 +88,18 @@ export class PoseHandles {
   show(group, k) {
     const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), pose = store.document.poses[k];
     const selected = store.selection?.kind === "pose" && store.selection.index === k, unit = store.document.length_unit ?? "", name = poseName(store.document, k);
-    if (!isOther(group, [view, this.length, x, y, angle, Boolean(pose.exact), pose.name, name, unit, selected])) return;
+    const point = isPoint(pose);
+    if (!isOther(group, [view, this.length, x, y, angle, Boolean(pose.exact), pose.name, name, unit, selected, point])) return;
     const [arrow, origin, turn] = group.children;
-    put(group, "transform", transform(view.X(x), view.Y(y), radians(angle)));
+    put(group, "transform", transform(view.X(x), view.Y(y), point ? 0 : radians(angle)));
+    for (const part of [arrow, turn]) put(part, "display", point ? "none" : "inline");
+    group.classList.toggle("bs-point", point);
     put(arrow, "d", axes(this.length - 8));
     put(turn, "transform", `translate(${px(this.length)} 0)`);
     group.classList.toggle("bs-selected", selected);
     group.classList.toggle("bs-exact", Boolean(pose.exact));
-    const called = pose.name ? `Pose ${k + 1}, ${name}` : `Pose ${k + 1}`;
-    put(origin, "aria-label", `${called}: x ${x} ${unit}, y ${y} ${unit}, angle ${angle}°. Drag, or use the arrow keys; Delete removes it.`);
+    const what = point ? "Point" : "Pose", called = pose.name ? `${what} ${k + 1}, ${name}` : `${what} ${k + 1}`;
+    put(origin, "aria-label", `${called}: x ${x} ${unit}, y ${y} ${unit}, ${point ? "angle free" : `angle ${angle}°`}. Drag, or use the arrow keys; Delete removes it.`);
     put(origin, "aria-pressed", selected);
     put(turn, "aria-label", `Turn ${called}`);
     put(turn, "aria-valuenow", angle);
@@ -105,6 +113,7 @@ export class PoseHandles {
       const { x, y, angle } = standing(store.document, k), a = radians(angle), [c, d] = [Math.cos(a), Math.sin(a)];
       const at = (along, across, size) => boxes.push([view.X(x) + along * c - across * d, view.Y(y) - along * d - across * c, size, size]);
       at(0, 0, 13);
+      if (isPoint(store.document.poses[k])) continue;
       at(length, 0, 12);
       at(LETTER, -LETTER, 12);
       for (const share of [0.35, 0.7]) at(share * length, 0, 6);
@@ -128,16 +137,28 @@ export class PoseHandles {
 
   dragOrigin(element, k) {
     const { store, scene } = this;
-    let gesture, off;
+    let gesture, off, before, reach;
     scene.drag(element, {
       start: (from) => {
         const { x, y } = standing(store.document, k);
         gesture = Symbol("move a pose");
         off = [x - from.x, y - from.y];
+        before = store.document;
+        reach = isPath(before) ? strideOf(before, scene.view.scale) : 1;
       },
-      move: (point) => this.set(k, { x: scene.rounded(point.x + off[0]), y: scene.rounded(point.y + off[1]) }, gesture),
+      move: (point) => reach > 1 ? this.bend(before, k, reach, [point.x + off[0] - before.poses[k].x, point.y + off[1] - before.poses[k].y], gesture) : this.set(k, { x: scene.rounded(point.x + off[0]), y: scene.rounded(point.y + off[1]) }, gesture),
       cancel: () => store.abandon(gesture),
     });
+  }
+
+  /** A point of a curve of many takes those without a handle of their own along, the less the farther they are. */
+  bend({ poses, path }, k, reach, [dx, dy], gesture) {
+    const count = poses.length;
+    const moved = poses.map((pose, j) => {
+      const away = path?.closed ? Math.min(Math.abs(j - k), count - Math.abs(j - k)) : Math.abs(j - k), share = 1 - away / reach;
+      return share > 0 ? { ...pose, x: this.scene.rounded(pose.x + share * dx), y: this.scene.rounded(pose.y + share * dy) } : pose;
+    });
+    this.store.edit((document) => ({ ...document, poses: moved }), { gesture });
   }
 
   dragTurn(element, k) {
@@ -181,6 +202,26 @@ export class PoseHandles {
   }
 }
 
+/** The tool that adds points, whose angle is free. */
+export class PointTool {
+  constructor(store, scene) {
+    Object.assign(this, { store, scene, name: "point" });
+    this.hint = "Click where the body's point is to pass; how the body turns there is free. Escape ends.";
+  }
+
+  click({ x, y }) {
+    const { store, scene } = this, index = store.document.poses.length;
+    store.edit((document) => setAngle(addPose(document, { x: scene.rounded(x), y: scene.rounded(y) }), index, undefined));
+    store.select({ kind: "pose", index });
+  }
+
+  key(event) {
+    if (event.key !== "Escape") return false;
+    this.scene.use(null);
+    return true;
+  }
+}
+
 /** The tool that adds poses: a click sets one, the second click turns it. */
 export class PoseTool {
   constructor(store, scene) {
@@ -196,7 +237,7 @@ export class PoseTool {
       return;
     }
     this.gesture = Symbol("add a pose");
-    const angle = store.document.poses.at(-1)?.angle ?? 0;
+    const angle = store.document.poses.findLast((pose) => Number.isFinite(pose.angle))?.angle ?? 0;
     store.edit((document) => addPose(document, { x: scene.rounded(point.x), y: scene.rounded(point.y), angle }), { gesture: this.gesture });
     store.select({ kind: "pose", index: store.document.poses.length - 1 });
   }

@@ -1,7 +1,7 @@
 // The poses as a table: the same data as the handles, to the last digit.
 
 import { give, h, put, say } from "../widget/dom.mjs";
-import { addPose, duplicatePose, movePose, removePose, setFree, setPose, setTolerance, standing } from "./document.mjs";
+import { addPose, duplicatePose, isFree, isOfPoints, isPoint, movePose, removePose, setAngle, setCrank, setFree, setPose, setTolerance, standing } from "./document.mjs";
 import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
 import { Pace, isOther } from "./pacing.mjs";
 
@@ -22,6 +22,7 @@ export class PoseTable {
     this.unit = h("span", { class: "bs-unit" });
     this.pages = h("div", { class: "bs-pages", hidden: true });
     this.details = h("div", { class: "bs-details", "data-details": "pose" });
+    this.hint = h("p", { class: "bs-hint" }, "A blank angle is free: then the row is a point, which the body passes at any angle.");
     this.table = h(
       "table",
       { class: "bs-poses", "aria-label": "Poses" },
@@ -29,7 +30,7 @@ export class PoseTable {
       this.body,
     );
     const add = button("Add a pose", () => this.add(), { "data-do": "add-pose-row" });
-    this.element = h("div", { class: "bs-table-box" }, this.table, this.pages, h("div", { class: "bs-row" }, add, this.unit), this.details);
+    this.element = h("div", { class: "bs-table-box" }, this.table, this.pages, h("div", { class: "bs-row" }, add, this.unit), this.hint, this.details);
     this.makeDetails();
     this.pace = new Pace(() => this.draw());
     store.on("document selection", () => (scene.dragged ? this.pace.ask() : this.draw())); // numbers may lag behind a hand
@@ -68,9 +69,9 @@ export class PoseTable {
     const cells = NUMBERS.map(([key, kind]) => {
       const field = new NumberField({
         label: key,
-        options: () => ({ kind, unit: this.store.document.length_unit, optional: this.isFree(row.index, key) }),
+        options: () => ({ kind, unit: this.store.document.length_unit, optional: key === "angle" || this.isFree(row.index, key) }),
         step: () => (kind === "angle" ? 1 : this.scene.step),
-        commit: (value) => change({ [key]: value }),
+        commit: (value) => (key === "angle" ? this.store.edit((document) => setAngle(document, row.index, value)) : change({ [key]: value })),
         attributes: { "data-key": key },
       });
       row.fields[key] = field;
@@ -82,7 +83,7 @@ export class PoseTable {
   }
 
   isFree(index, key) {
-    return Boolean(this.store.document.poses[index]?.free?.includes(key));
+    return isFree(this.store.document.poses[index], key);
   }
 
   showRow(row, index) {
@@ -122,8 +123,11 @@ export class PoseTable {
   /** A copy of the last pose, a step beside it, and its x ready to be typed over. */
   add() {
     const { store, scene } = this, count = store.document.poses.length;
-    const last = count ? standing(store.document, count - 1) : { x: 0, y: 0, angle: 0 };
-    store.edit((document) => addPose(document, count ? { ...last, x: scene.rounded(last.x + 10 * scene.step) } : last));
+    const last = count ? standing(store.document, count - 1) : { x: 0, y: 0, angle: 0 }, ofPoints = isOfPoints(store.document);
+    store.edit((document) => {
+      const more = addPose(document, count ? { ...last, x: scene.rounded(last.x + 10 * scene.step) } : last);
+      return ofPoints ? setAngle(more, count, undefined) : more;
+    });
     store.select({ kind: "pose", index: count });
     const field = this.rows.find((row) => row.index === count && row.tr.isConnected)?.fields.x.input;
     field?.focus();
@@ -147,7 +151,8 @@ export class PoseTable {
         label: `tolerance of ${component}`, options: () => ({ kind, unit: store.document.length_unit, optional: true, least: 0 }), step: () => (kind === "angle" ? 1 : this.scene.step),
         commit: (value) => edit((document, k) => setTolerance(document, k, key, value)), attributes: { "data-key": `tolerance-${component}`, placeholder: "–" },
       });
-      const free = tick("free", (on) => edit((document, k) => setFree(document, k, component, on)), { "data-key": `free-${component}`, "aria-label": `${component} is free` });
+      const turned = (document, k, on) => setAngle(document, k, on ? undefined : standing(document, k).angle);
+      const free = tick("free", (on) => edit((document, k) => (component === "angle" ? turned(document, k, on) : setFree(document, k, component, on))), { "data-key": `free-${component}`, "aria-label": `${component} is free` });
       return { component, key, field, free };
     });
     this.axes = choice("Axes of the tolerance", [["fixed", "along the axes of the ground"], ["body", "along the axes of the body"]], (value) =>
@@ -161,8 +166,14 @@ export class PoseTable {
     const last = () => store.document.poses.length - 1;
     this.up = act("Earlier", "earlier", (document, k) => movePose(document, k, k - 1), (k) => k - 1);
     this.down = act("Later", "later", (document, k) => movePose(document, k, k + 1), (k) => k + 1);
+    this.crank = new NumberField({
+      label: "crank angle", options: () => ({ kind: "angle" }), step: () => 1,
+      commit: (value) => edit((document, k) => setCrank(document, k, value)), attributes: { "data-key": "crank" },
+    });
+    this.crankLine = labelled("crank angle °", this.crank.element);
     this.details.append(
       this.title,
+      this.crankLine,
       h("div", { class: "bs-row" }, this.exact.element, labelled("weight", this.weight.element)),
       h("p", { class: "bs-hint" }, "Tolerance: how far from it the body may be, to either side"),
       h("table", { class: "bs-tolerances", "aria-label": "Tolerance" },
@@ -179,8 +190,12 @@ export class PoseTable {
     give(this.details, "hidden", k === null);
     if (k === null) return;
     const { poses } = this.store.document, pose = poses[k];
-    if (!isOther(this.details, [k, pose, poses.length]) && !this.details.contains(document.activeElement)) return;
-    this.title.replaceChildren(`Pose ${k + 1}`, ...(pose.name ? [": ", h("bdi", {}, oneLine(pose.name))] : []));
+    if (!isOther(this.details, [k, pose, poses.length, this.store.document.path]) && !this.details.contains(document.activeElement)) return;
+    const turned = this.store.document.path?.crank_deg?.[k];
+    give(this.crankLine, "hidden", turned === undefined);
+    this.crank.turnTo(k, turned);
+    this.crank.show(turned);
+    this.title.replaceChildren(`${isPoint(pose) ? "Point" : "Pose"} ${k + 1}`, ...(pose.name ? [": ", h("bdi", {}, oneLine(pose.name))] : []));
     give(this.exact.box, "checked", Boolean(pose.exact));
     this.weight.turnTo(k, pose.weight);
     this.weight.show(pose.weight);

@@ -1,7 +1,7 @@
 // One linkage as a card: its verdict with the reason, its figures, and what would help.
 
 import { give, h, put, say } from "../widget/dom.mjs";
-import { PLACED, leastOf, worstOf } from "./answers.mjs";
+import { PLACED, leastOf, pathErrorOf, worstOf } from "./answers.mjs";
 import { helpInWords } from "./help_words.mjs";
 
 const FIGURES = [
@@ -20,6 +20,7 @@ export class ResultCard {
     this.was = h("span", { class: "bs-was" });
     this.verdict = h("span", { class: "bm-verdict" });
     this.figures = new Map(FIGURES.map(([key]) => [key, h("dd", { "data-figure": key })]));
+    this.worst = h("dt", {});
     this.note = h("span", { class: "bs-card-note" });
     this.reason = h("span", { class: "bm-reason" });
     this.help = h("span", { class: "bs-help" });
@@ -28,13 +29,13 @@ export class ResultCard {
       { type: "button", class: "bs-card-main", "aria-pressed": "false", onclick: () => does.choose(this.id) },
       h("span", { class: "bm-choice-head" }, this.name, " ", this.type, " ", this.was),
       this.verdict,
-      h("dl", { class: "bs-figures" }, FIGURES.map(([key, name]) => [h("dt", {}, name), this.figures.get(key)])),
+      h("dl", { class: "bs-figures" }, FIGURES.map(([key, name]) => [key === "worst" ? this.worst : h("dt", {}, name), this.figures.get(key)])),
       this.note, this.reason, this.help,
     );
     this.pin = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", onclick: () => does.pin(this.id) }, "Pin");
     this.compare = h("button", { type: "button", class: "bs-small", "aria-pressed": "false", onclick: () => does.compare(this.id) }, "Compare");
     this.improve = h("button", { type: "button", class: "bs-small", onclick: () => does.improve(this.id) }, "Look near it");
-    this.letGo = h("button", { type: "button", class: "bs-small", onclick: () => does.letGo() }, "Let go of the pivots");
+    this.letGo = h("button", { type: "button", class: "bs-small", onclick: () => does.letGo() });
     this.better = h("ul", { class: "bs-better", "aria-live": "polite" });
     this.element = h("article", { class: "bs-card bm-choice" }, this.main, h("div", { class: "bs-card-tools" }, this.pin, this.compare, this.improve, this.letGo), this.better);
   }
@@ -46,12 +47,13 @@ export class ResultCard {
     if (this.id !== linkage.id) {
       this.id = linkage.id;
       put(this.element, "data-linkage", linkage.id);
-      say(this.name, isPlaced ? "By hand" : linkage.id);
-    }
+      }
+    say(this.name, isPlaced ? linkage.called : linkage.id);
     say(this.type, linkage.type);
     say(this.was, pastOf(linkage));
     say(this.verdict, linkage.gone ? "✕ gone" : linkage.usable ? "✓ usable" : "✕ not usable");
-    say(this.figures.get("worst"), worstOf(linkage, data));
+    say(this.worst, data.isPath ? "path error" : "worst miss");
+    say(this.figures.get("worst"), data.isPath ? pathErrorOf(linkage, data) : worstOf(linkage, data));
     say(this.figures.get("least"), least(linkage));
     say(this.figures.get("size"), said.quality.extent ?? "–");
     say(this.figures.get("sensitivity"), said.quality.sensitivity ?? "–");
@@ -72,6 +74,7 @@ export class ResultCard {
     give(this.compare, "hidden", isPlaced || chosen);
     give(this.improve, "hidden", isPlaced || linkage.usable || old || Boolean(linkage.gone));
     give(this.letGo, "hidden", !isPlaced);
+    say(this.letGo, linkage.called === "By hand" ? "Let go of the pivots" : "Put it away");
     for (const button of [this.pin, this.compare, this.improve]) labelled(button, linkage.id);
   }
 

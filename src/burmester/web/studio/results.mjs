@@ -6,6 +6,7 @@ import { PLACED } from "./answers.mjs";
 import { FILTERS, ORDERS, arranged } from "./ordering.mjs";
 import { Pace } from "./pacing.mjs";
 import { ResultCard } from "./result_card.mjs";
+import { QUICK } from "./store.mjs";
 
 const MOST = 40; // cards that are there at once, unless all of them are asked for
 
@@ -85,7 +86,8 @@ export class Results {
 
   /** Put the pivots away that a hand put down. */
   letGo() {
-    this.store.place([]);
+    if (this.store.placed?.cognateOf) this.store.letCognateGo();
+    else this.store.place([]);
     if (this.store.chosen === PLACED) this.store.choose(this.answers.linkages[0]?.id ?? null);
   }
 
@@ -124,12 +126,20 @@ export class Results {
   statusText() {
     const { store, answers } = this, hidden = this.hidden ? `${this.hidden} not shown by the filter. ` : "";
     if (store.state === "offline") return "The connection is gone; what you see is the last answer.";
-    if (answers.isOld && store.state === "dragging") return store.followed ? "Moving along." : "The new answer comes when you let go.";
+    if (answers.isOld && store.state === "dragging") return store.followed ? "Moving along." : this.whenSolved();
     if (store.state === "solving") return "Looking for all linkages.";
     if (!store.solved) return "";
     const { best, outcome } = store.solved;
     if (!store.solved.linkages.some((each) => each.usable)) return `${hidden}${sentence(outcome?.message)}${outcome?.help ? ` What helps: ${outcome.help}.` : ""}`;
     return `${hidden}${best?.[0] ?? ""}`;
+  }
+
+  /** When the answer comes to a task that cannot be followed. */
+  whenSolved() {
+    const { slow } = this.store;
+    if (slow === null) return "The new answer comes when you let go.";
+    const took = `All linkages are looked for anew, which took ${slow < 0.95 ? "less than a second" : `${Math.round(slow)} s`} last time`;
+    return slow > QUICK ? `${took}: the new answer comes when you let go.` : `${took}: the answer lags behind your hand by so much.`;
   }
 
   /** Look for better linkages near one that is not usable, as `burmester judge --improve` does. */

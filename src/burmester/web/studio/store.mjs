@@ -12,10 +12,14 @@ const MOST_REST = 1000; // the same where what was asked before is not answered 
 const MOST_FLYING = 1; // follows on their way, as a rule: of two the second would wait, and answer to an older task than one asked later
 const MOST_SHOWN = 6; // linkages whose motion is asked for while dragging
 const FEWEST = 2; // poses that make a task
+export const QUICK = 1.2; // seconds; what cannot be followed is solved at once while a hand drags, if that takes no longer
 const NO_ANSWER = { linkages: [], dyads: [], best: [], warnings: [], pivot_map: null, family_map: null, outcome: { message: "Two poses or more make a task" } };
 const PLACED = "placed"; // chosen: the linkage whose pivots were put down by hand
 
-/** Events: document, solved, followed, state, chosen, pinned, placed, improved, selection, messages. */
+/** What decides whether a task can be followed from another one: how many poses it has, what is free, and whether it is a path. */
+const kindOf = ({ poses, path }) => `${poses.map(({ free }) => free?.join("") ?? "-").join()} ${path ? path.closed : ""}`;
+
+/** Events: document, solved, followed, state, chosen, pinned, placed, selection, messages. */
 export class Store {
   /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object, mostFlying?: number }} start */
   constructor({ connection, document, options = {}, name = "task", settings = {}, mostFlying = MOST_FLYING }) {
@@ -38,6 +42,9 @@ export class Store {
     this.pinned = new Set();
     this.compared = null;
     this.placed = null;
+    this.whole = null; // the kind of tasks to which the last answer cannot be followed, as far as it is known
+    this.task = 0; // another number for another task, which is no change of this one
+    this.solvedTask = 0;
     this.selection = null;
     this.messages = [];
     this.listeners = new Map();
@@ -46,8 +53,6 @@ export class Store {
     this.flying = new Map(); // the follows in flight by their numbers: { document, isOld }
     this.placing = null; // the place in flight: { n, wanted }
     this.solving = null; // the solve in flight: { n, document, options }
-    this.improving = null; // the search for better linkages in flight: { n, linkage }
-    this.improved = null; // its last answer
     connection.on("message", (message) => this.take(message));
     connection.on("open", () => this.opened());
     connection.on("closed", () => this.closed());
@@ -110,7 +115,8 @@ export class Store {
   /** Another task in place of this one: one entry, too. */
   replace({ document, options = {}, name = this.name, settings = this.settings }) {
     this.history.record(this.version, null);
-    Object.assign(this, { document, options, name, settings, selection: null, placed: null });
+    this.tasks = (this.tasks ?? 0) + 1;
+    Object.assign(this, { document, options, name, settings, selection: null, placed: null, task: this.tasks });
     this.changed();
     this.emit("selection", "placed");
   }
@@ -129,7 +135,7 @@ export class Store {
   }
 
   get version() {
-    return { document: this.document, options: this.options, name: this.name, settings: this.settings };
+    return { document: this.document, options: this.options, name: this.name, settings: this.settings, task: this.task };
   }
 
   goTo(version) {
@@ -142,6 +148,7 @@ export class Store {
 
   /** After any change: follow it, and solve when the hand rests. */
   changed() {
+    if (this.placed?.cognateOf) this.letCognateGo();
     this.follow(); // the server works while the page draws
     this.emit("document");
     if (this.isEmpty) this.forget();
@@ -158,9 +165,30 @@ export class Store {
 
   follow() {
     if (!this.solved || this.flying.size >= this.mostFlying) return;
+    if (!this.canFollow) {
+      this.solveMeanwhile();
+      return;
+    }
     const { document, options, shown } = this;
     const n = this.connection.send({ do: "follow", document, options, shown });
     if (n !== null) this.flying.set(n, { document, isOld: false });
+  }
+
+  /** Whether the last answer can be followed, as far as it is known: points and paths cannot. */
+  get canFollow() {
+    return this.whole !== kindOf(this.document);
+  }
+
+  /** Seconds that the task took last where it cannot be followed; null where it can. */
+  get slow() {
+    return this.canFollow || this.seconds === undefined ? null : this.seconds;
+  }
+
+  /** What cannot be followed is solved while a hand drags, where that is quick: one at a time, the newest wins. */
+  solveMeanwhile() {
+    if (this.solving || this.state === "offline" || this.isEmpty || this.slow === null || this.slow > QUICK) return;
+    const { document, options } = this, n = this.connection.send({ do: "solve", document, options });
+    if (n !== null) this.solving = { n, document, options };
   }
 
   solveAfterRest() {
@@ -178,6 +206,10 @@ export class Store {
   solve() {
     clearTimeout(this.resting);
     const { document, options } = this;
+    if (this.solving?.document === document && this.solving.options === options) {
+      this.setState("solving", ""); // it is on its way
+      return;
+    }
     const n = this.connection.send({ do: "solve", document, options });
     if (n === null) return;
     this.solving = { n, document, options };
@@ -211,7 +243,6 @@ export class Store {
     if (kind === "followed") this.takeFollowed(message);
     else if (this.flying.has(n)) this.followRefused(message);
     else if (n === this.placing?.n) this.takePlaced(message);
-    else if (n === this.improving?.n) this.takeImproved(message);
     else if (n === this.solving?.n || (kind === "cancelled" && this.solving && n > this.solving.n)) this.takeSolving(message);
   }
 
@@ -238,10 +269,11 @@ export class Store {
   }
 
   /** What cannot be followed is solved when the hand rests. */
-  followRefused({ n, kind, messages = [], solve = false }) {
+  followRefused({ n, kind, messages = [], solve = false, whole = false }) {
     const { document } = this.flying.get(n);
     this.flying.delete(n);
     if (kind === "refused" && !solve) this.say(messages);
+    if (whole) this.whole = kindOf(document);
     this.goOn(document);
   }
 
@@ -259,7 +291,7 @@ export class Store {
 
   /** While a newer task is at hand, what an older search says is not told. */
   takeSolving(message) {
-    const { document } = this.solving, isNow = document === this.document;
+    const { document } = this.solving, isNow = document === this.document, isAnother = this.solvedTask !== this.task;
     if (message.kind === "progress" || message.kind === "waiting") {
       const before = `waiting for ${message.before} other${message.before === 1 ? "" : "s"}`;
       if (isNow) this.setState("solving", message.kind === "progress" ? message.text : before);
@@ -269,30 +301,18 @@ export class Store {
     this.solving = null;
     if (message.kind === "solved") {
       const answer = { ...message, document };
-      if (isNow) this.install(answer);
+      if (isNow || !this.canFollow) this.install(answer);
       else this.pending = answer; // a frame that goes on from it brings it
-    } else if (message.kind === "refused") {
+    } else if (isAnother) {
+      this.forget("There is no answer to this task yet");
+    }
+    if (message.kind === "refused") {
       this.say(message.messages);
-    } else {
+    } else if (message.kind !== "solved") {
       const [said] = [message.message].flat();
       this.say([{ tone: message.kind, ...(typeof said === "string" ? { message: said } : said) }]);
     }
     if (isNow) this.setState("resting", "");
-  }
-
-  /** Look for the nearest better linkages around one that is not usable. */
-  improve(linkage) {
-    const { document, options } = this, n = this.connection.send({ do: "improve", document, options, linkage });
-    this.improving = n === null ? null : { n, linkage };
-    this.emit("improved");
-  }
-
-  takeImproved(message) {
-    if (message.kind === "progress" || message.kind === "waiting" || message.kind === "solving") return;
-    this.improving = null;
-    if (message.kind === "improved") this.improved = message;
-    else if (message.messages) this.say(message.messages);
-    this.emit("improved");
   }
 
   /** Whether the task has too few poses for any linkage. */
@@ -300,10 +320,10 @@ export class Store {
     return this.document.poses.length < FEWEST;
   }
 
-  /** No linkage of an older task stays on the page of an empty one. */
-  forget() {
+  /** No linkage of an older task stays on the page of an empty one, or of another that has no answer. */
+  forget(message = NO_ANSWER.outcome.message) {
     if (!this.solved) return;
-    const result = { ...this.solved, ...NO_ANSWER, space: { ...this.solved.space, quadrics: [] } };
+    const result = { ...this.solved, ...NO_ANSWER, outcome: { message }, space: { ...this.solved.space, quadrics: [] } };
     this.install({ n: null, result, document: this.document, seconds: null });
     if (this.placed) this.place([]);
   }
@@ -316,7 +336,8 @@ export class Store {
     // A server that was started anew finds the same linkages of the same task.
     if (!told.length && document === this.solvedFor && !this.followed) for (const { id } of result.linkages) this.renamed.set(id, id);
     const carried = (id) => (id === PLACED && this.placed?.linkage ? id : this.renamed.get(id) ?? null);
-    Object.assign(this, { solved: result, solvedFor: document, seconds, basis: n, pending: null, followed: null, followedFor: null });
+    this.isAnother = this.solvedTask !== this.task; // then nothing of the answer before is missing
+    Object.assign(this, { solved: result, solvedFor: document, solvedTask: this.task, seconds, basis: n, whole: null, pending: null, followed: null, followedFor: null });
     for (const each of this.flying.values()) each.isOld = true; // it may go on from the answer before
     this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
     this.compared = carried(this.compared);
@@ -326,9 +347,24 @@ export class Store {
     if (document !== this.document) this.follow();
   }
 
+  /** Show a cognate in place of the linkage whose curve it traces. */
+  takeCognate(linkage, of) {
+    this.placeWanted = null;
+    this.placed = { linkage, dyads: [], pivots: [], cost: null, messages: [], cognateOf: of };
+    this.chosen = PLACED;
+    this.emit("placed", "chosen");
+  }
+
+  letCognateGo() {
+    const { cognateOf } = this.placed;
+    this.placed = null;
+    if (this.chosen === PLACED) this.chosen = cognateOf;
+    this.emit("placed", "chosen");
+  }
+
   opened() {
     this.flying.clear();
-    this.solving = this.placing = this.improving = null;
+    this.solving = this.placing = null;
     this.setState("resting", "");
     this.basis = null; // the server knows nothing of what was solved before
     this.solve();
@@ -337,7 +373,7 @@ export class Store {
   closed() {
     clearTimeout(this.resting);
     this.flying.clear();
-    this.solving = this.placing = this.improving = null;
+    this.solving = this.placing = null;
     this.setState("offline", "");
   }
 

@@ -7,12 +7,15 @@ import { Banners } from "./banners.mjs";
 import { BodyEditor } from "./body_editor.mjs";
 import { currentLinkage } from "./conditions.mjs";
 import { Connection, Refused } from "./connection.mjs";
+import { isPath, isPoint } from "./document.mjs";
 import { ExportSettings } from "./export_settings.mjs";
 import { button } from "./fields.mjs";
 import { Files } from "./files.mjs";
 import { decodeFrame } from "./frames.mjs";
 import { keyList, listenToKeys } from "./keyboard.mjs";
-import { PoseHandles, PoseTool } from "./pose_handles.mjs";
+import { PathCurve, PathTool } from "./path_curve.mjs";
+import { PathPanel } from "./path_panel.mjs";
+import { PointTool, PoseHandles, PoseTool } from "./pose_handles.mjs";
 import { PoseTable } from "./pose_table.mjs";
 import { Regions } from "./regions.mjs";
 import { addResults } from "./answer_panels.mjs";
@@ -20,7 +23,9 @@ import { Scene } from "./scene.mjs";
 import { Store } from "./store.mjs";
 import { TaskPanel } from "./task_panel.mjs";
 
-const EMPTY = "An empty task: add poses here, paste rows of a spreadsheet, drop a file, or take a template.";
+const EMPTY = "An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";
+const CURVE = "Drag a point of the curve, or draw another one: the linkages are looked for anew.";
+const POINTS = "Drag a pose or a point: the linkages are looked for anew.";
 const FIRST = "Drag a pose by its point, turn it by the tip of its arrow: every linkage answers at once.";
 
 /** The parts of the page, laid out in `root`. */
@@ -29,6 +34,7 @@ function layOut(root, store, start) {
   banners.files = files;
   const body = new BodyEditor(store, scene), regions = new Regions(store, scene);
   const panel = new TaskPanel(store, scene, regions, body, files), handles = new PoseHandles(store, scene), table = new PoseTable(store, scene);
+  const curve = new PathCurve(store, scene), path = new PathPanel(store, scene);
   const player = h("div", { id: "bs-player" }), results = h("aside", { id: "bs-results", "aria-label": "Linkages" }), panels = h("div", { id: "bs-panels" });
   const name = h("input", { class: "bs-text bs-task-name", "aria-label": "Name of the task", autocomplete: "off", spellcheck: "false", onchange: () => store.rename(name.value.trim() || "task") });
   const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" }), redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
@@ -43,8 +49,8 @@ function layOut(root, store, start) {
     h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), name, h("div", { class: "bs-row" }, undo, redo), files.element, banners.status, banners.live),
     banners.element,
     h("main", { class: "bs-main" },
-      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table.element), h("div", { class: "bm-card" }, panel.element, new ExportSettings(store, scene).element)),
-      h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene), scene.element, player),
+      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table.element, path.element), h("div", { class: "bm-card" }, panel.element, new ExportSettings(store, scene).element)),
+      h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene, () => files.opened()), scene.element, player),
       results, panels),
   );
   scene.resize();
@@ -52,17 +58,20 @@ function layOut(root, store, start) {
   listenToKeys(store, scene, files);
   new Autosave(store);
   files.opened = refitWhenSolved(store, scene);
-  return { scene, banners, files, body, regions, panel, handles, table };
+  return { scene, banners, files, body, regions, panel, handles, table, curve, path };
 }
 
 /** What is done in the plane, and one line that says what can be dragged. */
-function stageBar(store, scene) {
+function stageBar(store, scene, drawn) {
   const pose = button("Add poses", () => scene.use(scene.tool?.name === "pose" ? null : new PoseTool(store, scene)), { "data-do": "add-poses", "aria-pressed": "false" });
+  const toggle = (text, name, make, data) => button(text, () => scene.use(scene.tool?.name === name ? null : make()), { "data-do": data, "aria-pressed": "false" });
+  const point = toggle("Add points", "point", () => new PointTool(store, scene), "add-points");
+  const path = toggle("Draw a path", "path", () => new PathTool(store, scene, drawn), "draw-path");
   const stop = button("Stop solving", () => store.cancel(), { "data-do": "cancel", hidden: true });
   const line = h("p", { class: "bs-line" });
   const show = () => {
-    say(line, scene.tool?.hint ?? (store.document.poses.length ? FIRST : EMPTY));
-    put(pose, "aria-pressed", scene.tool?.name === "pose");
+    say(line, scene.tool?.hint ?? (store.document.poses.length ? (isPath(store.document) ? CURVE : store.document.poses.some(isPoint) ? POINTS : FIRST) : EMPTY));
+    for (const [each, name] of [[pose, "pose"], [point, "point"], [path, "path"]]) put(each, "aria-pressed", scene.tool?.name === name);
   };
   scene.on("tool", show);
   store.on("document", show);
@@ -75,7 +84,7 @@ function stageBar(store, scene) {
   });
   show();
   return h("div", { class: "bs-bar" },
-    h("div", { class: "bs-row" }, pose, button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show the poses; once more: all of the body and the regions, too (0)" }),
+    h("div", { class: "bs-row" }, pose, point, path, button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show the poses; once more: all of the body and the regions, too (0)" }),
       button("+", () => scene.zoom(1.25, scene.size.width / 2, scene.size.height / 2), { "aria-label": "Zoom in" }), button("−", () => scene.zoom(0.8, scene.size.width / 2, scene.size.height / 2), { "aria-label": "Zoom out" }), ...keyList(), stop),
     line);
 }

@@ -232,7 +232,7 @@ export class Player {
   nearest(place) {
     let near = 0, least = Infinity;
     this.data.poses.forEach((pose, k) => {
-      const turn = place.a - radians(pose.angle_deg);
+      const turn = pose.angle_deg === null ? 0 : place.a - radians(pose.angle_deg);
       const away = Math.hypot(place.x - pose.x, place.y - pose.y, this.data.chart.length * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI))));
       if (away < least) [near, least] = [k, away];
     });

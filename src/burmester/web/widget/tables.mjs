@@ -119,7 +119,7 @@ export function poseTable(data, linkage) {
   if (linkage) heads.push("coupler x", `y${unit}`, "angle", "off by", "turned by", "transm.", { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
-      poseName(pose) + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`,
+      poseName(pose) + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), pose.angle_deg === null ? "free" : `${fixed(pose.angle_deg, 2)}°`,
     ];
     if (linkage) {
       const row = linkage.pose_errors[k];
