@@ -25,7 +25,6 @@ from burmester.linkages.possible_types import links_covariance, possible_types
 from burmester.linkages.quality import Quality
 from burmester.linkages.ranking import DEFAULT_TOLERANCE, ranked
 from burmester.linkages.requirement_check import Violation, violations
-from burmester.linkages.rounding import rounded
 from burmester.linkages.standard import Standard
 from burmester.linkages.target import Target
 from burmester.linkages.tolerance_boxes import ToleranceBoxes, counted_error, shares_used
@@ -188,6 +187,8 @@ class Evaluation:
 
         Fewer of them where the time is over, but one at least.
         """
+        from burmester.linkages.rounding import rounded  # noqa: PLC0415  seldom asked for
+
         out: list[FoundLinkage] = []
         frames, options = self.target.frames, self.problem.options
         some = found[:MAX_ROUNDED]

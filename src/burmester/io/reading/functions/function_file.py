@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 import math
 import os
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import PurePath
 from typing import Any, Final
@@ -19,46 +18,23 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
-from burmester.io.reading.file_content import decode_text, is_archive, is_parquet
+from burmester.io.reading.file_content import decode_text
+from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, header
 from burmester.io.reading.functions.function_options import (
     FunctionSettings,
     task_of_function,
     task_of_pairs,
 )
 from burmester.io.reading.pose_table import Source, plain_number, shown
-from burmester.io.reading.tables.columns import has_poses
 
-__all__ = ["is_function", "is_function_text", "read_function", "task_of_tree"]
+__all__ = ["read_function", "task_of_tree"]
 
-ANGLE_COLUMNS: Final = re.compile(r"(input|output)_(deg|rad)")
 WEIGHT: Final = "weight"
 KEYS: Final = (
     "expression", "x", "input_deg", "output_deg", "opposite", "pairs", "spacing", "minimax",
     "input_phase_deg", "output_phase_deg", "ground", "transmission_deg", "link_ratio",
 )  # fmt: skip
 PAIR_KEYS: Final = ("input_deg", "output_deg", "weight")
-
-
-def is_function(data: bytes, path: str) -> bool:
-    """Whether the bytes of a file are a function task, whatever is wrong with it."""
-    if is_parquet(data) or is_archive(data):
-        return False
-    try:
-        text, _ = decode_text(data)
-    except InputError:
-        return False
-    return is_function_text(text, path)
-
-
-def is_function_text(text: str, path: str) -> bool:
-    """The same of the text in a file."""
-    suffix = PurePath(path).suffix.lower()
-    if suffix == ".toml":
-        return bool(re.search(r"(?m)^\s*\[\s*function\s*\]", text))
-    if suffix == ".json" or text.lstrip().startswith(("{", "[")):
-        return bool(re.match(r'\s*\{\s*"(schema"\s*:\s*"burmester\.function/|function"\s*:)', text))
-    names = _header(text)[1]
-    return any(map(ANGLE_COLUMNS.fullmatch, names)) and not has_poses(names)
 
 
 def read_function(
@@ -87,17 +63,8 @@ def read_function(
 # --- CSV
 
 
-def _header(text: str) -> tuple[int, list[str], str]:
-    """The first line that is no comment: its number from 0, its cells, and the separator."""
-    for number, line in enumerate(text.split("\n")):
-        if line.strip() and not line.lstrip().startswith("#"):
-            separator = next((s for s in ";\t|," if s in line), ",")
-            return number, [c.strip().strip('"').lower() for c in line.split(separator)], separator
-    return 0, [], ","
-
-
 def _csv(source: Source, settings: FunctionSettings) -> FunctionTask:
-    first, names, separator = _header(source.text)
+    first, names, separator = header(source.text)
     lines = source.text.split("\n")
     starts = np.cumsum([0, *(len(line) + 1 for line in lines)]).tolist()
     head = source.where(starts[first], len(lines[first]))
