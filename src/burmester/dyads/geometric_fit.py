@@ -133,19 +133,19 @@ def circle_distances(poses: Displacement) -> DistanceFunction:
 
 
 def circle_terms(poses: Displacement) -> Callable[[FloatArray], tuple[FloatArray, ...]]:
-    """What the distances of circles z (k, 5) over poses (N,) consist of.
+    """What the distances of circles z (*, 5) over poses (N,) consist of.
 
-    Returns a function of z, to the distances (k, N), their Jacobian (k, N, 5), and the vectors
-    tangent (k, N, 5) and arms (k, N) of which the second derivatives are made:
+    Returns a function of z, to the distances (*, N), their Jacobian (*, N, 5), and the vectors
+    tangent (*, N, 5) and arms (*, N) of which the second derivatives are made:
     tangent tangentᵀ / arm.
     """
     seen = _seen(poses)
 
     def terms(z: FloatArray) -> tuple[FloatArray, ...]:
-        shape = len(z), seen.shape[1]
-        (distance, arm), (jacobian, tangent) = np.empty((2, *shape)), np.empty((2, *shape, 5))
-        distance_terms(np.ascontiguousarray(z), seen, distance, jacobian, tangent, arm)
-        return distance, jacobian, tangent, arm
+        flat, shape = np.ascontiguousarray(z).reshape(-1, 5), (*z.shape[:-1], seen.shape[1])
+        parts = [np.empty((len(flat), seen.shape[1], *last)) for last in ((), (5,), (5,), ())]
+        distance_terms(flat, seen, *parts)
+        return tuple(each.reshape(*shape, *each.shape[2:]) for each in parts)
 
     return terms
 
