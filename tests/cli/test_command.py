@@ -547,6 +547,13 @@ def test_the_main_job_does_without_what_it_does_not_need(poses, source):
     }
     assert "burmester.linkages" in loaded
     assert not loaded & {f"burmester.{room}" for room in ("families", "certificates", "plot")}
+    assert not loaded & {
+        "rich._emoji_codes",
+        "burmester.dyads.minima_within_limits",
+        "burmester.dyads.limited_block",
+        "burmester.linkages.rounding",
+        "burmester.functions.function_task",
+    }
 
 
 def test_exported_names_are_those_that_a_type_checker_sees():

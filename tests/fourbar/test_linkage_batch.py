@@ -54,6 +54,17 @@ def at(places, k):
     return Displacement(places.translation[k], places.angle[k])
 
 
+def test_distances_of_all_dyads_at_once_are_those_of_each():
+    rng = np.random.default_rng(8)
+    linkages = all_pairs(rng)
+    for shape in ((), (7,)):
+        poses = Displacement(rng.normal(size=(*shape, 2)), rng.uniform(-6, 6, shape))
+        distance = LinkageBatch.of(linkages).distances(poses)
+        for k, linkage in enumerate(linkages):
+            for side, dyad in enumerate((linkage.first, linkage.second)):
+                assert np.allclose(distance[k, side], dyad.residual(poses), rtol=0, atol=1e-14)
+
+
 def test_equations_of_every_pair_of_kinds():
     rng = np.random.default_rng(0)
     linkages = all_pairs(rng)

@@ -13,7 +13,8 @@ from burmester.batch.options import BatchOptions
 from burmester.batch.parts import TableTasks, TextTasks
 from burmester.batch.schema import DYAD, GENERATOR, LINKAGE
 from burmester.functions.function_task import FunctionTask
-from burmester.io.reading.functions.function_file import is_function, read_function
+from burmester.io.reading.functions.function_file import read_function
+from burmester.io.reading.functions.function_kind import is_function
 
 __all__ = ["NOT_STACKED", "function_rows", "function_task"]
 

@@ -69,7 +69,7 @@ def _function_bytes(poses: str, given: dict[str, Any]) -> bytes | None:
     from burmester.cli.progress_line import working
     from burmester.errors import InputError
     from burmester.io.reading.file_content import read_source
-    from burmester.io.reading.functions.function_file import is_function
+    from burmester.io.reading.functions.function_kind import is_function
 
     if poses.startswith("case:"):
         return None

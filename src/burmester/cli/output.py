@@ -30,7 +30,7 @@ def console(stderr: bool = False) -> Console:
     """Standard output, or standard error."""
     from rich.console import Console
 
-    return Console(stderr=stderr, highlight=False)
+    return Console(stderr=stderr, highlight=False, emoji=False)
 
 
 def print_json(data: dict[str, Any]) -> None:

@@ -11,7 +11,7 @@ import cython
 if not cython.compiled:
     raise ImportError("burmester's kernels are not compiled: install it again, by scripts/setup")
 
-from cython.cimports.libc.math import INFINITY, fabs, isfinite, sqrt
+from cython.cimports.libc.math import INFINITY, fabs, hypot, isfinite, sqrt
 
 SIZE = cython.declare(cython.int, 5)  # of a circle
 SETTLED_STEP = cython.declare(cython.double, 1e-9)  # relative; a shorter step is the last one
@@ -240,6 +240,49 @@ class Circle:
         for i in range(SIZE):
             gain -= self.gradient[i] * self.step[i]
         return gain
+
+
+def distances(
+    z: cython.const[cython.double][:, ::1],
+    poses: cython.const[cython.double][:, ::1],
+    distance: cython.double[:, ::1],
+) -> None:
+    """Set the distances (k, N) of circles z (k, 5) from poses (4, N): cosine, sine, x, y."""
+    for k in range(z.shape[0]):
+        for n in range(poses.shape[1]):
+            cos, sin = poses[0, n], poses[1, n]
+            x: cython.double = cos * z[k, 2] - sin * z[k, 3] + poses[2, n] - z[k, 0]
+            y: cython.double = sin * z[k, 2] + cos * z[k, 3] + poses[3, n] - z[k, 1]
+            distance[k, n] = hypot(x, y) - z[k, 4]
+
+
+def distance_terms(
+    z: cython.const[cython.double][:, ::1],
+    poses: cython.const[cython.double][:, ::1],
+    distance: cython.double[:, ::1],
+    jacobian: cython.double[:, :, ::1],
+    tangent: cython.double[:, :, ::1],
+    arm: cython.double[:, ::1],
+) -> None:
+    """Set the same, their Jacobians (k, N, 5), and what second derivatives are made of.
+
+    These are tangent tangentᵀ / arm, of vectors (k, N, 5) and numbers (k, N).
+    """
+    for k in range(z.shape[0]):
+        for n in range(poses.shape[1]):
+            cos, sin = poses[0, n], poses[1, n]
+            x: cython.double = cos * z[k, 2] - sin * z[k, 3] + poses[2, n] - z[k, 0]
+            y: cython.double = sin * z[k, 2] + cos * z[k, 3] + poses[3, n] - z[k, 1]
+            length: cython.double = max(hypot(x, y), DIVISOR_FLOOR)  # what is no number stays so
+            x /= length
+            y /= length
+            along: cython.double = cos * x + sin * y
+            across: cython.double = cos * y - sin * x
+            distance[k, n], arm[k, n] = length - z[k, 4], length
+            jacobian[k, n, 0], jacobian[k, n, 1] = -x, -y
+            jacobian[k, n, 2], jacobian[k, n, 3], jacobian[k, n, 4] = along, across, -1.0
+            tangent[k, n, 0], tangent[k, n, 1] = y, -x
+            tangent[k, n, 2], tangent[k, n, 3], tangent[k, n, 4] = -across, along, 0.0
 
 
 def sums_of_squares(

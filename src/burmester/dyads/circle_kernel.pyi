@@ -3,6 +3,15 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
 
+def distances(z: FloatArray, poses: FloatArray, distance: FloatArray) -> None: ...
+def distance_terms(
+    z: FloatArray,
+    poses: FloatArray,
+    distance: FloatArray,
+    jacobian: FloatArray,
+    tangent: FloatArray,
+    arm: FloatArray,
+) -> None: ...
 def sums_of_squares(
     z: FloatArray, task: NDArray[np.intp], poses: FloatArray, cost: FloatArray
 ) -> None: ...

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.circle_kernel import distance_terms, distances
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
@@ -117,13 +118,18 @@ class GeometricFit(NamedTuple):
 
 def circle_distances(poses: Displacement) -> DistanceFunction:
     """The distances of the moving pivot from its circle, over poses (N,)."""
-    arms, terms = _arms(poses), circle_terms(poses)
+    seen, terms = _seen(poses), circle_terms(poses)
 
-    def distances(z: FloatArray) -> Distances:
+    def of(z: FloatArray) -> Distances:
         distance, jacobian, tangent, arm = terms(z)
         return Distances(distance, jacobian, tangent, tangent / arm[..., None])
 
-    return DistanceFunction(distances, lambda z: np.hypot(*arms(z)) - z[:, 4:], 4)
+    def only(z: FloatArray) -> FloatArray:
+        distance = np.empty((len(z), seen.shape[1]))
+        distances(np.ascontiguousarray(z), seen, distance)
+        return distance
+
+    return DistanceFunction(of, only, 4)
 
 
 def circle_terms(poses: Displacement) -> Callable[[FloatArray], tuple[FloatArray, ...]]:
@@ -133,32 +139,20 @@ def circle_terms(poses: Displacement) -> Callable[[FloatArray], tuple[FloatArray
     tangent (*, N, 5) and arms (*, N) of which the second derivatives are made:
     tangent tangentᵀ / arm.
     """
-    arms, cos, sin = _arms(poses), np.cos(poses.angle), np.sin(poses.angle)
+    seen = _seen(poses)
 
     def terms(z: FloatArray) -> tuple[FloatArray, ...]:
-        x, y = arms(z)
-        length = np.maximum(np.hypot(x, y), DIVISOR_FLOOR)
-        x, y = x / length, y / length
-        in_body = cos * x + sin * y, cos * y - sin * x
-        jacobian, tangent = np.empty((2, *length.shape, 5))
-        for k, part in enumerate((-x, -y, *in_body, -1.0)):
-            jacobian[..., k] = part
-        for k, part in enumerate((y, -x, -in_body[1], in_body[0], 0.0)):
-            tangent[..., k] = part
-        return length - z[..., 4:], jacobian, tangent, length
+        flat, shape = np.ascontiguousarray(z).reshape(-1, 5), (*z.shape[:-1], seen.shape[1])
+        parts = [np.empty((len(flat), seen.shape[1], *last)) for last in ((), (5,), (5,), ())]
+        distance_terms(flat, seen, *parts)
+        return tuple(each.reshape(*shape, *each.shape[2:]) for each in parts)
 
     return terms
 
 
-def _arms(poses: Displacement) -> Callable[[FloatArray], tuple[FloatArray, FloatArray]]:
-    """The ways R m + d - c from the centres of circles z (*, 5) to their points, (*, N) each."""
-    cos, sin, (x, y) = np.cos(poses.angle), np.sin(poses.angle), poses.translation.T
-
-    def arms(z: FloatArray) -> tuple[FloatArray, FloatArray]:
-        c1, c2, m1, m2 = (z[..., k, None] for k in range(4))
-        return cos * m1 - sin * m2 + x - c1, sin * m1 + cos * m2 + y - c2
-
-    return arms
+def _seen(poses: Displacement) -> FloatArray:
+    """Poses (N,) as the kernel takes them, (4, N): cosine, sine, x, y."""
+    return np.stack([np.cos(poses.angle), np.sin(poses.angle), *poses.translation.T])
 
 
 def line_distances(poses: Displacement) -> DistanceFunction:

@@ -295,5 +295,11 @@ def pseudo_inverse(matrix: FloatArray, tolerance: float = RANK_TOLERANCE) -> Flo
         square = (matrix**2).sum(axis=(-2, -1), keepdims=True)
         return np.asarray(np.swapaxes(matrix, -1, -2) / np.where(square > 0, square, np.inf))
     sound = np.asarray(np.isfinite(matrix).all(axis=(-2, -1)))[:, None, None]
-    inverse = np.linalg.pinv(np.where(sound, matrix, 0.0), rcond=tolerance)
-    return np.where(sound, inverse, np.nan)
+    if not (whole := bool(sound.all())):
+        matrix = np.where(sound, matrix, 0.0)
+    # As `np.linalg.pinv` does, which takes twice as long for a few small ones.
+    u, values, v = np.linalg.svd(matrix, full_matrices=False)
+    kept = values > tolerance * values[:, :1]
+    values = np.divide(1.0, values, out=np.zeros_like(values), where=kept)
+    inverse = np.swapaxes(v, -1, -2) @ (values[..., None] * np.swapaxes(u, -1, -2))
+    return inverse if whole else np.where(sound, inverse, np.nan)

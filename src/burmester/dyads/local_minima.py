@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import final
+from typing import TYPE_CHECKING, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.circle_descent import circle_minima, reach, sharpened_circles
 from burmester.dyads.critical_points import COUNT, CriticalDyads, critical_dyads
-from burmester.dyads.minima_within_limits import LimitedDyads, limited_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.dyads.start_pivots import pivots_of_fits
 from burmester.dyads.starts_down import starts_down
@@ -22,6 +21,9 @@ from burmester.numerics.weights import shares
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
 from burmester.tasks.pose_sample import PoseSample
+
+if TYPE_CHECKING:  # a search of its own, which most tasks do without
+    from burmester.dyads.minima_within_limits import LimitedDyads
 
 __all__ = ["BestDyads", "best_dyads", "is_hard", "starts_of_one", "with_errors"]
 
@@ -116,6 +118,8 @@ def best_dyads(
     array([0.    , 0.0027])
     """
     if limits is not None or norm != "rms" or (exact is not None and exact.any()):
+        from burmester.dyads.minima_within_limits import limited_dyads  # noqa: PLC0415
+
         search = limited_dyads(poses, weights, exact, limits, norm)
         distance = search.circles[:, None].residual(search.frames.to_canonical(poses))
         return with_errors(search, search.circles, search.sliders, distance)

@@ -7,10 +7,10 @@ from typing import TypeAlias, final
 
 import numpy as np
 
+from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.long_links import SENSIBLE_SWING, swing
-from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.dyads.pencil import MIN_POSES, Pencil, fit_pencil
 from burmester.dyads.sliders import nearest_slider
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
@@ -74,7 +74,7 @@ def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
     """
     length, unit = characteristic_length(task), float(fit.frames.length)
     seen = fit.frames.to_canonical(task.poses)
-    limited = isinstance(fit, BestDyads) and isinstance(fit.search, LimitedDyads)
+    limited = isinstance(fit, BestDyads) and not isinstance(fit.search, CriticalDyads)
     near = 0.0 if limited else None  # it takes a fit of its own, and is seldom asked for
     found: list[Candidate] = []
 

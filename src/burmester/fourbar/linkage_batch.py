@@ -101,13 +101,17 @@ class LinkageBatch:
 
     def _dyads(self, side: int, index: Any) -> RR | PR | RP:
         """The dyads of one side; those indexed are of one kind."""
-        kind = DYAD_KINDS[int(np.ravel(self.kinds[index, side])[0])]
-        row = self.dimensions[index, side]
-        if kind is RR:
-            return RR(row[..., :2], row[..., 2:4], row[..., 4])
-        if kind is PR:
-            return PR(row[..., 0], row[..., 1], row[..., 2:4])
-        return RP(row[..., :2], row[..., 2], row[..., 3])
+        kind = self.kinds[index, side]
+        return _dyads(int(kind if kind.ndim == 0 else kind[0]), self.dimensions[index, side])
+
+    def distances(self, poses: Displacement) -> FloatArray:
+        """The signed distances (k, 2, *) of poses (*,) from the constraints of both dyads."""
+        out = np.empty((*self.kinds.shape, *poses.shape))
+        for kind in range(len(DYAD_KINDS)):
+            if (own := self.kinds == kind).any():
+                rows = self.dimensions[own].reshape(-1, *(1 for _ in poses.shape), DIMENSIONS)
+                out[own] = _dyads(kind, rows).residual(poses)
+        return out
 
     def to_canonical(self, frames: CanonicalFrames) -> LinkageBatch:
         """The same linkages in the frames of one task, or of each one's own (k,)."""
@@ -154,3 +158,12 @@ class LinkageBatch:
         return ConstraintJacobians(
             *(each.reshape(count, 2, *shape[1:], *each.shape[3:]) for each in out)
         )
+
+
+def _dyads(kind: int, rows: FloatArray) -> RR | PR | RP:
+    """The dyads of a kind, by its number, with dimensions (*, 5)."""
+    if DYAD_KINDS[kind] is RR:
+        return RR(rows[..., :2], rows[..., 2:4], rows[..., 4])
+    if DYAD_KINDS[kind] is PR:
+        return PR(rows[..., 0], rows[..., 1], rows[..., 2:4])
+    return RP(rows[..., :2], rows[..., 2], rows[..., 3])

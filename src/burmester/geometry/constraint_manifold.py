@@ -110,22 +110,18 @@ def coefficients_of_circle(
 
     Formula `constraint-manifold` of the theory.
     """
-    xc, yc = np.moveaxis(np.asarray(fixed_pivot, dtype=np.float64), -1, 0)
-    x, y = np.moveaxis(np.asarray(moving_pivot, dtype=np.float64), -1, 0)
+    fixed, moving = np.asarray(fixed_pivot, np.float64), np.asarray(moving_pivot, np.float64)
+    xc, yc, x, y = fixed[..., 0], fixed[..., 1], moving[..., 0], moving[..., 1]
     s1, s2 = -(x + xc) / 2, -(y + yc) / 2
     t1, t2 = -(y - yc) / 2, (x - xc) / 2
     c = np.asarray(radius, dtype=np.float64) ** 2 / 4
-    p = [
-        np.ones_like(c + s1),
-        s1**2 + s2**2 - c,
-        2 * s1,
-        2 * s2,
-        2 * t1,
-        2 * t2,
-        2 * (s1 * t1 + s2 * t2),
-        t1**2 + t2**2 - c,
-    ]
-    return np.stack(np.broadcast_arrays(*p), axis=-1)
+    p2 = s1**2 + s2**2 - c
+    p = np.empty((*p2.shape, 8))
+    p[..., 0], p[..., 1] = 1.0, p2
+    p[..., 2], p[..., 3] = 2 * s1, 2 * s2
+    p[..., 4], p[..., 5] = 2 * t1, 2 * t2
+    p[..., 6], p[..., 7] = 2 * (s1 * t1 + s2 * t2), t1**2 + t2**2 - c
+    return p
 
 
 def circle(coefficients: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:

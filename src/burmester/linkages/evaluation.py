@@ -22,7 +22,6 @@ from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import AllConstraints
-from burmester.refinement.rounding import rounded
 from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes, counted_error, shares_used
 from burmester.tasks.motion_task import Task
@@ -144,6 +143,8 @@ class Evaluation:
         verdicts = self.verdicts(own, places, errors)
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
         standard = Standard.of(self.task)
+        distance = np.abs(own.distances(self.task.poses))
+        rms, worst = np.sqrt((distance**2).mean(axis=-1)).tolist(), distance.max(axis=-1).tolist()
         sides = np.tile(np.arange(2), (len(own), 1))
         out = []
         for k, verdict in enumerate(verdicts):
@@ -153,12 +154,16 @@ class Evaluation:
             clearance = clearance_of(linkage, verdict, driver, self.problem)
             missing += (close := too_close(clearance, self.problem))
             usable = usable and not close
-            parts = linkage, verdict, driver, candidates.pairs[k]
+            one, two = candidates.pairs[k]
+            both = (
+                _with_errors(one, linkage.first, rms[k][0], worst[k][0]),
+                _with_errors(two, linkage.second, rms[k][1], worst[k][1]),
+            )
+            parts = linkage, verdict, driver, both
             if driver == "second" and len(self.task.limits) < 2:
                 sides[k] = (1, 0)
-                parts = _exchanged(linkage, verdict, candidates.pairs[k])
-            linkage, verdict, driver, (one, two) = parts  # noqa: PLW2901
-            dyads = self.dyad(one, linkage.first), self.dyad(two, linkage.second)
+                parts = _exchanged(linkage, verdict, both)
+            linkage, verdict, driver, dyads = parts  # noqa: PLW2901
             found = FoundLinkage(
                 "",
                 0,
@@ -188,6 +193,8 @@ class Evaluation:
 
         Fewer of them where the time is over, but one at least.
         """
+        from burmester.refinement.rounding import rounded  # noqa: PLC0415  seldom asked for
+
         out: list[FoundLinkage] = []
         frames, options = self.target.frames, self.problem.options
         some = found[:MAX_ROUNDED]
@@ -238,7 +245,7 @@ class Evaluation:
         rms, worst = float(np.sqrt((miss**2).mean())), float(miss.max())
         if isinstance(origin, str):
             return FoundDyad(origin, dyad, rms, worst, False)
-        return replace(origin, dyad=dyad, rms_error=rms, max_error=worst)
+        return _with_errors(origin, dyad, rms, worst)
 
     def errors(self, places: Displacement) -> list[PoseError]:
         """The errors of linkages (k,) at places (k, N) in the task's own frames."""
@@ -286,6 +293,8 @@ class Evaluation:
                 in_words_of_tolerances(verdict, share, names)
                 for verdict, share in zip(verdicts, shares, strict=True)
             ]
+        if list(numbers) == list(range(len(numbers))):
+            return verdicts
         return [_with_numbers(verdict, numbers) for verdict in verdicts]
 
     def driver(
@@ -306,7 +315,8 @@ class Evaluation:
                 with_driver_first(linkage, side), driven, asked, self.task.length_unit
             )
             wrong = len(driven.defects), len(missing)
-            weak = -round(float(np.nan_to_num(driven.least_over_range)), 6)  # no rounding decides
+            least = driven.least_over_range
+            weak = 0.0 if math.isnan(least) else -round(least, 6)  # no rounding decides
             poses = sum(len(each.poses) for each in driven.defects)
             return (*map(float, wrong), poses, 0.0 if driven.turns_fully else 1.0, weak), missing
 
@@ -432,6 +442,11 @@ def sizable(batch: LinkageBatch, size: float | FloatArray = 1.0) -> NDArray[np.b
         ((kinds == 1).any(axis=1) | (ground > MIN_LINK * size))
         & ((kinds == 2).any(axis=1) | (coupler > MIN_LINK * size))
     )
+
+
+def _with_errors(origin: FoundDyad, dyad: Dyad, rms: float, worst: float) -> FoundDyad:
+    """A dyad that was changed, with its errors."""
+    return FoundDyad(origin.id, dyad, rms, worst, origin.minimum, origin.limits)
 
 
 def _exchanged(

@@ -57,7 +57,8 @@ def damped_descent(
     ) -> tuple[tuple[Bundle, FloatArray], NDArray[np.bool_]]:
         point, damping = here
         tried = attempt(rows, point, damping)
-        return (where(tried.better, tried.there, point), tried.damping), tried.ended
+        there = tried.there if tried.better.all() else where(tried.better, tried.there, point)
+        return (there, tried.damping), tried.ended
 
     damped = (start, np.full(row_count(start), damping))
     (points, _), ended_at = iterate(advance, damped, rows, max_steps)

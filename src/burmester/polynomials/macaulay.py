@@ -122,24 +122,34 @@ def _add(e: Exponents, f: Exponents) -> Exponents:
 @cache
 def _template() -> _Template:
     """The sparsity pattern of the Macaulay matrix, with 125 independent rows picked."""
-    columns = sorted({_add(_add(a, b), _add(c, d)) for a, b, c, d in product(_V, _V, _V, _V[:5])})
+    products_of_two = {_add(a, b) for a, b in product(_V, _V)}
+    products_of_three = {_add(a, b) for a, b in product(products_of_two, _V)}
+    columns = sorted({_add(a, b) for a, b in product(products_of_three, _V[:5])})
     at = {e: k for k, e in enumerate(columns)}
     conjugates = _Conjugates.of(np.array([at[b, a, d, c] for a, b, c, d in columns]))
-    entry, source, factor = [], [], []
-    number = kept = 0
+    found, number = [], 0
     for terms in (_derivative(0), _derivative(2)):
-        for shift in _shifts(terms, columns):
-            row = np.zeros((len(columns), 49), dtype=complex)  # coefficients, linear in G
-            for exponents, entries in terms:
-                conjugates.add(row, at[_add(shift, exponents)], entries)
-            for part in (row.real, row.imag):
-                if number not in _DEPENDENT:
-                    column, of = np.nonzero(np.abs(part) > NO_COEFFICIENT)
-                    entry.append(kept * len(columns) + column)
-                    source.append(of)
-                    factor.append(part[column, of])
-                    kept += 1
-                number += 1
+        shifts = list(_shifts(terms, columns))
+        monomial = np.array([[at[_add(shift, e)] for e, _ in terms] for shift in shifts])
+        term, of = np.nonzero([coefficients for _, coefficients in terms])
+        value = np.array([coefficients for _, coefficients in terms])[term, of]
+        column, value = conjugates.spread(monomial[:, term], value)
+        row = np.arange(len(shifts))[:, None, None]
+        place = (row * len(columns) + column) * 49 + of[:, None]
+        place, same = np.unique(place.ravel(), return_inverse=True)
+        for part, values in enumerate((value.real, value.imag)):
+            coefficient = np.bincount(same.ravel(), values.ravel())
+            some = np.abs(coefficient) > NO_COEFFICIENT
+            row, entry = np.divmod(place[some], 49 * len(columns))
+            found.append((number + 2 * row + part, entry, coefficient[some]))
+        number += 2 * len(shifts)
+    polynomial, entry, factor = (np.concatenate(each) for each in zip(*found, strict=True))
+    independent = np.ones(number, dtype=bool)
+    independent[list(_DEPENDENT)] = False
+    kept = np.flatnonzero(independent[polynomial])
+    kept = kept[np.argsort(polynomial[kept], kind="stable")]
+    rank = np.cumsum(independent) - 1
+    column, source = np.divmod(entry[kept], 49)
 
     def products(*factors: Exponents) -> NDArray[np.int_]:
         """The columns of monomials, and those of their products with each of some factors."""
@@ -147,10 +157,10 @@ def _template() -> _Template:
         return np.array([[at[_add(e, factor)] for e in fit] for factor in (_ONE, *factors)])
 
     return _Template(
-        np.concatenate(entry),
-        np.concatenate(source),
-        np.concatenate(factor),
-        (kept, len(columns)),
+        rank[polynomial[kept]] * len(columns) + column,
+        source,
+        factor[kept],
+        (int(independent.sum()), len(columns)),
         conjugates.real,
         conjugates.imaginary,
         conjugates.weights[..., None],
@@ -178,10 +188,13 @@ class _Conjugates(NamedTuple):
         weights = np.array([np.where(side == 0, 1, np.sqrt(0.5)), 1j * np.sqrt(0.5) * side])
         return cls(np.minimum(own, conjugate), np.maximum(own, conjugate), weights)
 
-    def add(self, row: ComplexArray, monomial: int, coefficients: ComplexArray) -> None:
-        """Add coefficients (49,) of a monomial to a row (n, 49) of real columns."""
-        row[self.real[monomial]] += self.weights[0, monomial] * coefficients
-        row[self.imaginary[monomial]] += self.weights[1, monomial] * coefficients
+    def spread(
+        self, monomial: NDArray[np.int_], coefficient: ComplexArray
+    ) -> tuple[NDArray[np.int_], ComplexArray]:
+        """The real columns (*, 2) of monomials (*,), and what coefficients (*,) give to each."""
+        column = np.stack([self.real[monomial], self.imaginary[monomial]], axis=-1)
+        weights = np.moveaxis(self.weights[:, monomial], 0, -1)
+        return column, weights * coefficient[..., None]
 
 
 def _features_by_monomials() -> ComplexArray:

@@ -73,6 +73,8 @@ class DyadLimitsConstraint:
     side: int
     limits: Limits
     frames: CanonicalFrames
+    ends: FloatArray = field(init=False, repr=False)
+    sense: FloatArray = field(init=False, repr=False)
     pivots: tuple[_KeptPivot, ...] = field(init=False, repr=False)
     uses_places: ClassVar[bool] = False
 
@@ -88,6 +90,9 @@ class DyadLimitsConstraint:
             if region is not None
         )
         object.__setattr__(self, "pivots", pivots)
+        ends = np.array(self.limits.length) / unit
+        object.__setattr__(self, "ends", ends)
+        object.__setattr__(self, "sense", np.where(np.isfinite(ends), [-1.0, 1.0], 0.0))
 
     def __call__(
         self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
@@ -106,30 +111,25 @@ class DyadLimitsConstraint:
     ) -> ConstraintSlopes:
         """By the dimensions alone."""
         kind, z = batch.kinds[:, self.side], batch.dimensions[:, self.side]
-        first, unknowns = DIMENSIONS * self.side, place_jacobian.shape[-1]
-        ends = np.array(self.limits.length) / float(self.frames.length)
-        sense = np.where(np.isfinite(ends), [-1.0, 1.0], 0.0)
+        first, sense = DIMENSIONS * self.side, self.sense
         with np.errstate(invalid="ignore"):
-            link = np.where(sense != 0, sense * (z[:, 4:] - ends), -1.0)
+            link = np.where(sense != 0, sense * (z[:, 4:] - self.ends), -1.0)
         rod = (kind == 0)[:, None]
-        slope = np.zeros((len(batch), 2, unknowns))
-        slope[..., first + 4] = np.where(rod, sense, 0.0)
-        values, slopes = [np.where(rod, link, -1.0)], [slope]
-        equal = [np.zeros(2, dtype=bool)]
+        values, equal = [np.where(rod, link, -1.0)], [np.zeros(2, dtype=bool)]
+        slopes = [(slice(first + 4, first + 5), np.where(rod, sense, 0.0)[..., None])]
         for pivot in self.pivots:
             off, by_point = pivot.differentiated(z[:, pivot.at : pivot.at + 2])
             point = (kind != pivot.line)[:, None]
-            slope = np.zeros((*off.shape, unknowns))
             columns = slice(first + pivot.at, first + pivot.at + 2)
-            slope[..., columns] = np.where(point[..., None], by_point, 0.0)
+            slopes.append((columns, np.where(point[..., None], by_point, 0.0)))
             values.append(np.where(point, off, 0.0))
-            slopes.append(slope)
             equal.append(np.arange(off.shape[1]) < pivot.equations)
-        return (
-            np.concatenate(values, axis=1),
-            np.concatenate(slopes, axis=1),
-            np.concatenate(equal),
-        )
+        value, at = np.concatenate(values, axis=1), 0
+        slope = np.zeros((*value.shape, place_jacobian.shape[-1]))
+        for columns, part in slopes:
+            slope[:, at : at + part.shape[1], columns] = part
+            at += part.shape[1]
+        return value, slope, np.concatenate(equal)
 
 
 def _half_planes(region: Region) -> FloatArray | None:

@@ -164,7 +164,12 @@ class Problem:
         value, slope, equal = self.constraints.differentiated(
             self.batch(which, state.z), state.rows, which, state.place_jacobian
         )
-        return value, np.where(self.free_unknowns(which)[:, None], slope, 0.0), equal
+        return value, self.held(which, slope), equal
+
+    def held(self, which: NDArray[np.intp], jacobian: FloatArray) -> FloatArray:
+        """Derivatives (k, *, n), written to: 0 for unknowns that may not change."""
+        np.copyto(jacobian[..., :SIZE], 0.0, where=~self.free[which][:, None])
+        return jacobian
 
     def free_unknowns(self, which: NDArray[np.intp]) -> NDArray[np.bool_]:
         """The unknowns (k, n) that may change."""
@@ -214,7 +219,7 @@ def linearised(
 ) -> Linearisation:
     """Residuals (k, *) and derivatives (k, *, n), 0 for unknowns that may not change."""
     residual, jacobian = problem.powered(state, power)
-    return Linearisation(residual, np.where(problem.free_unknowns(which)[:, None], jacobian, 0.0))
+    return Linearisation(residual, problem.held(which, jacobian))
 
 
 def all_constraints(
@@ -225,7 +230,7 @@ def all_constraints(
     value, jacobian, equalities = problem.constraint_values(which, state)
     exact = state.residual[:, problem.exact].reshape(count, -1)
     turn = state.jacobian[:, problem.exact].reshape(count, -1, state.jacobian.shape[-1])
-    turn = np.where(problem.free_unknowns(which)[:, None], turn, 0.0)
+    turn = problem.held(which, turn)
     equal = np.concatenate([np.ones(exact.shape[1], dtype=bool), equalities])
     return np.concatenate([exact, value], axis=1), np.concatenate([turn, jacobian], axis=1), equal
 

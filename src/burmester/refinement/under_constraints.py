@@ -235,9 +235,7 @@ class _Descent:
         good_steps = self.good_steps[rows]
         refused = np.where(good_steps >= STEPS_BEFORE_CURVATURE, 0, good_steps)
         self.good_steps[rows] = np.where(better, good_steps + 1, refused)
-        self._learn(
-            rows[better], step[better], take(here, better), take(there, better), multipliers[better]
-        )
+        self._learn(rows[better], step[better], here, there, multipliers[better], taken=better)
         miss = np.where(better, self.violation(there.constraints.residual), before)
         stuck = (miss > FEASIBLE) & (ahead > before / 2) & (penalty < MAX_PENALTY)
         least = np.maximum(MULTIPLIER_FACTOR * np.abs(multipliers).max(axis=1, initial=0), FEASIBLE)
@@ -285,12 +283,17 @@ class _Descent:
         here: _Point,
         there: _Point,
         multipliers: FloatArray,
+        *,
+        taken: NDArray[np.bool_],
     ) -> None:
-        """Keep the multipliers of steps taken, and how the equations bent on the way."""
+        """Keep the multipliers of steps taken, and how the equations bent on the way.
+
+        taken: which rows of the points, those before and after, the steps are of.
+        """
         before, after = (
             Linearisation(
-                np.concatenate([each.model.residual, multipliers], axis=1),
-                np.concatenate([each.model.jacobian, each.constraints.jacobian], axis=1),
+                np.concatenate([each.model.residual[taken], multipliers], axis=1),
+                np.concatenate([each.model.jacobian, each.constraints.jacobian], axis=1)[taken],
             )
             for each in (here, there)
         )

@@ -10,7 +10,6 @@ from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.long_links import is_nearly_slider, swing
-from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.dyads.selection import within_digits
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
@@ -58,30 +57,18 @@ def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
         if isinstance(dyad := each.dyad, RR) and is_nearly_slider(dyad, poses, size)
     ]
     for fit in found.fits:
-        search = fit.search if isinstance(fit, BestDyads) else None
-        if isinstance(fit, BestDyads) and isinstance(search, CriticalDyads):
-            warnings += _unaccounted(problem, found, fit, search)
         if isinstance(fit, FivePoseDyads):
-            off = [
-                each.id
-                for each in found.dyads[: found.meeting]
-                if not within_digits(each, problem.task)
-            ]
-            if off:
-                warnings.append(
-                    Advice(
-                        "W207",
-                        f"rounding took digits of {listed(off)}, which should meet all poses and "
-                        f"{'does' if len(off) == 1 else 'do'} not: a dyad may be missing",
-                        "give poses with more rotation between them, or origins nearer to them",
-                    )
-                )
-        if isinstance(search, LimitedDyads) and (search.lost or search.unsettled):
+            warnings += _off_poses(problem, found)
+        elif not isinstance(fit, BestDyads):
+            continue
+        elif isinstance(fit.search, CriticalDyads):
+            warnings += _unaccounted(problem, found, fit, fit.search)
+        elif fit.search.lost or fit.search.unsettled:
             warnings.append(
                 Advice(
                     "W207",
-                    f"{count(search.lost, 'path')} of the search and "
-                    f"{count(search.unsettled, 'way')} down from it were lost: a locally best "
+                    f"{count(fit.search.lost, 'path')} of the search and "
+                    f"{count(fit.search.unsettled, 'way')} down from it were lost: a locally best "
                     "dyad may be missing",
                     "move a limit a little and compare",
                 )
@@ -97,6 +84,22 @@ def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
             )
         )
     return warnings
+
+
+def _off_poses(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
+    """What is said of dyads that should meet all five poses and do not."""
+    some = found.dyads[: found.meeting]
+    off = [each.id for each in some if not within_digits(each, problem.task)]
+    if not off:
+        return []
+    return [
+        Advice(
+            "W207",
+            f"rounding took digits of {listed(off)}, which should meet all poses and "
+            f"{'does' if len(off) == 1 else 'do'} not: a dyad may be missing",
+            "give poses with more rotation between them, or origins nearer to them",
+        )
+    ]
 
 
 def _unaccounted(
@@ -230,7 +233,7 @@ def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:
         faces = sum(
             fit.search.systems
             for fit in search.fits
-            if isinstance(fit, BestDyads) and isinstance(fit.search, LimitedDyads)
+            if isinstance(fit, BestDyads) and not isinstance(fit.search, CriticalDyads)
         )
         exact = problem.options.method == "exact"
         dyads = count(len(found), "dyad" if exact else "locally best dyad")

@@ -177,7 +177,7 @@ class Requirements:
     @property
     def has_any(self) -> bool:
         """Whether there is any requirement at all."""
-        return self != Requirements()
+        return self != _NO_REQUIREMENTS
 
     @property
     def allowed_types(self) -> frozenset[str] | None:
@@ -342,3 +342,6 @@ def _kinds_in_words(kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> str:
 
 def _pair_in_words(pair: tuple[Kind, Kind]) -> str:
     return f"two {pair[0]} dyads" if pair[0] == pair[1] else f"dyads {pair[0]} and {pair[1]}"
+
+
+_NO_REQUIREMENTS = Requirements()

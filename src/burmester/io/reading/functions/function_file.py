@@ -10,7 +10,6 @@ from __future__ import annotations
 import json
 import math
 import os
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import PurePath
 from typing import Any, Final
@@ -19,23 +18,21 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
-from burmester.io.reading.file_content import decode_text, is_archive, is_parquet
+from burmester.io.reading.file_content import is_parquet
+from burmester.io.reading.functions.function_kind import source_of
 from burmester.io.reading.functions.function_options import (
     FunctionSettings,
     task_of_function,
     task_of_pairs,
 )
 from burmester.io.reading.functions.pair_table import (
-    has_pairs,
-    header_of,
-    is_pair_parquet,
     read_pair_parquet,
     read_pair_text,
     require_weights,
 )
 from burmester.io.reading.pose_table import Source, shown
 
-__all__ = ["is_function", "is_function_text", "read_function", "settings_of_tree", "task_of_tree"]
+__all__ = ["read_function", "settings_of_tree", "task_of_tree"]
 
 SETTINGS: Final = (
     "minimax", "input_phase_deg", "output_phase_deg", "ground", "transmission_deg", "link_ratio",
@@ -44,51 +41,6 @@ KEYS: Final = (
     "expression", "x", "input_deg", "output_deg", "opposite", "pairs", "spacing", *SETTINGS,
 )  # fmt: skip
 PAIR_KEYS: Final = ("input_deg", "output_deg", "weight")
-
-
-def is_function(data: bytes, path: str, sheet: str | None = None) -> bool:
-    """Whether the bytes of a file are a function task, whatever is wrong with it."""
-    if is_parquet(data):
-        return is_pair_parquet(data)
-    if is_archive(data):
-        from burmester.io.reading.tables.workbook import may_hold
-
-        if not may_hold(data, _IN_A_WORKBOOK):
-            return False
-    try:
-        source = _source(data, path, sheet)
-    except InputError:
-        return False
-    if source.sheet is not None:
-        return has_pairs(header_of(source.text).names)
-    return is_function_text(source.text, path)
-
-
-_IN_A_WORKBOOK: Final = re.compile(rb"(?i)(input|output)_(deg|rad)")
-
-
-def _source(data: bytes, path: str, sheet: str | None) -> Source:
-    """The text in a file, or in a sheet of a workbook."""
-    label = "<stdin>" if path == "-" else os.fspath(path)
-    if is_archive(data):
-        from burmester.io.reading.tables.workbook import read_sheet
-
-        return read_sheet(label, data, sheet)
-    if sheet is not None:
-        message = "--sheet is for .xlsx workbooks; this file has one table"
-        raise InputError("E108", message, where=label, help="leave --sheet out")
-    text, notes = decode_text(data)
-    return Source(label, text, notes)
-
-
-def is_function_text(text: str, path: str) -> bool:
-    """The same of the text in a file."""
-    suffix = PurePath(path).suffix.lower()
-    if suffix == ".toml":
-        return bool(re.search(r"(?m)^\s*\[\s*function\s*\]", text))
-    if suffix == ".json" or text.lstrip().startswith(("{", "[")):
-        return bool(re.match(r'\s*\{\s*"(schema"\s*:\s*"burmester\.function/|function"\s*:)', text))
-    return has_pairs(header_of(text).names)
 
 
 def read_function(
@@ -107,7 +59,7 @@ def read_function(
     try:
         if is_parquet(data):
             return read_pair_parquet(label, data, settings)
-        source = _source(data, path, sheet)
+        source = source_of(data, path, sheet)
         if source.sheet is None and suffix == ".toml":
             return task_of_tree(_toml(source), settings)
         if source.sheet is None and (suffix == ".json" or source.text.lstrip().startswith("{")):

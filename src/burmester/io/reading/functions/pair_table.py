@@ -9,7 +9,6 @@ E104 not a number                  E108 a column twice
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from typing import Any, Final, NamedTuple
 
@@ -17,32 +16,20 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
+from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, has_pairs, header_of
 from burmester.io.reading.functions.function_options import FunctionSettings, task_of_pairs
-from burmester.io.reading.pose_table import SHEET_HEAD, Source, no_poses, plain_number, shown
-from burmester.io.reading.tables.columns import has_poses
+from burmester.io.reading.pose_table import Source, no_poses, plain_number, shown
 from burmester.numerics.arrays import FloatArray
 
 __all__ = [
-    "ANGLE_COLUMNS",
     "WEIGHT",
-    "has_pairs",
-    "header_of",
     "is_pair_parquet",
     "read_pair_parquet",
     "read_pair_text",
     "require_weights",
 ]
 
-ANGLE_COLUMNS: Final = re.compile(r"(input|output)_(deg|rad)")
 WEIGHT: Final = "weight"
-
-
-class Header(NamedTuple):
-    """The line with the names of columns: its place from 0, its cells, and the separator."""
-
-    line: int
-    names: list[str]
-    separator: str
 
 
 class Column(NamedTuple):
@@ -50,29 +37,6 @@ class Column(NamedTuple):
 
     place: int
     unit: str
-
-
-def header_of(text: str) -> Header:
-    """The first line of a table that is no comment."""
-    for number, line in enumerate(text.split("\n")):
-        if line.strip() and not line.lstrip().startswith("#") and number_of_head(text) <= number:
-            separator = next((s for s in ";\t|," if s in line), ",")
-            return Header(number, [_word(cell) for cell in line.split(separator)], separator)
-    return Header(0, [], ",")
-
-
-def number_of_head(text: str) -> int:
-    """How many lines stand before those of a table."""
-    return int(text.startswith(SHEET_HEAD))
-
-
-def has_pairs(names: Sequence[str]) -> bool:
-    """Whether columns of these names are a function's, whatever is wrong with them."""
-    return any(map(ANGLE_COLUMNS.fullmatch, names)) and not has_poses(names)
-
-
-def _word(cell: str) -> str:
-    return cell.strip().strip('"').lower()
 
 
 def _columns(names: Sequence[str], where: str | None) -> dict[str, Column]:
