@@ -18,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.curves.crank_linkages import G1, G2, SIZE, A, B, C, CrankLinkages, R, along
+from burmester.curves.curve_kernel import normal_equations
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import solve
 
-__all__ = ["CurveFit", "PathTarget", "descend", "feet"]
+__all__ = ["CurveFit", "PathTarget", "descend"]
 
 START_DAMPING = 1e-2  # in units of the squared columns of the Jacobian
 MIN_DAMPING, MAX_DAMPING = 1e-12, 1e8
@@ -93,63 +94,72 @@ def descend(start: CurveFit, target: PathTarget, steps: int) -> CurveFit:
     return CurveFit(CrankLinkages(ends.z, ends.assembly), ends.t, ends.cost)
 
 
-def feet(linkages: CrankLinkages, t: FloatArray, points: ComplexArray, steps: int) -> FloatArray:
-    """The crank angles (k, n) of the feet of the normals from points (n,), near t (k, n)."""
-    for _ in range(steps):
-        places = linkages.at(t)
-        v = places.velocity
-        size = v.real**2 + v.imag**2
-        with np.errstate(invalid="ignore", divide="ignore"):
-            move = along(v, points - places.point) / size
-        t = t + np.clip(np.nan_to_num(move), -MAX_TURN, MAX_TURN)
-    return t
-
-
 def _point(
     linkages: CrankLinkages, t: FloatArray, target: PathTarget, scale: FloatArray | None
 ) -> _Point:
-    timed = target.timing is not None
-    if not timed:
-        t = feet(linkages, t, target.points, FOOT_STEPS)
-    places = linkages.at(t)
-    gap = places.point - target.points
-    with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
-        cost = ((gap.real**2 + gap.imag**2) * target.share**2).sum(axis=-1)
-        v = places.velocity
-        if timed:
-            ones = np.ones_like(v)
-            parts = [
-                np.concatenate([linkages.derivatives(places, d), along(d, v)[..., None]], axis=-1)
-                * target.share[:, None]
-                for d in (ones, 1j * ones)
-            ]
-            jacobian = np.concatenate(parts, axis=1)
-            residual = np.concatenate([gap.real * target.share, gap.imag * target.share], axis=1)
-        else:
-            across = 1j * v / np.abs(v)
-            jacobian = linkages.derivatives(places, across) * target.share[:, None]
-            residual = along(across, gap) * target.share
-        jacobian = np.where(np.isfinite(cost)[:, None, None], jacobian, 0.0)
-        jacobian, residual = np.nan_to_num(jacobian), np.nan_to_num(residual)
-        columns = np.sqrt((jacobian * jacobian).sum(axis=1))
+    sums = _timed_sums if target.timing is not None else _distance_sums
+    t, cost, gradient, normal = sums(linkages, t, target)
     if target.transmission is not None:
-        lack, slope = _not_as_built(linkages, t, target)
-        if timed:
-            slope = np.concatenate([slope, np.zeros((*slope.shape[:2], 1))], axis=-1)
-        residual = np.concatenate([residual, lack], axis=1)
-        jacobian = np.concatenate([jacobian, slope], axis=1)
-        columns = np.sqrt((jacobian * jacobian).sum(axis=1))
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            lack, slope = _not_as_built(linkages, t, target)
+        swapped = np.nan_to_num(np.swapaxes(slope, -1, -2))
+        normal[:, :SIZE, :SIZE] += swapped @ np.swapaxes(swapped, -1, -2)
+        gradient[:, :SIZE] += (swapped @ np.nan_to_num(lack)[..., None])[..., 0]
         cost = cost + (lack * lack).sum(axis=1)
     if target.turns:
         cost = np.where(linkages.turns_fully(FULLNESS / 2), cost, np.inf)
     cost = np.where(np.isfinite(cost), cost, np.inf)
+    columns = np.sqrt(np.diagonal(normal, axis1=-2, axis2=-1))
     floor = 1e-9 * columns.max(axis=-1, keepdims=True) + np.finfo(float).tiny
     columns = np.maximum(columns, floor)
     scale = columns if scale is None else np.maximum(scale * 0.7, columns)
-    scaled = jacobian / scale[:, None, :]
-    swapped = np.swapaxes(scaled, -1, -2)
-    normal, gradient = swapped @ scaled, (swapped @ residual[..., None])[..., 0]
-    return _Point(linkages.dimensions, linkages.assembly, t, cost, scale, normal, gradient)
+    normal = normal / scale[:, :, None] / scale[:, None, :]
+    return _Point(linkages.dimensions, linkages.assembly, t, cost, scale, normal, gradient / scale)
+
+
+def _distance_sums(
+    linkages: CrankLinkages, t: FloatArray, target: PathTarget
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """The crank angles of the feet, sums of squares (k,), gradients (k, 9), normal equations."""
+    number = len(linkages)
+    feet_at, cost = np.array(t, dtype=np.float64, order="C"), np.empty(number)
+    gradient, normal = np.empty((number, SIZE)), np.empty((number, SIZE, SIZE))
+    points = np.column_stack([target.points.real, target.points.imag, target.share])
+    normal_equations(
+        linkages.dimensions,
+        linkages.assembly,
+        points,
+        feet_at,
+        FOOT_STEPS,
+        MAX_TURN,
+        cost,
+        gradient,
+        normal,
+    )
+    return feet_at, cost, gradient, normal
+
+
+def _timed_sums(
+    linkages: CrankLinkages, t: FloatArray, target: PathTarget
+) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """The same at given crank angles, of both components; the phase is the tenth unknown."""
+    places = linkages.at(t)
+    gap, v = places.point - target.points, places.velocity
+    with np.errstate(invalid="ignore", over="ignore"):
+        cost = ((gap.real**2 + gap.imag**2) * target.share**2).sum(axis=-1)
+        ones = np.ones_like(v)
+        parts = [
+            np.concatenate([linkages.derivatives(places, d), along(d, v)[..., None]], axis=-1)
+            * target.share[:, None]
+            for d in (ones, 1j * ones)
+        ]
+        residual = np.concatenate([gap.real * target.share, gap.imag * target.share], axis=1)
+    sound = np.isfinite(cost)
+    jacobian = np.where(sound[:, None, None], np.concatenate(parts, axis=1), 0.0)
+    residual = np.where(sound[:, None], residual, 0.0)
+    jacobian, residual = np.nan_to_num(jacobian), np.nan_to_num(residual)
+    swapped = np.swapaxes(jacobian, -1, -2)
+    return t, cost, (swapped @ residual[..., None])[..., 0], swapped @ jacobian
 
 
 def _not_as_built(

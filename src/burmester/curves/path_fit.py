@@ -35,7 +35,9 @@ MAX_SEARCHED_POINTS = 60  # a search takes so many, evenly chosen; the last refi
 ROUNDS = ((8, 300), (20, 100), (100, 40))
 STARTS = 800  # curves of the atlas that are refined
 MORE_STEPS = 80  # with all points, where the search took some
+LAST, LAST_STEPS = 6, 400  # the best curves are refined to their end; valleys may be long
 SAME_CURVE = 2e-3  # radii of gyration; curves that are nearer at all feet are one curve
+SAME_SHARE = 0.3  # of the root mean square distance; the same while curves are still refined
 # For each least transmission angle: starts, rounds as above, degrees by which a start may transmit
 # worse, and margins, degrees and relative, by which the angle and the ratio are kept.
 STARTS_OF_LEVEL, ROUNDS_OF_LEVEL = 120, ((8, 40), (20, 12), (60, 8))
@@ -121,11 +123,13 @@ def cranks_near_points(
     for number, (steps, kept) in enumerate(ROUNDS):
         fit = _best(descend(fit, part, steps), kept)
         if number:
-            fit = _different(fit, part.points.size, kept)
+            fit = _different(fit, part, kept, SAME_SHARE)
     if len(index) < len(every):
         fit = _best(descend(_at_all(fit, index, len(every)), whole, MORE_STEPS), len(fit.cost))
-    fit = _different(fit, len(every), most)
-    return _scaled(fit, size, middle)
+    fit = _different(fit, whole, max(most, LAST))
+    last = descend(take(fit, slice(0, LAST)), whole, LAST_STEPS)
+    fit = _best(concatenate([last, take(fit, slice(LAST, None))]), len(fit.cost))
+    return _scaled(_different(fit, whole, most), size, middle)
 
 
 def cranks_like_path(
@@ -191,7 +195,7 @@ def linkages_transmitting_well(
         for steps, number_kept in ROUNDS_OF_LEVEL:
             fit = _best(descend(fit, target, steps), number_kept)
         if len(fit.cost):
-            kept.append(_different(fit, len(index), most))
+            kept.append(_different(fit, part, most))
     fits = concatenate(kept) if kept else take(start, slice(0, 0))
     fits = _scaled(_at_all(fits, index, len(every)), size, middle)
     return fits.linkages.batch(), fits.linkages.rows(fits.t)
@@ -227,13 +231,18 @@ def _best(fit: CurveFit, most: int) -> CurveFit:
     return take(fit, order[np.isfinite(fit.cost[order])][:most])
 
 
-def _different(fit: CurveFit, number: int, most: int) -> CurveFit:
-    """Different curves (k,), the nearest of each, cognates being one."""
+def _different(fit: CurveFit, target: PathTarget, most: int, share: float = math.inf) -> CurveFit:
+    """Different curves (k,), the nearest of each, cognates being one.
+
+    share: of the root mean square distance of the nearer one, at which they differ at the latest.
+    What is on its way to a better end is then not taken for a good curve that it passes.
+    """
     traced = fit.linkages.at(fit.t).point
+    near = np.minimum(SAME_CURVE, share * np.sqrt(fit.cost / len(target.points)))
     kept: list[int] = []
     for k, curve in enumerate(traced):
-        away = np.abs(traced[kept] - curve).max(axis=-1) if kept else np.ones(1)
-        if away.min() > SAME_CURVE:
+        away = np.abs(traced[kept] - curve).max(axis=-1)
+        if (away > near[kept]).all():
             kept.append(k)
         if len(kept) == most:
             break

@@ -1,0 +1,13 @@
+from burmester.numerics.arrays import FloatArray
+
+def normal_equations(
+    dimensions: FloatArray,
+    assembly: FloatArray,
+    points: FloatArray,
+    t: FloatArray,
+    foot_steps: int,
+    longest_turn: float,
+    cost: FloatArray,
+    gradient: FloatArray,
+    normal: FloatArray,
+) -> None: ...
