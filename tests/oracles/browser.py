@@ -12,15 +12,17 @@ NAMES = ("chromium", "chromium-browser", "google-chrome")
 SECONDS = 60.0  # that anything may take on a busy machine
 # A picture follows what stands beside it one frame later: it has come to rest when an element has
 # the same place and says the same of itself in three frames.
-REST = """(node) => new Promise((done) => {
+REST = """(node, most) => new Promise((done, fail) => {
   const seen = () => JSON.stringify([node.getBoundingClientRect(), { ...node.dataset }]);
+  const start = performance.now();
   let before = null, same = 0;
   const look = () => {
     const now = seen();
     same = now === before ? same + 1 : 0;
     before = now;
-    if (same < 2) requestAnimationFrame(look);
-    else done();
+    if (same >= 2) done();
+    else if (performance.now() - start > most) fail(new Error(`it never came to rest: ${now}`));
+    else requestAnimationFrame(look);
   };
   look();
 })"""
@@ -80,14 +82,15 @@ def opened(browser, file, *, before=None, width=1440, height=900, **options):
 
 def at_rest(locator):
     """The box of an element, in pixels of the window, when it no longer moves."""
-    locator.evaluate(REST)
+    locator.evaluate(REST, 1000 * SECONDS)
     return locator.bounding_box()
 
 
 def idle(page, milliseconds=0):
-    """Wait so long in the page, and until it has nothing to do."""
+    """Wait so long in the page, and until it has nothing to do; two seconds for one that plays."""
     page.evaluate(
-        "(time) => new Promise((done) => setTimeout(() => requestIdleCallback(done), time))",
+        """(time) => new Promise((done) =>
+          setTimeout(() => requestIdleCallback(done, { timeout: 2000 }), time))""",
         milliseconds,
     )
 

@@ -403,7 +403,7 @@ def test_it_plays_smoothly(browser, file, record_property):
               const start = performance.now();
               const look = () => {
                 const seconds = (performance.now() - start) / 1000, frames = window.costs.length;
-                if (seconds >= 1 && frames > 5) done([frames, seconds]);
+                if ((seconds >= 1 && frames > 5) || seconds > 60) done([frames, seconds]);
                 else setTimeout(look, 50);
               };
               look();
@@ -412,6 +412,7 @@ def test_it_plays_smoothly(browser, file, record_property):
         costs = page.evaluate("window.costs")
         record_property("frames_per_second", round(frames / seconds, 1))
         print(f"{frames / seconds:.0f} frames a second, {np.median(costs):.2f} ms of script each")
+        assert frames > 5
         page.click(".bm-play")
         rest = page.evaluate(DRAWN)
         browsers.idle(page, 100)
