@@ -27,10 +27,19 @@ class KernelsHook(BuildHookInterface):
         root = Path(self.root)
         build_data.update(pure_python=False, infer_tag=True)
         work = self.work = tempfile.TemporaryDirectory()
-        for kernel in sorted((root / SOURCES).rglob("*_kernel.py")):
-            name = ".".join(kernel.relative_to(root / SOURCES).with_suffix("").parts)
-            beside = kernel.with_name(kernel.stem + EXTENSION_SUFFIXES[0])
-            made = beside if is_newer(beside, kernel) else compiled(name, kernel, Path(work.name))
+        kernels = {
+            ".".join(kernel.relative_to(root / SOURCES).with_suffix("").parts): kernel
+            for kernel in sorted((root / SOURCES).rglob("*_kernel.py"))
+        }
+        places = {
+            name: kernel.with_name(kernel.stem + EXTENSION_SUFFIXES[0])
+            for name, kernel in kernels.items()
+        }
+        old = {name: each for name, each in kernels.items() if not is_newer(places[name], each)}
+        new = compiled(old, Path(work.name))
+        for name, kernel in kernels.items():
+            beside = places[name]
+            made = new.get(name, beside)
             if version != "editable":
                 inside = kernel.relative_to(root / SOURCES).with_name(made.name)
                 build_data["force_include"][str(made)] = str(inside)
@@ -49,16 +58,21 @@ def is_newer(made, source):
     return made_at > max(source.stat().st_mtime, Path(__file__).stat().st_mtime)
 
 
-def compiled(name, source, work):
-    """The path of a module's extension, made in a folder."""
-    extension = Extension(name, [str(source)], extra_compile_args=FLAGS)
-    extensions = cythonize([extension], build_dir=str(work / "c"), quiet=True)
+def compiled(sources, work):
+    """The paths of modules' extensions by their names, made in a folder side by side."""
+    if not sources:
+        return {}
+    extensions = [
+        Extension(name, [str(source)], extra_compile_args=FLAGS) for name, source in sources.items()
+    ]
+    extensions = cythonize(extensions, build_dir=str(work / "c"), quiet=True)
     distribution = Distribution({"name": "kernels", "ext_modules": extensions})
     command = distribution.get_command_obj("build_ext")
     command.build_lib, command.build_temp = str(work / "lib"), str(work / "o")
+    command.parallel = len(sources)
     try:
         command.ensure_finalized()
         command.run()
     except BaseError as error:
         raise SystemExit(f"{HELP}\n{error}") from None
-    return Path(command.get_ext_fullpath(name))
+    return {name: Path(command.get_ext_fullpath(name)) for name in sources}

@@ -586,7 +586,7 @@ def test_ctrl_c_leaves_quietly(tmp_path):
 
 def test_a_closed_pipe_is_not_an_error(poses):
     done = subprocess.run(
-        f"{sys.executable} -m burmester reproduce | head -n 1; echo ${{PIPESTATUS[0]}}",
+        f"{sys.executable} -m burmester explain | true; echo ${{PIPESTATUS[0]}}",
         shell=True,
         executable="/bin/bash",
         capture_output=True,

@@ -9,6 +9,28 @@ from contextlib import contextmanager
 import pytest
 
 NAMES = ("chromium", "chromium-browser", "google-chrome")
+SECONDS = 60.0  # that anything may take on a busy machine
+# A picture follows what stands beside it one frame later: it has come to rest when an element has
+# the same place and says the same of itself in three frames.
+REST = """(node, most) => new Promise((done, fail) => {
+  const seen = () => JSON.stringify([node.getBoundingClientRect(), { ...node.dataset }]);
+  const start = performance.now();
+  let before = null, same = 0;
+  const look = () => {
+    const now = seen();
+    same = now === before ? same + 1 : 0;
+    before = now;
+    if (same >= 2) done();
+    else if (performance.now() - start > most) fail(new Error(`it never came to rest: ${now}`));
+    else requestAnimationFrame(look);
+  };
+  look();
+})"""
+# What a press there would meet, in shadow roots, too.
+MEETS = """(node, [x, y]) => {
+  const hit = node.getRootNode().elementFromPoint(x, y);
+  return hit === node || node.contains(hit) ? "" : hit ? hit.outerHTML.slice(0, 300) : "nothing";
+}"""
 
 
 def path():
@@ -44,7 +66,7 @@ def opened(browser, file, *, before=None, width=1440, height=900, **options):
     """
     options.setdefault("reduced_motion", "reduce")
     context = browser.new_context(viewport={"width": width, "height": height}, **options)
-    context.set_default_timeout(20_000)
+    context.set_default_timeout(1000 * SECONDS)
     page, said, asked = context.new_page(), [], []
     page.on("console", lambda message: said.append(message.text))
     page.on("pageerror", lambda error: said.append(str(error)))
@@ -56,3 +78,26 @@ def opened(browser, file, *, before=None, width=1440, height=900, **options):
         yield page, said, asked
     finally:
         context.close()
+
+
+def at_rest(locator):
+    """The box of an element, in pixels of the window, when it no longer moves."""
+    locator.evaluate(REST, 1000 * SECONDS)
+    return locator.bounding_box()
+
+
+def idle(page, milliseconds=0):
+    """Wait so long in the page, and until it has nothing to do; two seconds for one that plays."""
+    page.evaluate(
+        """(time) => new Promise((done) =>
+          setTimeout(() => requestIdleCallback(done, { timeout: 2000 }), time))""",
+        milliseconds,
+    )
+
+
+def press(page, locator, x, y):
+    """Press the button there, where the element has to be what is pressed."""
+    page.mouse.move(x, y)
+    met = locator.evaluate(MEETS, [x, y])
+    assert not met, f"pressed is not {locator}, but {met}"
+    page.mouse.down()

@@ -13,7 +13,9 @@ import time
 from contextlib import contextmanager
 from pathlib import Path
 
-SECONDS = 30.0  # that anything may take on a busy machine
+from tests.oracles import browser
+
+SECONDS = browser.SECONDS
 
 
 # Times in the page, by what goes over the websocket of the kernel.
@@ -137,7 +139,7 @@ def address(runtime, process):
 
 
 @contextmanager
-def notebook(browser, folder, code, *, width=1000, height=900, before=None, **options):
+def notebook(chromium, folder, code, *, width=1000, height=900, before=None, **options):
     """A notebook with one cell, which was run."""
     from jupyter_client import BlockingKernelClient  # noqa: PLC0415
 
@@ -151,7 +153,7 @@ def notebook(browser, folder, code, *, width=1000, height=900, before=None, **op
     (Path(folder) / "one.ipynb").write_text(json.dumps(whole))
     with server(folder) as ((url, token), runtime):
         options.setdefault("reduced_motion", "reduce")
-        context = browser.new_context(viewport={"width": width, "height": height}, **options)
+        context = chromium.new_context(viewport={"width": width, "height": height}, **options)
         context.set_default_timeout(1000 * SECONDS)
         page, wrong = context.new_page(), []
         page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
@@ -161,14 +163,13 @@ def notebook(browser, folder, code, *, width=1000, height=900, before=None, **op
         try:
             page.goto(f"{url}doc/tree/one.ipynb?token={token}")
             page.wait_for_selector(".jp-Notebook .jp-CodeCell .cm-content")
-            prompt = page.locator(".jp-CodeCell .jp-InputPrompt").first
-            while prompt.inner_text() in ("[ ]:", ""):  # before the kernel is there nothing is run
+            # Before the kernel is there nothing is run; and it is to be run once.
+            while not page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').count():
                 if page.locator(".jp-Dialog").count():  # it asks for a kernel; this one will do
                     page.keyboard.press("Enter")
-                else:
-                    page.locator(".jp-CodeCell .cm-content").click()
-                    page.keyboard.press("Control+Enter")
-                page.wait_for_timeout(400)
+                page.wait_for_timeout(200)
+            page.locator(".jp-CodeCell .cm-content").click()
+            page.keyboard.press("Control+Enter")
             page.wait_for_selector(".bn .bs-origin")
             (file,) = runtime.glob("kernel-*.json")
             client = BlockingKernelClient(connection_file=str(file))
@@ -187,10 +188,11 @@ def notebook(browser, folder, code, *, width=1000, height=900, before=None, **op
 
 def drag(page, number, path, pause):
     """One pose along a path of pixels from where it is, a step each `pause` seconds."""
-    box = page.locator(f'.bn .bs-origin[data-pose="{number}"] .bs-hold').bounding_box()
+    handle = page.locator(f'.bn .bs-origin[data-pose="{number}"]')
+    browser.at_rest(page.locator(".bn .bs-scene"))
+    box = browser.at_rest(handle.locator(".bs-hold"))
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-    page.mouse.move(x, y)
-    page.mouse.down()
+    browser.press(page, handle, x, y)
     for dx, dy in path:
         start = time.perf_counter()
         page.mouse.move(x + dx, y + dy)

@@ -15,7 +15,7 @@ from pathlib import Path
 import httpx
 from websockets.sync.client import connect
 
-SECONDS = 30.0  # that anything may take on a busy machine
+SECONDS = 60.0  # that anything may take on a busy machine
 
 
 class Visitor:

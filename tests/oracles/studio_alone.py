@@ -37,7 +37,6 @@ def main(folder):
         seen["by the server"] = _without_route()  # before there is a browser, which may try
         with browsers.launched() as browser, studio_page(browser, visitor) as page:
             drag(page, '.bs-origin[data-pose="4"]', 9, -6)
-            page.wait_for_timeout(300)
             solved(page)
             seen["pose"] = pose(page, 4)
             for name, act in (

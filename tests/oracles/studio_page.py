@@ -4,7 +4,44 @@ import math
 import re
 from contextlib import contextmanager
 
-SECONDS = 25_000  # milliseconds that anything may take on a busy machine
+from tests.oracles.browser import SECONDS, at_rest, idle
+
+# What the page has asked over its websocket and is not answered, by number: what it wants done.
+# A hand that rests on a slow machine is answered to the end in the midst of a test that wants to
+# see what is drawn before: `withhold("solve")` puts that off.
+UNANSWERED = """(() => {
+  window.unanswered = new Map();
+  let withheld = null, held = [];
+  window.withhold = (what) => { // what is asked of that kind goes out when this is called with null
+    withheld = what;
+    for (const send of held.splice(0)) send();
+  };
+  const more = ["solving", "progress", "waiting"]; // kinds that others follow
+  const headOf = (frame) => new Uint8Array(frame, 4, new DataView(frame).getUint32(0, true));
+  const answered = (n, kind) => {
+    const what = unanswered.get(n);
+    for (const [k, each] of unanswered)
+      if (k <= n && (each === what || kind === "cancelled")) unanswered.delete(k);
+  };
+  window.WebSocket = class extends WebSocket {
+    constructor(...given) {
+      super(...given);
+      unanswered.clear();
+      this.addEventListener("close", () => unanswered.clear());
+      this.addEventListener("message", ({ data }) => {
+        const text = typeof data === "string" ? data : new TextDecoder().decode(headOf(data));
+        const { n, kind } = JSON.parse(text);
+        if (!more.includes(kind)) setTimeout(answered, 0, n, kind); // the page takes it first
+      });
+    }
+    send(data) {
+      const { n, do: what } = JSON.parse(data);
+      if (what === withheld) return void held.push(() => this.send(data));
+      super.send(data);
+      if (what !== "cancel") unanswered.set(n, what);
+    }
+  };
+})()"""
 
 
 @contextmanager
@@ -12,8 +49,9 @@ def studio_page(browser, visitor, *, width=1400, height=900, **options):
     """The page of a studio, solved once; its errors are in `wrong`, its requests in `asked`."""
     options.setdefault("reduced_motion", "reduce")
     context = browser.new_context(viewport={"width": width, "height": height}, **options)
-    context.set_default_timeout(SECONDS)
+    context.set_default_timeout(1000 * SECONDS)
     page = context.new_page()
+    page.add_init_script(UNANSWERED)
     page.wrong, page.asked = [], []
     page.on("console", lambda said: page.wrong.append(said.text) if said.type == "error" else None)
     page.on("pageerror", lambda error: page.wrong.append(str(error)))
@@ -27,19 +65,27 @@ def studio_page(browser, visitor, *, width=1400, height=900, **options):
         context.close()
 
 
+def answered(page):
+    """Wait until everything that was asked is answered, and shown."""
+    page.wait_for_function("() => unanswered.size === 0")
+    idle(page)
+
+
 def solved(page):
-    """Wait until the whole road has answered to the task as it is."""
+    """Wait until the whole road has answered to the task as it is, and nothing else is asked."""
     page.wait_for_function(
         """() => {
           const status = document.querySelector(".bs-status");
-          return status.dataset.state === "resting" && status.textContent !== "";
+          const rests = status.dataset.state === "resting" && status.textContent !== "";
+          return rests && unanswered.size === 0;
         }"""
     )
 
 
 def middle(page, selector):
     """The middle of an element, in pixels of the window."""
-    box = page.locator(selector).first.bounding_box()
+    at_rest(page.locator(".bs-scene"))
+    box = at_rest(page.locator(selector).first)
     return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
 
@@ -86,7 +132,7 @@ def as_opened(page):
 
 def on_screen(page, x, y):
     """Where a point of F is, in pixels of the window."""
-    box, at = page.locator(".bs-scene").bounding_box(), view(page)
+    box, at = at_rest(page.locator(".bs-scene")), view(page)
     return box["x"] + at["left"] + at["scale"] * x, box["y"] + at["top"] - at["scale"] * y
 
 

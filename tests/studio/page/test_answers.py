@@ -13,7 +13,17 @@ import pytest
 from burmester import read_task, synthesize
 from burmester.fourbar.instantaneous import instant_centre
 from burmester.geometry.displacement import Displacement
-from tests.oracles.studio_page import drag, middle, on_screen, place_of, solved, studio_page, view
+from tests.oracles.browser import idle
+from tests.oracles.studio_page import (
+    answered,
+    drag,
+    middle,
+    on_screen,
+    place_of,
+    solved,
+    studio_page,
+    view,
+)
 
 # A leg that folds up: its dyads turn far, so that rounded poses hardly move them.
 FIVE = {
@@ -261,7 +271,7 @@ def test_two_linkages_are_compared_at_the_same_pose(shared, result):
     card(shared, "L2").get_by_text("Compare").click()
     shared.locator("[data-panel=compare]").scroll_into_view_if_needed()
     shared.wait_for_selector(".bs-compare .bm-coupler")
-    shared.wait_for_timeout(300)
+    idle(shared, 100)
     places = shared.evaluate(
         """() => [...document.querySelectorAll(".bs-compare .bm-plane")].map((svg) => {
           const found = svg.querySelector(".bm-coupler").getAttribute("transform");
@@ -352,7 +362,6 @@ def test_a_card_keeps_its_linkage_or_says_so(browser, visitor):
         # Five poses have a few dyads that meet them all: most linkages go on.
         page.locator("input[type=file]").first.set_input_files(FIVE)
         page.wait_for_function("() => document.querySelectorAll('[data-row]').length === 5")
-        page.wait_for_timeout(300)
         solved(page)
         for _ in range(6):
             shown = {key: name for key, name, _ in page.evaluate(KEYS)}
@@ -385,6 +394,7 @@ def test_while_a_pose_is_dragged_the_linkage_and_its_space_go_along(page, result
     card(page, "L1").locator("button").first.click()
     x, y = middle(page, '.bs-origin[data-pose="4"]')
     first = place_of(page, FIXED.format("D1"))
+    page.evaluate("withhold('solve')")
     page.mouse.move(x, y)
     page.mouse.down()
     for k in range(1, 13):
@@ -393,6 +403,7 @@ def test_while_a_pose_is_dragged_the_linkage_and_its_space_go_along(page, result
     page.wait_for_function(
         "() => document.querySelector('[data-linkage=L1]').classList.contains('bs-old')"
     )
+    answered(page)
     # The pivots moved, and the drawing is that of one linkage still.
     at = {name: place_of(page, FIXED.format(name)) for name in led(result["linkages"][0])}
     assert at["D1"] != first
@@ -411,6 +422,7 @@ def test_while_a_pose_is_dragged_the_linkage_and_its_space_go_along(page, result
     )
     assert float(opacity) < 0.6
     page.mouse.up()
+    page.evaluate("withhold(null)")
     solved(page)
     assert "bs-old" not in card(page, "L1").get_attribute("class")
     page.locator("[data-do=undo]").click()
@@ -439,7 +451,7 @@ def test_image_space_goes_along_with_a_pose_and_turns(browser, visitor):
         )
         page.keyboard.press("Escape")
         solved(page)
-        page.wait_for_timeout(400)
+        idle(page, 400)  # the picture is built anew when nothing has changed for a while
         box = page.locator("[data-panel=space] .bm-space")
         before = np.array(page.evaluate(POINTS))
         size = box.bounding_box()
@@ -447,12 +459,12 @@ def test_image_space_goes_along_with_a_pose_and_turns(browser, visitor):
         page.mouse.down()
         page.mouse.move(size["x"] + size["width"] / 2 + 60, size["y"] + size["height"] / 2, steps=4)
         page.mouse.up()
-        page.wait_for_timeout(200)
+        idle(page, 100)
         turned = np.array(page.evaluate(POINTS))
         assert np.hypot(*(turned - before).T).max() > 20
         box.focus()
         page.keyboard.press("0")
-        page.wait_for_timeout(200)
+        idle(page, 100)
         assert np.array(page.evaluate(POINTS)) == pytest.approx(before, abs=0.01)
         assert page.wrong == []
 
@@ -462,7 +474,7 @@ def test_every_drawn_number_is_in_a_table(shared, result):
     shared.locator("[data-panel=facts] summary").first.click()
     shared.locator("[data-panel=facts]").scroll_into_view_if_needed()
     shared.wait_for_selector(".bs-facts table")
-    shared.wait_for_timeout(200)
+    idle(shared, 100)
     text = shared.locator(".bs-facts").inner_text()
     for dyad in result["linkages"][0]["dyads"]:
         x, y = dyad["fixed_pivot"]

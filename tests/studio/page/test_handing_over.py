@@ -20,7 +20,6 @@ def page(same_page):
 
 def test_what_was_dragged_is_what_the_command_finds_in_the_saved_task(page, tmp_path, capsys):
     drag(page, '.bs-origin[data-pose="8"]', 6, 4)
-    page.wait_for_timeout(200)
     solved(page)
     with page.expect_download() as saved:
         page.keyboard.press("Control+s")

@@ -6,6 +6,7 @@ import signal
 import pytest
 
 from burmester.io import templates
+from tests.oracles.browser import idle
 from tests.oracles.studio import served
 from tests.oracles.studio_page import (
     drag,
@@ -73,7 +74,7 @@ def test_names_of_crowded_poses_stand_beside_their_own(browser, visitor, size):
         drop(page, "lid-hinge.toml", templates.text("lid-hinge"))
         has_poses(page, 8)
         solved(page)
-        page.wait_for_timeout(300)  # names are placed when the picture has come to rest
+        idle(page, 300)  # names are placed when the picture has come to rest
         assert page.locator(".bs-pose-name").count() == 8
         assert page.evaluate(CROWDED, 4) == []
         assert page.wrong == []
@@ -191,7 +192,8 @@ def test_w15_two_tabs_have_two_tasks(page, visitor):
 def test_w15_when_the_server_ends_nothing_is_lost_and_a_banner_says_how_to_go_on(browser, tmp_path):
     with served(home=tmp_path) as first, studio_page(browser, first) as page:
         drag(page, '.bs-origin[data-pose="8"]', 14, -9)
-        page.wait_for_timeout(600)
+        solved(page)
+        kept(page)
         moved = pose(page, 8)
         first.process.send_signal(signal.SIGTERM)
         first.process.wait(30)
@@ -210,7 +212,7 @@ def test_w15_when_the_server_ends_nothing_is_lost_and_a_banner_says_how_to_go_on
             page.locator("[data-banner=expired]").wait_for()
             page.evaluate(f"location.hash = 'token={second.token}'")
             page.wait_for_function("() => !document.querySelector('[data-banner=expired]')")
-            page.wait_for_timeout(300)
+            idle(page, 300)
             solved(page)
             assert pose(page, 8) == moved
             assert page.evaluate("location.hash") == ""

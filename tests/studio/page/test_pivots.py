@@ -8,7 +8,7 @@ import pytest
 
 from burmester.dyads.pivot_map import fixed_pivot_map, moving_pivot_map
 from burmester.geometry.displacement import Displacement
-from tests.oracles.studio_page import drag, place_of, solved, view
+from tests.oracles.studio_page import answered, drag, place_of, solved, view
 
 FIXED = '.bs-pivot[data-pivot="{}"][data-plane="F"]'
 MOVING = '.bs-pivot[data-pivot="{}"][data-plane="M"]'
@@ -38,7 +38,7 @@ def waits(page):
     page.wait_for_function(
         "() => /P1: /.test(document.querySelector('.bs-placed-readout').textContent)"
     )
-    page.wait_for_timeout(250)
+    answered(page)
 
 
 def test_a_fixed_pivot_that_is_dragged_costs_what_the_map_says(page):
@@ -118,7 +118,6 @@ def with_poses(page, rows):
     page.wait_for_function(
         "(count) => document.querySelectorAll('[data-row]').length === count", arg=len(rows)
     )
-    page.wait_for_timeout(400)
     solved(page)
 
 
