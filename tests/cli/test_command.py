@@ -551,7 +551,7 @@ def test_the_main_job_does_without_what_it_does_not_need(poses, source):
         "rich._emoji_codes",
         "burmester.dyads.minima_within_limits",
         "burmester.dyads.limited_block",
-        "burmester.linkages.rounding",
+        "burmester.refinement.rounding",
         "burmester.functions.function_task",
     }
 

@@ -168,8 +168,16 @@ def notebook(chromium, folder, code, *, width=1000, height=900, before=None, **o
                 if page.locator(".jp-Dialog").count():  # it asks for a kernel; this one will do
                     page.keyboard.press("Enter")
                 page.wait_for_timeout(200)
-            page.locator(".jp-CodeCell .cm-content").click()
-            page.keyboard.press("Control+Enter")
+            # It may be called idle before it takes cells: then nothing is run, and it is run again.
+            prompt = page.locator(".jp-CodeCell .jp-InputPrompt").first
+            end = time.monotonic() + SECONDS
+            while prompt.inner_text() in ("[ ]:", ""):
+                assert time.monotonic() < end, "the cell was not run"
+                page.locator(".jp-CodeCell .cm-content").click()
+                page.keyboard.press("Control+Enter")
+                begun = time.monotonic()
+                while prompt.inner_text() in ("[ ]:", "") and time.monotonic() < begun + 3:
+                    page.wait_for_timeout(100)
             page.wait_for_selector(".bn .bs-origin")
             (file,) = runtime.glob("kernel-*.json")
             client = BlockingKernelClient(connection_file=str(file))

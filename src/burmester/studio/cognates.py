@@ -14,10 +14,10 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.linkages.found_linkage import FoundLinkage
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Synthesis
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import linkage_report
 
 __all__ = ["cognate_reports"]

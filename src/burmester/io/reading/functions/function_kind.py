@@ -56,11 +56,21 @@ def _word(cell: str) -> str:
     return cell.strip().strip('"').lower()
 
 
+def is_pair_parquet(data: bytes) -> bool:
+    """Whether Parquet has the columns of pairs; False, too, where it cannot be read."""
+    try:
+        import pyarrow
+        import pyarrow.parquet
+
+        names = pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)).schema_arrow.names
+    except Exception:  # of many kinds; it is read as poses then, and refused there
+        return False
+    return has_pairs([str(name).strip().lower() for name in names])
+
+
 def is_function(data: bytes, path: str, sheet: str | None = None) -> bool:
     """Whether the bytes of a file are a function task, whatever is wrong with it."""
     if is_parquet(data):
-        from burmester.io.reading.functions.pair_table import is_pair_parquet
-
         return is_pair_parquet(data)
     if is_archive(data):
         from burmester.io.reading.tables.workbook import may_hold

@@ -16,14 +16,13 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
-from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, has_pairs, header_of
+from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, header_of
 from burmester.io.reading.functions.function_options import FunctionSettings, task_of_pairs
 from burmester.io.reading.pose_table import Source, no_poses, plain_number, shown
 from burmester.numerics.arrays import FloatArray
 
 __all__ = [
     "WEIGHT",
-    "is_pair_parquet",
     "read_pair_parquet",
     "read_pair_text",
     "require_weights",
@@ -107,18 +106,6 @@ def read_pair_text(source: Source, settings: FunctionSettings) -> FunctionTask:
         places.append(where)
     arrays = {role: np.array(values) for role, values in numbers.items()}
     return _task(arrays, settings, head, places)
-
-
-def is_pair_parquet(data: bytes) -> bool:
-    """Whether Parquet has the columns of pairs; False, too, where it cannot be read."""
-    try:
-        import pyarrow
-        import pyarrow.parquet
-
-        names = pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)).schema_arrow.names
-    except Exception:  # of many kinds; it is read as poses then, and refused there
-        return False
-    return has_pairs([str(name).strip().lower() for name in names])
 
 
 def read_pair_parquet(label: str, data: bytes, settings: FunctionSettings) -> FunctionTask:
