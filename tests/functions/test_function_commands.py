@@ -20,7 +20,8 @@ from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.pair_checks import pair_findings, reversals
 from burmester.functions.placed_links import placed_links
-from burmester.io.reading.functions.function_file import is_function, read_function
+from burmester.io.reading.functions.function_file import read_function
+from burmester.io.reading.functions.function_kind import is_function
 from burmester.synthesis.function_generation import generate_function
 from tests.oracles import function_loops
 from tests.oracles.generators import drawn
