@@ -109,13 +109,17 @@ def test_a_limit_that_is_dragged_is_the_tasks_in_python(lab):
     is_solved(lab)
     box = "widget.task.limits[0].fixed_pivot.vertices.tolist()"
     before, others = lab.value(box), lab.value("widget.task.poses.translation.tolist()")
-    plane = lab.page.locator(".bn .bs-scene")
-    # The answer may change how high the player is; then the plane has another size, and is fitted.
-    corner = browser.at_rest(plane)
-    scale, left, top = (float(plane.get_attribute(f"data-{key}")) for key in VIEW)
     (low, down), (high, _), *_ = before
-    # Its lower edge is taken hold of, below pivots and links.
-    x, y = corner["x"] + left + scale * (low + high) / 2, corner["y"] + top - scale * down
+
+    def lower_edge():
+        """Its middle in the window, below pivots and links, and pixels per unit."""
+        plane = lab.page.locator(".bn .bs-scene")
+        corner = browser.at_rest(plane)
+        scale, left, top = (float(plane.get_attribute(f"data-{key}")) for key in VIEW)
+        x = corner["x"] + left + scale * (low + high) / 2
+        return x, corner["y"] + top - scale * down, scale
+
+    x, y, scale = browser.settled(lab.page, lower_edge)
     browser.press(lab.page, lab.page.locator(limit), x, y)
     for step in range(1, 9):
         lab.page.mouse.move(x + step, y + step / 2)

@@ -4,6 +4,7 @@ Where there is none, tests are skipped with a line that says so.
 """
 
 import shutil
+import time
 from contextlib import contextmanager
 
 import pytest
@@ -84,6 +85,19 @@ def at_rest(locator):
     """The box of an element, in pixels of the window, when it no longer moves."""
     locator.evaluate(REST, 1000 * SECONDS)
     return locator.bounding_box()
+
+
+def settled(page, look, milliseconds=400):
+    """What `look` finds when it finds the same again so much later.
+
+    An answer that comes after the picture was at rest may give it another size, and it is fitted.
+    """
+    end, before, now = time.monotonic() + SECONDS, None, look()
+    while now != before:
+        assert time.monotonic() < end, f"it never settled: {now}"
+        idle(page, milliseconds)
+        before, now = now, look()
+    return now
 
 
 def idle(page, milliseconds=0):
