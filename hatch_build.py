@@ -13,6 +13,8 @@ from setuptools.errors import BaseError
 SOURCES = Path("src")
 # The same roundings on every machine: a product and a sum are not made one operation.
 FLAGS = [] if os.name == "nt" else ["-O3", "-ffp-contract=off"]
+# Complex numbers are multiplied as they are written, without a look for infinite ones.
+MACROS = [("CYTHON_CCOMPLEX", "0")]
 HELP = (
     "burmester's kernels cannot be compiled: a C compiler and Python's headers are needed"
     " (on Debian: apt-get install build-essential python3-dev)"
@@ -63,7 +65,8 @@ def compiled(sources, work):
     if not sources:
         return {}
     extensions = [
-        Extension(name, [str(source)], extra_compile_args=FLAGS) for name, source in sources.items()
+        Extension(name, [str(source)], extra_compile_args=FLAGS, define_macros=MACROS)
+        for name, source in sources.items()
     ]
     extensions = cythonize(extensions, build_dir=str(work / "c"), quiet=True)
     distribution = Distribution({"name": "kernels", "ext_modules": extensions})

@@ -8,7 +8,7 @@ the link from it to the fixed pivot G, both at the base, a place (P, T = e^(i an
     f = v w - v ub - w u = 0,   v = P + (T - 1) z,   w = Pb + (1/T - 1) zb
 
 (v: the way of the moving pivot from the base; |v - u| = |u|).  A pose gives T; a point leaves it
-open, and T is eliminated from each step: a pose is two equations, one a dyad, a point is one.
+open.  `path_kernel` solves these equations and differentiates them.
 
 Sources: Tong, Myszka, Murray 2013 (the problem); Brake et al. 2016 (its classes and their counts);
 Wampler, Morgan, Sommese 1992 (nine points).
@@ -22,7 +22,7 @@ import numpy as np
 
 from burmester.numerics.arrays import ComplexArray
 
-__all__ = ["UNKNOWNS", "Jet", "Positions", "System", "jet", "point_turns", "reduced", "system"]
+__all__ = ["UNKNOWNS", "Positions", "point_turns"]
 
 UNKNOWNS: Final = 8  # u, ub, z, zb of two dyads
 
@@ -55,72 +55,6 @@ class Positions(NamedTuple):
     def pivots(self) -> int:
         """How many fixed pivots are given."""
         return int(self.G.shape[-1])
-
-
-class Jet(NamedTuple):
-    """The equations of both dyads (axis 1) at all positions (axis 2), and parts of derivatives.
-
-    f: (n, 2, J); v, w: (n, 2, J); fv, fw: (n, 2, J), the derivatives by v and w; g = T - 1 and
-    c = 1/T - 1: (n, 1, J).
-    """
-
-    f: ComplexArray
-    v: ComplexArray
-    w: ComplexArray
-    fv: ComplexArray
-    fw: ComplexArray
-    g: ComplexArray
-    c: ComplexArray
-
-
-class System(NamedTuple):
-    """The linear system of a step.
-
-    matrix: (n, 8, 8); rows: (n, 2, J, 4), the derivatives of the equations by the unknowns of their
-    own dyad; by_turn: (n, 2, J), those by the turn.
-    """
-
-    matrix: ComplexArray
-    rows: ComplexArray
-    by_turn: ComplexArray
-
-
-def jet(x: ComplexArray, turns: ComplexArray, positions: Positions) -> Jet:
-    """The equations of dyads x (n, 8) at positions (n or 1 each) with turns (n, J) of all."""
-    u, ub, z, zb = np.moveaxis(x.reshape(-1, 2, 4), -1, 0)[..., None]
-    g = (turns - 1)[:, None]
-    c = -g / turns[:, None]
-    v = positions.P[:, None] + g * z
-    w = positions.Pb[:, None] + c * zb
-    fv, fw = w - ub, v - u
-    return Jet(v * fv - w * u, v, w, fv, fw, g, c)
-
-
-def system(x: ComplexArray, turns: ComplexArray, here: Jet, positions: Positions) -> System:
-    """The system of a step of x; a point is one row, from which its turn is eliminated."""
-    n, m = len(x), positions.further_poses
-    z, zb = x[:, [2, 6]][..., None], x[:, [3, 7]][..., None]
-    inverse = 1 / turns[:, None]
-    by_turn = z * here.fv - zb * inverse * inverse * here.fw
-    rows = np.stack([-here.w, -here.v, here.g * here.fv, here.c * here.fw], axis=-1)
-    k, free = positions.pivots, positions.points
-    matrix = np.zeros((n, UNKNOWNS, UNKNOWNS), dtype=complex)
-    matrix[:, :m, :4] = rows[:, 0, :m]
-    matrix[:, m : 2 * m, 4:] = rows[:, 1, :m]
-    matrix[:, 2 * m : 2 * m + free, :4] = by_turn[:, 1, m:, None] * rows[:, 0, m:]
-    matrix[:, 2 * m : 2 * m + free, 4:] = -by_turn[:, 0, m:, None] * rows[:, 1, m:]
-    for dyad in range(k):  # u + z = G, and conjugates
-        for conjugate in range(2):
-            row = 2 * m + free + 2 * dyad + conjugate
-            matrix[:, row, 4 * dyad + conjugate] = matrix[:, row, 4 * dyad + 2 + conjugate] = 1
-    return System(matrix, rows, by_turn)
-
-
-def reduced(right: ComplexArray, by_turn: ComplexArray, positions: Positions) -> ComplexArray:
-    """Right sides (n, 2, J) of both dyads as those of the matrix, (n, 2 (M - 1) + N)."""
-    m = positions.further_poses
-    points = by_turn[:, 1, m:] * right[:, 0, m:] - by_turn[:, 0, m:] * right[:, 1, m:]
-    return np.concatenate([right[:, 0, :m], right[:, 1, :m], points], axis=1)
 
 
 def point_turns(x: ComplexArray, positions: Positions) -> ComplexArray:

@@ -15,13 +15,13 @@ from burmester.numerics.arrays import ComplexArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.points.alt_burmester import Positions
 from burmester.points.classes import distinct
-from burmester.points.path_tracking import ACCURACY, Paths, polished, tracked
+from burmester.points.path_tracking import ACCURACY, polished, tracked
 from burmester.points.start_systems import CASES, Case, start_system
 from burmester.progress import goes_on, step
 
 __all__ = ["AllLinkages", "all_linkages", "case_of"]
 
-SETTLED: Final = 1e-8  # relative; Newton's last step on a linkage
+SETTLED: Final = 1e-7  # relative; Newton's last step on a linkage
 FINER: Final = 1e-2  # share of the accuracy with which lost paths are followed again
 HUNDRED: Final = 100  # parts of the way that progress is told in
 
@@ -32,12 +32,14 @@ class AllLinkages(NamedTuple):
 
     x: (n, 8); turns: (n, J), at the positions beside the base.
     classes: how many there are of a problem in general position; n were found.
+    followed: how many of them were followed to the task; fewer where a time limit ended it.
     systems: from how many solved problems they were looked for.
     """
 
     x: ComplexArray
     turns: ComplexArray
     classes: int
+    followed: int
     systems: int
 
 
@@ -50,44 +52,48 @@ def all_linkages(positions: Positions) -> AllLinkages:
     """The linkages of a problem of one of the CASES, its base at 0, its size about 1."""
     case = case_of(positions)
     classes = CASES[case]
-    found = None
-    for number in range(case.systems):
-        x, turns = _ends(case, positions, number, classes)
-        if found is not None:
-            x, turns = np.concatenate([found[0], x]), np.concatenate([found[1], turns])
-        index = distinct(x, positions)
-        found = x[index], turns[index]
-        if len(index) >= classes:
-            break
-    assert found is not None
-    return AllLinkages(*found, classes, number + 1)
+    x, turns, followed = _ends(case, positions, 0)
+    systems = 1
+    while len(x) < followed == classes and systems < case.systems:
+        again = _ends(case, positions, systems)
+        x, turns = concatenate([(x, turns), (again.x, again.turns)])
+        x, turns = take((x, turns), distinct(x, positions))
+        systems += 1
+    return AllLinkages(x, turns, classes, followed, systems)
 
 
-def _ends(
-    case: Case, positions: Positions, number: int, classes: int
-) -> tuple[ComplexArray, ComplexArray]:
-    """The ends of all paths from one of the solved problems of a case, each of them once."""
+class _Ends(NamedTuple):
+    """The ends x (n, 8) with turns (n, J) of so many paths, each of them once."""
+
+    x: ComplexArray
+    turns: ComplexArray
+    followed: int
+
+
+def _ends(case: Case, positions: Positions, number: int) -> _Ends:
+    """The ends of all paths from one of the solved problems of a case."""
     again = ", from another solved problem" if number else ""
-    step(f"following {classes:,} linkages to the task{again}")
+    step(f"following {CASES[case]:,} linkages to the task{again}", whole=False)
 
-    def watch(share: float) -> None:
-        goes_on(1 + int((HUNDRED - 1) * share), HUNDRED, "part")
+    def watch(share: float) -> bool:
+        return goes_on(1 + int((HUNDRED - 1) * share), HUNDRED, "part")
 
-    start = start_system(case, number)
+    start = start_system(case, number).nearest_to(positions)
     paths = tracked(start.x, start.turns, start.positions, positions, watch=watch)
+    begun = paths.steps > 0
     x, turns, miss = polished(paths.x, paths.turns, positions)
     good = paths.arrived & (miss < SETTLED)
     index = np.flatnonzero(good)[distinct(x[good], positions)]
-    if len(index) == classes:
-        return x, turns
-    missing = np.setdiff1d(np.arange(len(x)), index)
-    finer: Paths = tracked(
-        start.x[missing],
-        start.turns[missing],
-        start.positions,
-        positions,
-        accuracy=ACCURACY * FINER,
-    )
-    more, more_turns, miss = polished(finer.x, finer.turns, positions)
-    some = finer.arrived & (miss < SETTLED)
-    return concatenate([(x[good], turns[good]), take((more, more_turns), some)])
+    missing = np.setdiff1d(np.flatnonzero(begun), index)
+    if begun.all() and len(missing):
+        finer = tracked(
+            *take((start.x, start.turns), missing),
+            start.positions,
+            positions,
+            accuracy=ACCURACY * FINER,
+        )
+        more, more_turns, miss = polished(finer.x, finer.turns, positions)
+        some = finer.arrived & (miss < SETTLED)
+        x, turns = concatenate([(x[good], turns[good]), take((more, more_turns), some)])
+        index = distinct(x, positions)
+    return _Ends(x[index], turns[index], int(begun.sum()))

@@ -28,21 +28,22 @@ class PointLinkages(NamedTuple):
     """The four-bars (k,) that meet poses and points.
 
     batch: of pins, in the frames of the task; places: (k, N, 3), x, y and angle at all positions.
-    classes, found, lost: of the solve, complex linkages too; systems: of the solve.
+    classes, followed, found, lost: of the solve, complex linkages too; systems: of the solve.
     real: how many classes have a real linkage.
     """
 
     batch: LinkageBatch
     places: FloatArray
     classes: int
+    followed: int
     found: int
     real: int
     systems: int
 
     @property
     def lost(self) -> int:
-        """How many classes are missing: lost on their way, or not there, in special positions."""
-        return max(0, self.classes - self.found)
+        """How many were followed and not found: lost, or not there, in special positions."""
+        return max(0, self.followed - self.found)
 
 
 def linkages_through(
@@ -79,7 +80,9 @@ def linkages_through(
     places[:, order, 2] = np.angle(turns * turn)
     places[..., 2] = np.where(is_point, places[..., 2], poses.angle)
     batch = LinkageBatch(np.zeros((len(x), 2), dtype=np.int8), rows)
-    return PointLinkages(batch, places, every.classes, len(every.x), real, every.systems)
+    return PointLinkages(
+        batch, places, every.classes, every.followed, len(every.x), real, every.systems
+    )
 
 
 def _real(every: AllLinkages, positions: Positions) -> tuple[ComplexArray, ComplexArray, int]:
