@@ -123,6 +123,9 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
 
 
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
+    if synthesis.points is not None:
+        angles = synthesis.task.angles_are_free
+        return f"passes every {'point' if angles else 'pose and point'} exactly, up to rounding"
     if best.within_tolerance is not None:
         return "stays inside the tolerance of every pose"
     if explanation.meets_exactly(best, synthesis.length):

@@ -20,7 +20,7 @@ from burmester.io.message import print_trimmed, wrapped
 from burmester.io.message import show as show_message
 from burmester.io.result import message_data, motion_data, task_data
 from burmester.numerics.arrays import FloatArray
-from burmester.synthesis.point_generation import in_words, points_of
+from burmester.synthesis.point_conditions import point_conditions
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
@@ -54,7 +54,7 @@ def show(diagnosis: Diagnosis, console: Console) -> None:
         for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
             console.print(line, soft_wrap=True)
     # Free angles say nothing of a motion.
-    turns = task.path is None and points_of(task) is None
+    turns = task.path is None and point_conditions(task) is None
     motion = diagnosis.motion if turns else None
     if motion is not None and not isinstance(motion.kind, General):
         console.print()
@@ -121,8 +121,8 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
         turned = task.path.crank_angles
         timed = "" if turned is None else f", timed by a crank that turns {_range(turned)}"
         yield "path", f"{'closed' if task.path.closed else 'open'}{timed}"
-    is_point = points_of(task)
-    if motion is not None and is_point is None:
+    points = point_conditions(task)
+    if motion is not None and points is None:
         yield "rotation", f"{math.degrees(motion.rotation):.4g}°"
     if length or angle:
         positions = f"positions to ±{figure(length)}{unit}" if length else "positions are exact"
@@ -130,8 +130,8 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
         yield "known", f"{positions}, {angles}"
     else:
         yield "known", "exact, unless --pose-sigma says otherwise"
-    if is_point is not None:
-        yield "asks", in_words(is_point)
+    if points is not None:
+        yield "asks", points.in_words()
     elif motion is not None:
         general = isinstance(motion.kind, General)
         yield "motion", motion.kind.message if general else motion.kind.name

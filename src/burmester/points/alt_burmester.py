@@ -56,6 +56,11 @@ class Positions(NamedTuple):
         """How many fixed pivots are given."""
         return int(self.G.shape[-1])
 
+    @property
+    def has_cognates(self) -> bool:
+        """Whether solutions come in classes of three: only points are asked for."""
+        return not (self.further_poses or self.pivots)
+
 
 def point_turns(x: ComplexArray, positions: Positions) -> ComplexArray:
     """The turns (n, J) at all positions for dyads x (n, 8) that meet them.

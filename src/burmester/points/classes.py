@@ -15,16 +15,13 @@ from numpy.typing import NDArray
 from burmester.numerics.arrays import ComplexArray
 from burmester.points.alt_burmester import Positions
 
-__all__ = ["cognates", "distinct", "has_cognates"]
+__all__ = ["CLASS", "cognates", "distinct"]
+
+CLASS: Final = 3  # cognates of one curve
 
 SAME: Final = 1e-6  # relative; solutions whose keys differ by less are one
 # Any numbers without a pattern: keys are ordered by their sum with these factors.
 FACTORS: Final = np.exp(1j * np.arange(1, 9) ** 2)
-
-
-def has_cognates(positions: Positions) -> bool:
-    """Whether solutions come in classes of three: only points are asked for."""
-    return positions.further_poses == 0 and positions.pivots == 0
 
 
 def cognates(x: ComplexArray) -> ComplexArray:
@@ -67,7 +64,7 @@ def _keys(x: ComplexArray, positions: Positions) -> ComplexArray:
     if positions.pivots:
         return x
     G, Gb = x[:, [0, 4]] + x[:, [2, 6]], x[:, [1, 5]] + x[:, [3, 7]]
-    if has_cognates(positions):
+    if positions.has_cognates:
         z, zb = x[:, [2, 6]], x[:, [3, 7]]
         with np.errstate(all="ignore"):
             third = (G[:, 0] * z[:, 1] - G[:, 1] * z[:, 0]) / (z[:, 1] - z[:, 0])

@@ -11,7 +11,7 @@ from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.points.alt_burmester import Positions, point_turns
-from burmester.points.classes import cognates, has_cognates
+from burmester.points.classes import cognates
 from burmester.points.complete_solve import AllLinkages, all_linkages
 from burmester.points.path_tracking import polished
 
@@ -88,7 +88,7 @@ def linkages_through(
 def _real(every: AllLinkages, positions: Positions) -> tuple[ComplexArray, ComplexArray, int]:
     """Real linkages (k, 8) with their turns, cognates too, and how many classes they are of."""
     with np.errstate(all="ignore"):
-        x = cognates(every.x) if has_cognates(positions) else every.x[:, None]
+        x = cognates(every.x) if positions.has_cognates else every.x[:, None]
     own, _ = np.indices(x.shape[:2]).reshape(2, -1)
     x = x.reshape(-1, x.shape[-1])
     size = 1 + np.abs(x).max(axis=1)

@@ -46,6 +46,11 @@ class Case(NamedTuple):
         return "-".join(map(str, self if self.pivots else self[:2]))
 
     @property
+    def has_cognates(self) -> bool:
+        """Whether linkages come in classes of three: only points are asked for."""
+        return self.poses == 1 and not self.pivots
+
+    @property
     def systems(self) -> int:
         """How many solved problems are kept."""
         return 1 if self.pivots else 2

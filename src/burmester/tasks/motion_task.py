@@ -193,11 +193,14 @@ class Task:
                 help="give one name a pose, or none",
             )
         if self.tolerances is not None:
-            if self.path is None and _are_many_points(self.tolerances):
+            both = self.limits * (2 if len(self.limits) == 1 else 1)
+            pivots = sum(limits.conditions for limits in both)
+            if self.path is None and _are_many_points(self.tolerances, pivots):
                 object.__setattr__(self, "path", TracedPath())
             # Points of a path are met as closely as possible where they are too many.
-            most = 2 * CONDITIONS if self.path is None else 2 * count
-            _require_fitting(self.tolerances, count, self.exact, most)
+            if self.path is not None:
+                pivots = -2 * count
+            _require_fitting(self.tolerances, count, self.exact, pivots)
         if self.path is not None:
             self.path.require_fitting(count)
         require_possible(self.requirements, self.limits)
@@ -354,16 +357,22 @@ def _with_nominal_values(
     return out
 
 
-def _are_many_points(tolerances: PoseTolerances) -> bool:
-    """Whether only points are asked for, and more of them than a linkage meets exactly."""
+def _are_many_points(tolerances: PoseTolerances, pivots: int) -> bool:
+    """Whether only points are asked for, and more of them than a linkage meets exactly.
+
+    pivots: how many conditions limits put on its pivots.
+    """
     alone = tolerances.exact[:, :2].all() and tolerances.free[:, 2].all()
-    return bool(alone) and len(tolerances.angle) > MOST_POINTS
+    return bool(alone) and len(tolerances.angle) + pivots > MOST_POINTS
 
 
 def _require_fitting(
-    tolerances: PoseTolerances, count: int, exact: NDArray[np.bool_] | None, most: int
+    tolerances: PoseTolerances, count: int, exact: NDArray[np.bool_] | None, pivots: int
 ) -> None:
-    """Refuse tolerances that do not fit the poses: E135, E136 (marks), E133 (too many)."""
+    """Refuse tolerances that do not fit the poses: E135, E136 (marks), E133 (too many).
+
+    pivots: how many exact conditions limits put on pivots.
+    """
     if tolerances.shape != (count,):
         raise InputError(
             "E135",
@@ -380,12 +389,13 @@ def _require_fitting(
             why="an exact pose is met in x, y and angle",
             help="take the mark away, or give this pose the tolerance 0 in all three",
         )
-    if tolerances.conditions > most:
+    if (conditions := tolerances.conditions + pivots) > 2 * CONDITIONS:
         raise InputError(
             "E133",
-            f"{tolerances.conditions} exact conditions, and a four-bar can meet {2 * CONDITIONS}",
+            f"{conditions} exact conditions, and a four-bar can meet {2 * CONDITIONS}",
             why="a component of a pose without a tolerance is exact; a pose that is exact in x, y "
-            "and angle is two conditions, in two of them one",
+            "and angle is two conditions, in two of them one"
+            + (", a pivot at a point two, on a line one" if pivots else ""),
             help="give more components a tolerance, all poses the same one by default",
         )
 
