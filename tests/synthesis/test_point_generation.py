@@ -1,17 +1,25 @@
 """Tasks with points: every four-bar through them, judged at its own angles."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Point, box
 from burmester.io.result import synthesis_data
 from burmester.points.point_sets import point_set
 from burmester.synthesis.motion_generation import synthesize
+from burmester.synthesis.point_conditions import point_conditions
+from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from tests.oracles.witness import missed
+
+GROUNDED = (Point((0.0, 0.0)), Point((2.8, 0.0)))  # the fixed pivots of the linkage below
 
 CRANK, COUPLER, FOLLOWER, GROUND, POINT = 1.0, 2.6, 2.4, 2.8, 1.2 + 0.9j
 
@@ -47,6 +55,72 @@ def test_the_linkage_that_made_the_points_is_found_and_works():
     assert (search["classes"], search["found"], search["lost"]) == (30, 30, 0)
     assert search["real"] == len(synthesis.linkages)
     json.dumps(search)
+
+
+@pytest.mark.parametrize(
+    ("poses", "first", "second", "classes"),
+    [
+        (0, GROUNDED[0], GROUNDED[1], 36),
+        (2, GROUNDED[1], GROUNDED[0], 6),
+        (3, GROUNDED[0], None, 12),
+        (2, None, GROUNDED[1], 94),
+    ],
+)
+def test_pivots_at_points_are_conditions_as_poses_and_points_are(poses, first, second, classes):
+    """The linkage that made the points is found, with its dyads as the limits name them."""
+    given = (first is not None) + (second is not None)
+    points = 8 - 2 * given - 2 * (poses - 1) if poses else 9 - 2 * given
+    is_point = np.arange(poses + points) >= poses
+    task = of_crank_rocker(np.linspace(20, 200, poses + points), is_point)
+    limits = (Limits(fixed_pivot=first), Limits(fixed_pivot=second))
+    task = replace(task, limits=limits)
+    assert f"{classes} four-bars" in point_conditions(task).in_words()
+    synthesis = synthesize(task)
+    (search,) = synthesis_data(synthesis)["search"]
+    assert (search["classes"], search["found"], search["lost"]) == (classes, classes, 0)
+    for each in synthesis.linkages:
+        assert not each.violations
+        rows = np.column_stack([each.error.places.translation, each.error.places.angle])
+        assert max(missed(each.linkage, row) for row in rows) < 1e-6
+        for limit, dyad in zip(limits, each.dyads, strict=True):
+            if limit.fixed_pivot is not None:
+                assert dyad.dyad.fixed_pivot == pytest.approx(limit.fixed_pivot.at, abs=1e-9)
+    made = [1.0, 2.4, 2.6, 2.8]
+    usable = [sorted(each.linkage.links) for each in synthesis.usable]
+    assert any(each == pytest.approx(made, abs=1e-5) for each in usable)
+
+
+def test_of_two_regions_each_dyad_keeps_its_own():
+    """Where the first limit names the pivot of the follower, the follower comes first."""
+    task = of_crank_rocker(
+        np.array([20, 50, 85, 120, 160, 200]), np.array([0, 0, 1, 0, 1, 0], dtype=bool)
+    )
+    boxes = [box(each.at - 0.1, each.at + 0.1) for each in reversed(GROUNDED)]
+    found = synthesize(replace(task, limits=tuple(Limits(fixed_pivot=each) for each in boxes)))
+    best = found.linkages[0]
+    assert best.usable
+    assert best.dyads[0].dyad.fixed_pivot == pytest.approx([2.8, 0], abs=1e-6)
+
+
+def test_more_points_than_pivots_leave_room_for_are_a_path():
+    is_point = np.ones(8, dtype=bool)
+    task = of_crank_rocker(np.linspace(20, 200, 8), is_point)
+    assert task.path is None
+    given = (Limits(fixed_pivot=GROUNDED[0]), Limits())
+    assert replace(task, limits=given).path is not None
+    is_point[:2] = False
+    with pytest.raises(InputError, match="12 exact conditions, and a four-bar can meet 10") as at:
+        replace(of_crank_rocker(np.linspace(20, 200, 8), is_point), limits=given)
+    assert at.value.code == "E133"
+
+
+def test_a_time_limit_ends_the_following():
+    """What was found until then is the answer; that a real one may be missing is told."""
+    task = of_crank_rocker(np.linspace(20, 200, 9), np.ones(9, dtype=bool))
+    synthesis = synthesize(task, SynthesisOptions(time_limit=0.05))
+    assert synthesis.points.found < synthesis.points.followed + 1 <= 1442
+    assert [each.code for each in synthesis.warnings][-1] == "W221"
+    assert "W223" not in [each.code for each in synthesis.warnings]
 
 
 def test_nine_points_on_a_circle_are_told():

@@ -267,8 +267,9 @@ def pose_tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None
     tolerances = synthesis.task.tolerances
     if found.within_tolerance is None or tolerances is None or not found.usable:
         return None
-    if (tolerances.exact | tolerances.free).all():
-        return f"{found.id} meets all that is not free, up to rounding."
+    if not tolerances.has_room:
+        told = synthesis.points is not None  # by the headline
+        return None if told else f"{found.id} meets all that is not free, up to rounding."
     return f"Of the poses' tolerances {found.id} uses {most_used(found, synthesis.task)}."
 
 

@@ -128,6 +128,11 @@ class PoseTolerances:
         return np.asarray(self.exact.all(axis=1))
 
     @property
+    def has_room(self) -> bool:
+        """Whether a component may be missed by something: not all are exact or free."""
+        return not bool((self.exact | self.free).all())
+
+    @property
     def conditions(self) -> int:
         """How many equations the exact components are for a linkage.
 
