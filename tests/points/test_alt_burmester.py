@@ -10,6 +10,7 @@ from burmester.points.classes import cognates, distinct
 from burmester.points.real_linkages import linkages_through
 from burmester.points.start_systems import CASES, Case, start_system
 from tests.oracles import witness
+from tests.oracles.points_by_descent import lacking, pivots_from_random_starts
 
 CHEAP = [Case(5, 0), Case(4, 2), Case(3, 4), Case(1, 4, 2), Case(2, 2, 2), Case(3, 2, 1)]
 
@@ -88,3 +89,14 @@ def test_the_same_linkage_is_counted_once():
     exchanged = np.concatenate([start.x[:, 4:], start.x[:, :4]], axis=1)
     both = np.concatenate([start.x, exchanged])
     assert len(distinct(both, start.positions)) == 201
+
+
+@pytest.mark.parametrize("case", [Case(4, 2), Case(3, 4)], ids=lambda case: case.name)
+def test_random_starts_find_nothing_new(case):
+    """Of real linkages that other code comes to by descents none is missing."""
+    poses, is_point, _ = problem(case, 2)
+    found = linkages_through(poses, is_point)
+    positions, rng = poses.translation @ [1, 1j], np.random.default_rng(1)
+    seen = pivots_from_random_starts(positions, poses.angle, is_point, 200, rng)
+    assert len(seen) > 3
+    assert not len(lacking(found.batch.dimensions[:, :, :4], seen, 1e-4))
