@@ -123,11 +123,14 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
 
 
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
-    if synthesis.points is not None:
-        angles = synthesis.task.angles_are_free
-        return f"passes every {'point' if angles else 'pose and point'} exactly, up to rounding"
-    if best.within_tolerance is not None:
-        return "stays inside the tolerance of every pose"
+    stated = synthesis.task.tolerances
+    if best.within_tolerance is not None and stated is not None:
+        if stated.has_room:
+            return "stays inside the tolerance of every pose"
+        if not stated.exact[:, :2].all():
+            return "meets exactly what is asked of every pose, up to rounding"
+        asked = "point" if synthesis.task.angles_are_free else "pose and point"
+        return f"passes every {asked} exactly, up to rounding"
     if explanation.meets_exactly(best, synthesis.length):
         return "passes every pose exactly, up to rounding"
     return f"passes every pose within {explanation.worst_miss(best, synthesis.task)}"
@@ -268,8 +271,7 @@ def pose_tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None
     if found.within_tolerance is None or tolerances is None or not found.usable:
         return None
     if not tolerances.has_room:
-        told = synthesis.points is not None  # by the headline
-        return None if told else f"{found.id} meets all that is not free, up to rounding."
+        return None  # the headline says it
     return f"Of the poses' tolerances {found.id} uses {most_used(found, synthesis.task)}."
 
 
