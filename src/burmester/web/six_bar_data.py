@@ -57,7 +57,8 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
 
 
 def _best(synthesis: Synthesis, best: FoundSixBar) -> list[str]:
-    return [f"{six_bar_words.headline(best)}.", *six_bar_words.sentences(synthesis, best)]
+    """What to build; what else is to be said of it stands beside its picture."""
+    return [f"{six_bar_words.headline(best)}.", six_bar_words.sentences(synthesis, best)[1]]
 
 
 def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:

@@ -796,44 +796,44 @@ bounds(far);const width=Math.max(260,this.parent.clientWidth);const box=widened(
 this.places,width,true).some((each,k)=>each!==box[k]);const shape=(box[3]-box[1])/(box[2]-box[0]);const own=clamp(width*clamp(shape,.45,1),260,clamp(.62*window.
 innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(box,width,height,width<500?34:42);this.view=view;svg.setAttribute(
 "viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;svg.dataset.left=view.left;svg.dataset.top=view.top;svg.replaceChildren();
-svg.append(this.grid(),keepOut(data,view),ghosts(data,linkage,view));if(linkage)svg.append(this.paths());const labels=new Labels(view);this.names=s("g",{class:"\
-bm-names"},keepOutNames(data,view,labels));if(linkage)svg.append(this.ground(labels));for(const pose of data.poses){const x=view.X(pose.x),y=view.Y(pose.y),angle=radians(
-pose.angle_deg);const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(x,y,12,12);for(const share of[.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);
-labels.block(x-.6*share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?this.mechanism():null;if(this.moving)svg.append(this.
-moving.group);if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}placesOf(way,stretch){return placesOf(this.data,this.linkage,way,stretch)}bounds(far){
-return boundsOf(this.data,this.linkage,this.places,far)}mechanism(){return mechanism(this.data,this.linkage,this.view,this.places)}grid(){const{view}=this,group=s(
-"g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.unit?` ${this.data.unit}`:"";const across=ticks(-view.left/view.scale,(view.width-view.left)/view.
-scale,view.width/110);const up=ticks((view.top-view.height)/view.scale,view.top/view.scale,view.height/80);for(const{at,text}of across){const x=px(view.X(at));group.
-append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.width-(unit2?54:30)){group.append(s("text",{x,y:view.height-6,"text-anchor":"middle"},text))}}for(const{
-at,text}of up){const y=px(view.Y(at));group.append(s("path",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-24)group.append(s("text",{x:6,y:y-4},text))}group.
-append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));return group}paths(){const{view,linkage,places}=this,
-group=s("g",{class:"bm-paths"});linkage.ways.forEach((way,k)=>{const same=way.circuit===linkage.ways[this.way]?.circuit;const kind=k===this.way?"bm-beyond":same?
-"bm-same":"bm-other";const whole=this.placesOf(way,{low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,y})=>[x,y]),view);group.append(s("path",{class:`\
-bm-curve ${kind}`,d:d2}))});for(const{side,points}of this.pivotPaths()){group.append(s("path",{class:`bm-pivot-path bm-side${side}`,d:polyline(points,view)}))}const d=polyline(
-places.map(({x,y})=>[x,y]),view);group.append(s("path",{class:"bm-curve bm-here",d}));return group}pivotPaths(){const drawn=[...this.linkage.led.entries()].filter(
-([,dyad])=>dyad.moving_pivot&&dyad.kind!=="PR");return drawn.map(([side,dyad])=>({side,points:this.places.map(place=>act(place,dyad.moving_pivot))}))}ground(labels){
-const group=s("g",{class:"bm-grounds"});this.linkage.led.forEach((dyad,side)=>{if(dyad.kind==="PR")this.rail(group,labels,dyad,side);else if(dyad.fixed_pivot)this.
-fixedPivot(group,labels,dyad,side)});return group}rail(group,labels,dyad,side){if(!this.places.length)return;const{x,y,drawn,turned,paths}=railOf(dyad,this.places,
-this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,"data-dyad":dyad.id,transform:transform(x,y,turned)},s("path",{class:"bm-gr\
-ound",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=14)labels.block(x-k*ny,y-k*nx,22,22);this.names.append(labels.
-put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.view.X(dyad.fixed_pivot[0]),y=this.view.Y(dyad.fixed_pivot[1]);
-labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute("transform",`translate(${px(x)} ${px(y)})`);group.append(at);this.names.
-append(labels.put(x,y+4,dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){const{data,view}=this,isFar=farFrom(data),digits=decimalsOf(data);this.linkage.
-led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);if(!at||!isFar(at))return;const[x,y]=[view.X(at[0]),view.Y(at[1])];const cx=view.width/2,cy=view.
-height/2,size2=Math.hypot(x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.min((cx-12)/Math.abs(u),(cy-12)/Math.abs(v));const ex=cx+reach*u,ey=cy+
-reach*v;const text=`${dyad.id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(each,digits)).join(", ")})`;labels.block(ex,ey,20,20);this.names.
-append(s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(ex,ey,Math.atan2(-v,u))}),labels.put(ex,ey,text,14,{class:`bm-name b\
-m-far-name bm-side${side}`}))})}poses(linkage,factor,labels){const{data,view}=this,group=s("g",{class:"bm-poses"});const small=data.poses.length>24?.6:1;const arrows=this.
-errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});data.poses.forEach((pose,k)=>{const x=view.X(pose.x),y=view.Y(pose.y);group.append(s("g",
-{class:"bm-wanted",transform:transform(x,y,radians(pose.angle_deg)),"data-pose":k+1},s("path",{d:axes(AXIS*small)}),s("circle",{r:4.5*small})));if(data.poses.length<=
-60)names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===null)return;const elsewhere=row.way===this.way?"":" bm-else\
-where";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg))},s("path",{d:axes(.72*AXIS*small)}),
-s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){const{data,view}=this,arrows=s("g",{class:"bm-errors"});if(!linkage||
-!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.x),y=view.Y(pose.y);const dx=factor*view.
-scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2;
-const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;arrows.append(s("path",{d:`M${px(x)} ${px(
-y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});return arrows}show(place){this.moving?.show(
-place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
+svg.append(this.grid(),keepOut(data,view),this.ghosts());if(linkage)svg.append(this.paths());const labels=new Labels(view);this.names=s("g",{class:"bm-names"},keepOutNames(
+data,view,labels));if(linkage)svg.append(this.ground(labels));for(const pose of data.poses){const x=view.X(pose.x),y=view.Y(pose.y),angle=radians(pose.angle_deg);
+const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(x,y,12,12);for(const share of[.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-
+.6*share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?this.mechanism():null;if(this.moving)svg.append(this.moving.group);
+if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}placesOf(way,stretch){return placesOf(this.data,this.linkage,way,stretch)}bounds(far){return boundsOf(
+this.data,this.linkage,this.places,far)}ghosts(){return ghosts(this.data,this.linkage,this.view)}mechanism(){return mechanism(this.data,this.linkage,this.view,this.
+places)}grid(){const{view}=this,group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.unit?` ${this.data.unit}`:"";const across=ticks(-view.
+left/view.scale,(view.width-view.left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/view.scale,view.top/view.scale,view.height/80);for(const{
+at,text}of across){const x=px(view.X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.width-(unit2?54:30)){group.append(s("text",{x,y:view.
+height-6,"text-anchor":"middle"},text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(s("path",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-
+24)group.append(s("text",{x:6,y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));
+return group}paths(){const{view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.ways.forEach((way,k)=>{const same=way.circuit===linkage.ways[this.way]?.
+circuit;const kind=k===this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=this.placesOf(way,{low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,
+y})=>[x,y]),view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const{side,points}of this.pivotPaths()){group.append(s("path",{class:`bm-pivot-p\
+ath bm-side${side}`,d:polyline(points,view)}))}const d=polyline(places.map(({x,y})=>[x,y]),view);group.append(s("path",{class:"bm-curve bm-here",d}));return group}pivotPaths(){
+const drawn=[...this.linkage.led.entries()].filter(([,dyad])=>dyad.moving_pivot&&dyad.kind!=="PR");return drawn.map(([side,dyad])=>({side,points:this.places.map(
+place=>act(place,dyad.moving_pivot))}))}ground(labels){const group=s("g",{class:"bm-grounds"});this.linkage.led.forEach((dyad,side)=>{if(dyad.kind==="PR")this.rail(
+group,labels,dyad,side);else if(dyad.fixed_pivot)this.fixedPivot(group,labels,dyad,side)});return group}rail(group,labels,dyad,side){if(!this.places.length)return;
+const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,"data-dyad":dyad.id,transform:transform(
+x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=14)labels.block(x-k*ny,y-k*
+nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.view.X(dyad.fixed_pivot[0]),
+y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute("transform",`translate(${px(x)} ${px(
+y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){const{data,view}=this,isFar=farFrom(data),
+digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);if(!at||!isFar(at))return;const[x,y]=[view.X(at[0]),view.Y(at[1])];
+const cx=view.width/2,cy=view.height/2,size2=Math.hypot(x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.min((cx-12)/Math.abs(u),(cy-12)/Math.abs(
+v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(each,digits)).join(", ")})`;labels.
+block(ex,ey,20,20);this.names.append(s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(ex,ey,Math.atan2(-v,u))}),labels.put(ex,
+ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}poses(linkage,factor,labels){const{data,view}=this,group=s("g",{class:"bm-poses"});const small=data.
+poses.length>24?.6:1;const arrows=this.errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});data.poses.forEach((pose,k)=>{const x=view.X(pose.
+x),y=view.Y(pose.y);group.append(s("g",{class:"bm-wanted",transform:transform(x,y,radians(pose.angle_deg)),"data-pose":k+1},s("path",{d:axes(AXIS*small)}),s("ci\
+rcle",{r:4.5*small})));if(data.poses.length<=60)names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===null)return;const elsewhere=row.
+way===this.way?"":" bm-elsewhere";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg))},s(
+"path",{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){const{data,view}=this,arrows=s(
+"g",{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.
+x),y=view.Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.
+min(7,.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;
+arrows.append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});
+return arrows}show(place){this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[

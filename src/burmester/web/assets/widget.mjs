@@ -1415,7 +1415,7 @@ var Plane = class {
     svg.dataset.left = view.left;
     svg.dataset.top = view.top;
     svg.replaceChildren();
-    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
+    svg.append(this.grid(), keepOut(data, view), this.ghosts());
     if (linkage) svg.append(this.paths());
     const labels = new Labels(view);
     this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
@@ -1442,6 +1442,10 @@ var Plane = class {
   /** The box that the picture has to hold, but for outlines. */
   bounds(far) {
     return boundsOf(this.data, this.linkage, this.places, far);
+  }
+  /** The body at every pose. */
+  ghosts() {
+    return ghosts(this.data, this.linkage, this.view);
   }
   /** The moving parts. */
   mechanism() {
@@ -3410,6 +3414,7 @@ function moving(sixBar, poses) {
         way: 0,
         frame: frameAt(way.drive, drive),
         drive_deg: drive,
+        joints: at.joints,
         loops: at.loops,
         position: Math.hypot(at.x - poses[k].x, at.y - poses[k].y),
         transmission_deg: at.transmission,
@@ -3422,8 +3427,8 @@ function moving(sixBar, poses) {
 // src/burmester/web/widget/six_bar_mechanism.mjs
 var NAME = 15;
 var BODY_AXIS2 = AXIS + 10;
-var LINKS = ["BDG", "AC", "GH", "CDE", "EHM"];
-var NAMED_ON = { C: "CDE", D: "CDE", E: "CDE", G: "BDG", H: "EHM" };
+var LINKS = ["CDE", "BDG", "AC", "GH", "EHM"];
+var NAMED_ON = { C: "CDE", D: "CDE", E: "CDE", G: "BDG", H: "GH" };
 var kindOf = (link, driver) => link === "EHM" ? "bm-carried" : link === "AC" || link === "BDG" ? `bm-side${link === "AC" === (driver === "first") ? 0 : 1}` : "bm-inner";
 var SixBarMechanism = class {
   constructor(data, linkage, view) {
@@ -3480,6 +3485,7 @@ function outwards(corners, [x, y]) {
 }
 
 // src/burmester/web/widget/six_bar_plane.mjs
+var BESIDE_PIVOT = [16, 28, 40];
 var SixBarPlane = class extends Plane {
   build(linkage, way, stretch, how) {
     super.build(linkage, way, stretch, { ...how, far: true });
@@ -3490,6 +3496,13 @@ var SixBarPlane = class extends Plane {
   bounds(far) {
     return including(super.bounds(far), this.places.flatMap((place) => Object.values(place.joints)));
   }
+  /** The body at every pose; where it has no outline, its two joints and its origin. */
+  ghosts() {
+    const { data, linkage, view } = this;
+    if (data.body || !linkage) return super.ghosts();
+    const plates = linkage.pose_errors.map(({ x, y, joints }) => s("path", { class: "bm-ghost", d: `${polyline([[x, y], joints.E, joints.H], view)}Z` }));
+    return s("g", { class: "bm-ghosts" }, plates);
+  }
   mechanism() {
     return new SixBarMechanism(this.data, this.linkage, this.view);
   }
@@ -3499,8 +3512,20 @@ var SixBarPlane = class extends Plane {
   }
   ground(labels) {
     const group = s("g", { class: "bm-grounds" });
+    this.keepCranksFree(labels);
     this.linkage.led.forEach(({ id, fixed_pivot }, side) => this.fixedPivot(group, labels, { id: id[0], fixed_pivot }, side));
     return group;
+  }
+  /** Where cranks are on their way no name is to stand. */
+  keepCranksFree(labels) {
+    const { view, places } = this, every = Math.ceil(places.length / 9);
+    for (const { joints } of places.filter((_, k) => k % every === 0)) {
+      for (const [pivot, end] of ["AC", "BD", "BG"]) {
+        const [[x, y], [u, v]] = [joints[pivot], joints[end]].map((at) => [view.X(at[0]), view.Y(at[1])]);
+        const size3 = Math.hypot(u - x, v - y) || 1;
+        for (const along of BESIDE_PIVOT) labels.block(x + along * (u - x) / size3, y + along * (v - y) / size3, 12, 12);
+      }
+    }
   }
 };
 
@@ -3583,7 +3608,7 @@ function sixBarTable(data) {
 var lines = (parts) => parts.map((part) => h("span", { class: "bm-line-of" }, part));
 function sixBarDimensions(data, { id, said }) {
   const rows = said.dimensions.map(([link, ...joints]) => h("tr", {}, cells([link, lines(joints.filter(Boolean))])));
-  return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, ["link", "joints, or length"], rows, { class: "bm-dimensions" });
+  return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
 }
 function distanceFacts(data, { said }) {
   return h(
@@ -3623,7 +3648,7 @@ function sixBarKey(data, hasLinkages) {
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M")
     );
   }
-  if (data.body) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
+  if (data.body || hasLinkages) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
   return h("ul", { class: "bm-keys" }, items);
 }
 function loopKey(linkage) {

@@ -66,7 +66,7 @@ export class Plane {
     svg.dataset.left = view.left;
     svg.dataset.top = view.top;
     svg.replaceChildren();
-    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
+    svg.append(this.grid(), keepOut(data, view), this.ghosts());
     if (linkage) svg.append(this.paths());
     const labels = new Labels(view);
     this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
@@ -95,6 +95,11 @@ export class Plane {
   /** The box that the picture has to hold, but for outlines. */
   bounds(far) {
     return boundsOf(this.data, this.linkage, this.places, far);
+  }
+
+  /** The body at every pose. */
+  ghosts() {
+    return ghosts(this.data, this.linkage, this.view);
   }
 
   /** The moving parts. */

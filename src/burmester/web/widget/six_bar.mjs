@@ -76,7 +76,7 @@ export function moving(sixBar, poses) {
     pose_errors: sixBar.drive_deg.map((drive, k) => {
       const at = sixBarAt(sixBar, drive);
       return {
-        x: at.x, y: at.y, angle_deg: degrees(at.a), way: 0, frame: frameAt(way.drive, drive), drive_deg: drive, loops: at.loops,
+        x: at.x, y: at.y, angle_deg: degrees(at.a), way: 0, frame: frameAt(way.drive, drive), drive_deg: drive, joints: at.joints, loops: at.loops,
         position: Math.hypot(at.x - poses[k].x, at.y - poses[k].y), transmission_deg: at.transmission,
         said: { position: "exact", turned: "exact" },
       };

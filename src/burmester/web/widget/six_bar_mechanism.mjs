@@ -10,9 +10,9 @@ import { bodyOutline } from "./outlines.mjs";
 
 const NAME = 15; // pixels: how far the name of a joint stands from it
 const BODY_AXIS = AXIS + 10; // pixels: the x axis of the body
-// Links from the lowest to the topmost, and the one outside of which each joint's name stands.
-const LINKS = ["BDG", "AC", "GH", "CDE", "EHM"];
-const NAMED_ON = { C: "CDE", D: "CDE", E: "CDE", G: "BDG", H: "EHM" };
+// Links from the lowest to the topmost, and those beyond which the names of their joints stand.
+const LINKS = ["CDE", "BDG", "AC", "GH", "EHM"];
+const NAMED_ON = { C: "CDE", D: "CDE", E: "CDE", G: "BDG", H: "GH" };
 
 /** How a link is drawn: the driver filled, the other crank hollow, in grey those between; the body is grey and filled. */
 const kindOf = (link, driver) => (link === "EHM" ? "bm-carried" : link === "AC" || link === "BDG" ? `bm-side${(link === "AC") === (driver === "first") ? 0 : 1}` : "bm-inner");

@@ -46,7 +46,7 @@ const lines = (parts) => parts.map((part) => h("span", { class: "bm-line-of" }, 
 /** What to build a six-bar from: the joints of each link in its own frame, or its length. */
 export function sixBarDimensions(data, { id, said }) {
   const rows = said.dimensions.map(([link, ...joints]) => h("tr", {}, cells([link, lines(joints.filter(Boolean))])));
-  return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, ["link", "joints, or length"], rows, { class: "bm-dimensions" });
+  return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
 }
 
 /** The distances between the joints of one link, to measure and to check. */
@@ -97,7 +97,7 @@ export function sixBarKey(data, hasLinkages) {
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M"),
     );
   }
-  if (data.body) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
+  if (data.body || hasLinkages) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
   return h("ul", { class: "bm-keys" }, items);
 }
 
