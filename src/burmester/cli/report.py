@@ -29,9 +29,7 @@ __all__ = ["report"]
 
 
 @click.command(cls=Sectioned)
-@with_options(
-    POSES, FUNCTION, SPECIFICATION, METHOD, SIX_BARS, MANUFACTURING, poses_required=False
-)
+@with_options(POSES, FUNCTION, SPECIFICATION, METHOD, SIX_BARS, MANUFACTURING, poses_required=False)
 @click.option(
     "-o", "file", metavar="FILE", help="Name of the page; by default that of POSES with .html."
 )
@@ -54,8 +52,8 @@ def report(
 ) -> int:
     """Write a page on which the linkages for POSES move.
 
-    With --six-bars, the six-bars.  It is one file, and needs no network.  The options are those of `burmester synthesize`, where
-    REGION and NAME are explained.
+    With --six-bars, the six-bars.  It is one file, and needs no network.  The options are those
+    of `burmester synthesize`, where REGION and NAME are explained.
     """
     from burmester.cli.function import function_task, page_of_function
     from burmester.cli.progress_line import working

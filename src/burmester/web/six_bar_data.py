@@ -52,7 +52,7 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
         "asked_transmission_deg": task.requirements.transmission_deg or None,
         "heads": list(six_bar_words.HEADS),
         "six_bars": [_six_bar(synthesis, each) for each in found],
-        "footnotes": f"{RULE[0].upper()}{RULE[1:]}. {FRAMES}",
+        "footnotes": f"{RULE[0].upper()}{RULE[1:]}. {FRAMES}" if found else "",
     }
 
 
