@@ -12,7 +12,6 @@ from burmester import Polygon, Requirements, cli
 from burmester.errors import InputError
 from tests.oracles import browser as browsers
 from tests.oracles.six_bars import LIST, dimensions, driven
-from tests.report.test_moving import QUICK
 from tests.sixbar.tasks import BENT, TURNING, task
 
 START = (*BENT[0][:2], np.radians(BENT[0][2]))
@@ -162,7 +161,7 @@ def test_joints_are_where_the_bars_put_them(browser, file, result):
 def test_bars_keep_their_lengths_while_it_plays_and_where_it_locks(browser, file, result):
     found = result.best
     bars = dimensions(found.linkage)
-    with browsers.opened(browser, file, before=QUICK) as (page, said, _):
+    with browsers.opened(browser, file, before=browsers.QUICK) as (page, said, _):
         page.locator(".bm-whole input").check()
         low, high, seen = page.evaluate(PLAYED)
         at = np.array([u for u, _ in seen])
