@@ -87,7 +87,7 @@ def require_dimensions(page, found):
     }  # fmt: skip
     assert bars == pytest.approx(dimensions(found.linkage), rel=1e-6)
     page.locator(".bm-numbers summary").click()
-    facts = page.locator(".bm-numbers details dl div").all_inner_texts()
+    facts = page.locator(".bm-numbers details tbody tr").all_inner_texts()
     told = {name: float(value) for name, value in map(str.split, facts)}
     assert told == pytest.approx({"AB": abs(b - a), **bars}, rel=1e-5)
 

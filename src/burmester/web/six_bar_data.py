@@ -70,7 +70,6 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
     return {
         "id": found.id,
         "type": TYPE,
-        "usable": True,
         "sound": not found.shortcomings,
         "driver": found.driver,
         "crank": six_bar_words.driver_name(found),

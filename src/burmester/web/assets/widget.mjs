@@ -3610,16 +3610,15 @@ function sixBarDimensions(data, { id, said }) {
   const rows = said.dimensions.map(([link, ...joints]) => h("tr", {}, cells([link, lines(joints.filter(Boolean))])));
   return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
 }
-function distanceFacts(data, { said }) {
-  return h(
-    "details",
-    { class: "bm-every" },
-    h("summary", {}, `Distances between joints${data.unit ? `, in ${data.unit}` : ""}`),
-    facts(said.distances)
-  );
+function sixBarDistances(data, { id, said }) {
+  const caption = `Distances between joints of ${id}${data.unit ? `, in ${data.unit}` : ""}`;
+  const rows = said.distances.map((row) => h("tr", {}, cells(row)));
+  return h("details", { class: "bm-every" }, h("summary", {}, "Distances between joints"), table(caption, [{ name: "joints", text: true }, "distance"], rows));
 }
-var facts = (rows) => h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
-var sixBarFacts = (data, { said }) => facts([...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", "exact, up to rounding"]]);
+function sixBarFacts(data, { said }) {
+  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", "exact, up to rounding"]];
+  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+}
 function sixBarPoses(data, linkage) {
   const digits = decimalsOf(data), unit2 = data.unit ? ` (${data.unit})` : "";
   const heads = ["pose", "x", `y${unit2}`, "angle", ...linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : []];
@@ -3713,7 +3712,7 @@ var SixBarReport = class extends Report {
       player.rebuild();
       this.title.textContent = `${linkage.id}: ${linkage.type}`;
       this.story.textContent = linkage.said.story;
-      this.numbers.replaceChildren(sixBarDimensions(data, linkage), sixBarFacts(data, linkage), distanceFacts(data, linkage));
+      this.numbers.replaceChildren(sixBarDimensions(data, linkage), sixBarFacts(data, linkage), sixBarDistances(data, linkage));
       this.loops.replaceChildren(loopKey(linkage));
     }
     this.poses.replaceChildren(this.poses.querySelector("h2"), sixBarPoses(data, linkage));

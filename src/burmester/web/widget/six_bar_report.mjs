@@ -7,7 +7,7 @@ import { moving } from "./six_bar.mjs";
 import { SixBarPlane } from "./six_bar_plane.mjs";
 import { SixBarPlayer } from "./six_bar_player.mjs";
 import { SixBarPlots } from "./six_bar_plots.mjs";
-import { SixBarCards, distanceFacts, loopKey, sixBarDimensions, sixBarFacts, sixBarKey, sixBarPoses, sixBarTable } from "./six_bar_tables.mjs";
+import { SixBarCards, loopKey, sixBarDimensions, sixBarDistances, sixBarFacts, sixBarKey, sixBarPoses, sixBarTable } from "./six_bar_tables.mjs";
 
 export class SixBarReport extends Report {
   constructor(data, el, options) {
@@ -69,7 +69,7 @@ export class SixBarReport extends Report {
       player.rebuild();
       this.title.textContent = `${linkage.id}: ${linkage.type}`;
       this.story.textContent = linkage.said.story;
-      this.numbers.replaceChildren(sixBarDimensions(data, linkage), sixBarFacts(data, linkage), distanceFacts(data, linkage));
+      this.numbers.replaceChildren(sixBarDimensions(data, linkage), sixBarFacts(data, linkage), sixBarDistances(data, linkage));
       this.loops.replaceChildren(loopKey(linkage));
     }
     this.poses.replaceChildren(this.poses.querySelector("h2"), sixBarPoses(data, linkage));

@@ -50,19 +50,17 @@ export function sixBarDimensions(data, { id, said }) {
 }
 
 /** The distances between the joints of one link, to measure and to check. */
-export function distanceFacts(data, { said }) {
-  return h(
-    "details",
-    { class: "bm-every" },
-    h("summary", {}, `Distances between joints${data.unit ? `, in ${data.unit}` : ""}`),
-    facts(said.distances),
-  );
+export function sixBarDistances(data, { id, said }) {
+  const caption = `Distances between joints of ${id}${data.unit ? `, in ${data.unit}` : ""}`;
+  const rows = said.distances.map((row) => h("tr", {}, cells(row)));
+  return h("details", { class: "bm-every" }, h("summary", {}, "Distances between joints"), table(caption, [{ name: "joints", text: true }, "distance"], rows));
 }
 
-const facts = (rows) => h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
-
 /** The figures of a six-bar, under the heads of the table of all. */
-export const sixBarFacts = (data, { said }) => facts([...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", "exact, up to rounding"]]);
+export function sixBarFacts(data, { said }) {
+  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", "exact, up to rounding"]];
+  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+}
 
 /** The poses, and driver and transmission angles there. */
 export function sixBarPoses(data, linkage) {
