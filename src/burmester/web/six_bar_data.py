@@ -28,8 +28,9 @@ __all__ = ["six_bar_report"]
 SCHEMA: Final = "burmester.six-bar-report/1"
 FRAMES: Final = (
     "The frame of the coupler has its origin at C, and E on its x axis; that of the second crank "
-    "its origin at B, and D on its x axis. F is the ground, M the body. The transmission angle of "
-    "a loop is that between its two links which the driver does not turn."
+    "its origin at B, and D on its x axis. F is the ground, M the body. The first loop transmits "
+    "where the coupler meets the crank that is driven, the second one at H, from the floating link "
+    "to the body."
 )
 
 
