@@ -1,8 +1,8 @@
 """Make the pictures of pages and of image space in docs.
 
-report.png is the page of the example, few-poses.png that of a template with three poses, studio.png
-the studio as it opens, notebook.png the widget in JupyterLab, and image-space.png the paper's
-Fig. 4.
+report.png is the page of the example, few-poses.png that of a template with three poses,
+six-bars-report.png that of the window opener's six-bars, studio.png the studio as it opens,
+notebook.png the widget in JupyterLab, and image-space.png the paper's Fig. 4.
 
 Needs a browser, Playwright, the studio, JupyterLab and Matplotlib, as the tests do.  Run it from
 the project's root:
@@ -24,6 +24,7 @@ from burmester import read_task, synthesize
 from burmester.plot.paper import paper_figure
 from burmester.plot.style import house_style
 from burmester.report.page import page as page_of
+from burmester.synthesis.six_bars import synthesize_six_bars
 
 SIZE = (1400, 1060)  # pixels of the screen
 STUDIO_HEIGHT = 940
@@ -31,16 +32,18 @@ FIGURE_DPI = 125
 COLOURS = 256  # of a picture: more show no difference, and fill the file
 
 
-def screen(poses="examples/poses.csv"):
-    """The first screen of the page for these poses, as it stands where nobody asks for motion."""
+def screen(poses="examples/poses.csv", solve=synthesize, steps=0):
+    """The first screen of the page for these poses, some poses on, where nobody asks for motion."""
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "report.html"
-        file.write_text(page_of(synthesize(read_task(poses)), Path(poses).name), encoding="utf-8")
+        file.write_text(page_of(solve(read_task(poses)), Path(poses).name), encoding="utf-8")
         width, height = SIZE
         with (
             browsers.launched() as browser,
             browsers.opened(browser, file, width=width, height=height) as (page, said, _),
         ):
+            for _ in range(steps):
+                page.get_by_role("button", name="Next pose").click()
             assert said == []
             return page.screenshot()
 
@@ -90,6 +93,9 @@ def main():
     pictures = {
         "report.png": screen(),
         "few-poses.png": screen("src/burmester/templates/chest-lid.toml"),
+        "six-bars-report.png": screen(
+            "src/burmester/templates/window-opener.toml", synthesize_six_bars, 2
+        ),
         "studio.png": studio(),
         "notebook.png": notebook(),
         "image-space.png": figure(),

@@ -166,13 +166,6 @@ def test_pivots_far_from_the_poses_are_named_at_the_edge_and_shown_on_request(br
         assert said == []
 
 
-# Every frame counts as a tenth of a second, however fast this machine draws.
-QUICK = """(() => {
-  const own = window.requestAnimationFrame;
-  let now = 0;
-  window.requestAnimationFrame = (what) => own.call(window, () => what((now += 100)));
-})();"""
-
 PLAYED = """() => new Promise((done) => {
   const slider = document.querySelector(".bm-slider"), values = [];
   let looks = 0;
@@ -196,7 +189,7 @@ def test_play_runs_from_the_first_pose_to_the_last_and_back(browser, report, nam
     )["linkages"][0]
     frames = [row["frame"] for row in shown["pose_errors"]]
     first, last = frames[0], frames[-1]
-    with browsers.opened(browser, file, before=QUICK) as (page, said, _):
+    with browsers.opened(browser, file, before=browsers.QUICK) as (page, said, _):
         values = np.array(page.evaluate(PLAYED))
         assert values[0] == pytest.approx(first, abs=1e-6)
         turn = int(np.abs(values - last).argmin())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
@@ -12,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from burmester.api.python_words import in_python_words
 from burmester.api.synthesize import require_callable, task_of
+from burmester.api.table import plain_html
 from burmester.describe import six_bar_words
 from burmester.errors import Advice, InputError
 from burmester.export.options import Options
@@ -27,6 +29,7 @@ from burmester.synthesis import six_bars as road
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.options import SynthesisOptions
+from burmester.web.still import six_bar_still
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -133,12 +136,37 @@ class SixBarResult:
             files.write(path, self.to_json(), force=force)
         return Path(path)
 
+    def report(
+        self, path: str | os.PathLike[str], *, title: str | None = None, force: bool = False
+    ) -> Path:
+        """Write the page on which the six-bars move, one HTML file that needs no network.
+
+        title: the heading, the file's name if not given.  Raises InputError E140 and E141.
+        """
+        from burmester.report import page  # noqa: PLC0415
+
+        with in_python_words():
+            files.require_writable(path, force=force)
+            files.write(path, page(self.synthesis, title or Path(path).stem), force=force)
+        return Path(path)
+
     def __repr__(self) -> str:
         lines = [self.outcome.message]
         if self.best is not None:
             lines.insert(0, six_bar_words.headline(self.best))
             lines += ["  ".join(six_bar_words.row(self.synthesis, each)) for each in self]
         return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        """In a notebook: what to build, drawn, and all of them in a table."""
+        best, said = self.best, [f"{self.outcome.message}."]
+        if best is None:
+            return f"<div><p>{escape(said[0])}</p></div>"
+        said[:0] = [f"{six_bar_words.headline(best)}."]
+        text = "".join(f"<p>{escape(each)}</p>" for each in said)
+        rows = [six_bar_words.row(self.synthesis, each) for each in self]
+        drawing = six_bar_still(best, self.task, f"{best.id}, a six-bar of Watt's first kind")
+        return f"<div>{text}{plain_html(six_bar_words.HEADS, rows, range(2, 7))}{drawing}</div>"
 
 
 def synthesize_six_bars(

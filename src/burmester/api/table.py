@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from html import escape
 
 from burmester.describe.decimals import decimals_of_linkage
@@ -18,7 +18,7 @@ from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of
 from burmester.wording import listed
 
-__all__ = ["as_html", "as_line", "as_text", "dimensions_as_html"]
+__all__ = ["as_html", "as_line", "as_text", "dimensions_as_html", "plain_html"]
 
 HEADS = ("", "type", "dyads", "worst", "angle", "transm.", "ext.", "sens.", "")
 NUMBERS = range(3, 8)  # columns of numbers, set to the right
@@ -62,16 +62,28 @@ def as_text(linkages: Sequence[SavedLinkage], most: int) -> list[str]:
 
 def as_html(linkages: Sequence[SavedLinkage]) -> str:
     """A table element; the linkages that are not usable are paler."""
+    faint = {k for k, each in enumerate(linkages) if not each.usable}
+    return plain_html(HEADS, list(map(_cells, linkages)), NUMBERS, faint)
 
-    def row(cells: Sequence[str], tag: str, faint: bool = False) -> str:
+
+def plain_html(
+    heads: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    numbers: Container[int],
+    faint: Container[int] = (),
+) -> str:
+    """A table element of texts; numbers: the columns set to the right; faint: the paler rows."""
+
+    def row(cells: Sequence[str], tag: str, style: str = "") -> str:
         inner = ""
         for k, cell in enumerate(cells):
-            side = "right" if k in NUMBERS else "left"
+            side = "right" if k in numbers else "left"
             inner += f'<{tag} style="text-align:{side}">{escape(cell)}</{tag}>'
-        return f'<tr style="opacity:.6">{inner}</tr>' if faint else f"<tr>{inner}</tr>"
+        return f"<tr{style}>{inner}</tr>"
 
-    body = "".join(row(_cells(each), "td", faint=not each.usable) for each in linkages)
-    return f"<table><thead>{row(HEADS, 'th')}</thead><tbody>{body}</tbody></table>"
+    pale = ' style="opacity:.6"'
+    body = "".join(row(each, "td", pale if k in faint else "") for k, each in enumerate(rows))
+    return f"<table><thead>{row(heads, 'th')}</thead><tbody>{body}</tbody></table>"
 
 
 def dimensions_as_html(linkage: SavedLinkage) -> str:

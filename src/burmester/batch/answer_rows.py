@@ -11,12 +11,12 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from numpy.typing import NDArray
 
-from burmester.batch.schema import DYAD, GENERATOR, LINKAGE
+from burmester.batch.schema import DYAD, LINKAGE, SCHEMA
 from burmester.stacked import DyadRows, LinkageRows, StackedAnswers
 
 __all__ = ["Refusal", "answer_table", "refused_rows", "solved_rows", "stacked_rows"]
 
-_ANSWERS = ("outcome", "code", "reason", "dyads", "linkages", "warnings", "generators")
+_ANSWERS = ("outcome", "code", "reason", "dyads", "linkages", "warnings", "generators", "six_bars")
 _WARNINGS = pa.list_(pa.string())
 
 
@@ -89,10 +89,10 @@ def solved_rows(found: Mapping[int, Mapping[str, Any]]) -> pa.Table:
 
 
 def answer_table(indices: NDArray[np.intp], *columns: Any) -> pa.Table:
-    """Columns of answers with the places of their tasks; without generators for tasks of poses."""
+    """Columns of answers with the places of their tasks; the last ones, left out, are null."""
     every = [pa.array(indices, pa.int64()), *columns]
-    if len(columns) < len(_ANSWERS):
-        every.append(pa.nulls(len(indices), pa.list_(GENERATOR)))
+    for name in _ANSWERS[len(columns) :]:
+        every.append(pa.nulls(len(indices), SCHEMA.field(name).type))
     return pa.table(every, names=["index", *_ANSWERS])
 
 

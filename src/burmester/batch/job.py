@@ -29,6 +29,7 @@ __all__ = ["PAIR_TASKS", "PART_TASKS", "BatchProgress", "run"]
 # Tasks of a part that take some second on one core.
 PART_TASKS: Mapping[Depth, int] = {"pencil": 50_000, "dyads": 1000, "linkages": 500, "full": 10}
 PAIR_TASKS = 100  # the same of tasks of pairs of angles
+SIX_BAR_TASKS = 1  # and where six-bars are looked for
 MOST_DRAWN = 5000  # draws of a part: with their curves they are some megabytes
 LIMITS_S: Mapping[Depth, float] = {"pencil": 120, "dyads": 120, "linkages": 120, "full": 600}
 
@@ -139,6 +140,8 @@ def run(
             source = open_source(os.fspath(tasks))
         if part_tasks is None and source.pairs:
             size = PAIR_TASKS
+        elif part_tasks is None and chosen.six_bars is not None:
+            size = SIX_BAR_TASKS
         sheet = tasks.datasheet if isinstance(tasks, Sample) else ""
         job = _Job(folder, source, depth, chosen, size, limit, progress, sheet)
         memory = None if worker_memory is None else int(worker_memory * 1e9)

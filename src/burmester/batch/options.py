@@ -2,9 +2,11 @@
 
 Keys at the top are the options of `burmester.synthesize` by their Python names; the others are
 those that a task file holds beside its poses, such as `limits` and `requirements`, and hold for
-every task; a table [function] holds the settings of tasks of pairs of angles.
+every task; a table [function] holds the settings of tasks of pairs of angles, and a table
+[six_bars] asks for six-bars.
 
 E107 a key that is not known      E108 a key that has no effect here
+E197 six-bars by options that make no sense
 E134 a value that makes no sense, and what readers of task files raise
 """
 
@@ -23,6 +25,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.reading.specification import TOP_KEYS
 from burmester.io.reading.trees.documents import read_toml
 from burmester.io.reading.trees.locations import Document, close_match
+from burmester.sixbar.six_bars import SixBarOptions
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.wording import listed
@@ -34,6 +37,8 @@ DEPTHS: Final[tuple[Depth, ...]] = ("pencil", "dyads", "linkages", "full")
 
 # The keys of a task file that may stand here, and those that every depth takes account of.
 FUNCTION: Final = "function"
+SIX_BARS: Final = "six_bars"
+OF_SIX_BARS: Final = tuple(each.name for each in fields(SixBarOptions))
 BESIDE: Final = tuple(key for key in TOP_KEYS if key != "poses")
 AT_EVERY_DEPTH: Final = ("angle_unit", "length_unit", "pose_sigma")
 OF_SYNTHESIS: Final = tuple(
@@ -69,9 +74,16 @@ class BatchOptions:
     def __post_init__(self) -> None:
         document = Document(Source(self.label, self.text), "TOML")
         for key in self.data:
-            if key not in BESIDE and key not in OF_SYNTHESIS and key != FUNCTION:
+            if key not in (*BESIDE, *OF_SYNTHESIS, FUNCTION, SIX_BARS):
                 raise _unknown(key, document)
-        _ = self.synthesis, self.beside, self.functions
+            if key in OF_SYNTHESIS and SIX_BARS in self.data:
+                raise InputError(
+                    "E108",
+                    f"{key} has no effect on six-bars",
+                    where=document.where(key, key=True),
+                    help=f"delete {key}, or the table [{SIX_BARS}]",
+                )
+        _ = self.synthesis, self.beside, self.functions, self.six_bars
 
     @property
     def data(self) -> dict[str, Any]:
@@ -93,6 +105,29 @@ class BatchOptions:
         """What holds for each task of pairs of angles; raises E107 and E191."""
         try:
             return settings_of_tree(self.data.get(FUNCTION, {}))
+        except InputError as error:
+            error.where = error.where or self.label
+            raise
+
+    @property
+    def six_bars(self) -> SixBarOptions | None:
+        """How six-bars are looked for; None where four-bars are.  Raises E107 and E197."""
+        given = self.data.get(SIX_BARS)
+        if given is None:
+            return None
+        document = Document(Source(self.label, self.text), "TOML")
+        if not isinstance(given, dict):
+            raise InputError(
+                "E107",
+                f"{SIX_BARS} is no table",
+                where=document.where(SIX_BARS, key=True),
+                help=f"write a line [{SIX_BARS}], and {listed(OF_SIX_BARS, 'or')} below it",
+            )
+        for key in given:
+            if key not in OF_SIX_BARS:
+                raise _unknown(key, document, OF_SIX_BARS, SIX_BARS)
+        try:
+            return SixBarOptions(**given)
         except InputError as error:
             error.where = error.where or self.label
             raise
@@ -133,10 +168,15 @@ def _beside(text: str, label: str) -> PoseTable:
     return read_toml(Source(label, text + poses))
 
 
-def _unknown(key: str, document: Document) -> InputError:
-    known = (*OF_SYNTHESIS, *BESIDE, FUNCTION)
+def _unknown(
+    key: str,
+    document: Document,
+    known: tuple[str, ...] = (*OF_SYNTHESIS, *BESIDE, FUNCTION, SIX_BARS),
+    *above: str,
+) -> InputError:
+    """A key that is none of those known; above: the tables it stands in."""
     plain = key.replace("-", "_")
-    where = document.where(key, key=True)
+    where = document.where(*above, key, key=True)
     if key == "time_limit":
         message = "a batch has no time limit for its tasks"
         why = "rows are the same on every machine, and a limit by the clock would change them"

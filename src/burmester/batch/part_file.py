@@ -26,6 +26,7 @@ from burmester.batch.function_rows import NOT_STACKED, function_rows, function_t
 from burmester.batch.options import BatchOptions, Depth, as_task
 from burmester.batch.parts import DrawnTasks, Part, TableTasks, TextTasks
 from burmester.batch.sample import DRAWN, drawn_columns, drawn_table
+from burmester.batch.six_bar_rows import six_bar_rows
 from burmester.batch.worker import within
 from burmester.errors import BurmesterError, InputError
 from burmester.io.function_result import function_data
@@ -35,6 +36,7 @@ from burmester.numerics.linear_algebra import one_thread
 from burmester.stacked import TaskStack, stacked_answers
 from burmester.synthesis.function_generation import generate_function
 from burmester.synthesis.motion_generation import synthesize
+from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.tasks.motion_task import Task
 
 __all__ = ["Plan", "WorkedPart", "versions", "work"]
@@ -137,7 +139,7 @@ def _solved(
     tasks: Tasks, plan: Plan, wanted: list[int], sizes: Sizes, refusals: list[Refusal]
 ) -> list[pa.Table]:
     """Whole syntheses, a task after the other."""
-    found, functions = {}, {}
+    found, functions, six_bars = {}, {}, {}
     for index in wanted:
         try:
             if (function := function_task(tasks, index, plan.options)) is not None:
@@ -146,10 +148,16 @@ def _solved(
                 continue
             task = _task(tasks, index, plan.options)
             sizes.poses[index] = len(task.poses.angle)
-            found[index] = synthesis_data(synthesize(task, plan.options.synthesis))
+            if (how := plan.options.six_bars) is not None:
+                six_bars[index] = synthesis_data(synthesize_six_bars(task, how))
+            else:
+                found[index] = synthesis_data(synthesize(task, plan.options.synthesis))
         except InputError as error:
             refusals.append(_refusal(index, error))
-    return [solved_rows(found), *([function_rows(functions)] if functions else [])]
+    blocks = [solved_rows(found)]
+    if functions:
+        blocks.append(function_rows(functions))
+    return [*blocks, six_bar_rows(six_bars)] if six_bars else blocks
 
 
 def _refusal(index: int, error: BurmesterError) -> Refusal:

@@ -1,6 +1,6 @@
 """The table that a batch makes: a row a task, with its dyads and linkages as lists.
 
-Tasks of pairs of angles have their linkages as `generators`.
+Tasks of pairs of angles have their linkages as `generators`, and six-bars stand in `six_bars`.
 
 The schema has a version, which every part and the manifest name.  Columns may be added, none goes
 away and none changes its meaning under the same version.
@@ -14,7 +14,17 @@ import pyarrow as pa
 
 from burmester.stacked import StackedAnswers
 
-__all__ = ["DYAD", "GENERATOR", "LINKAGE", "OUTCOMES", "POSE", "SCHEMA", "VERSION", "schema"]
+__all__ = [
+    "DYAD",
+    "GENERATOR",
+    "LINKAGE",
+    "OUTCOMES",
+    "POSE",
+    "SCHEMA",
+    "SIX_BAR",
+    "VERSION",
+    "schema",
+]
 
 VERSION: Final = "burmester.batch/1"
 
@@ -53,6 +63,21 @@ GENERATOR: Final = pa.struct(
         *((name, _NUMBER) for name in ("transmission_deg", "link_ratio", "extent")),
     ]
 )
+_POINTS: Final = ("fixed_first", "fixed_second", "coupler_joint", "crank_joint")
+SIX_BAR: Final = pa.struct(
+    [
+        ("verdict", pa.string()),
+        ("driver", pa.string()),
+        *((f"{name}_{axis}", _NUMBER) for name in _POINTS for axis in "xy"),
+        *((f"{name}_{axis}", _NUMBER) for name in ("body_joint", "link_joint") for axis in "xy"),
+        *((name, _NUMBER) for name in ("first_crank", "coupler_arm", "second_crank")),
+        ("floating_link", _NUMBER),
+        ("drive_deg", pa.list_(_NUMBER)),
+        ("turns_fully", pa.bool_()),
+        *((name, _NUMBER) for name in ("reserve_below_deg", "reserve_above_deg")),
+        *((name, _NUMBER) for name in ("transmission_deg", "link_ratio", "extent")),
+    ]
+)
 POSE: Final = pa.struct([("x", _NUMBER), ("y", _NUMBER), ("angle_deg", _NUMBER)])
 SCHEMA: Final = pa.schema(
     [
@@ -66,6 +91,7 @@ SCHEMA: Final = pa.schema(
         ("warnings", pa.list_(pa.string())),
         ("pairs", pa.int32()),
         ("generators", pa.list_(GENERATOR)),
+        ("six_bars", pa.list_(SIX_BAR)),
     ]
 )
 

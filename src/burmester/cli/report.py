@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -12,18 +12,24 @@ from burmester.cli.options import (
     MANUFACTURING,
     METHOD,
     POSES,
+    SIX_BARS,
     SPECIFICATION,
     Sectioned,
+    require_six_bars,
+    run_six_bars,
     run_synthesis,
     with_options,
 )
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING
 
+if TYPE_CHECKING:
+    from burmester.synthesis.result import Synthesis
+
 __all__ = ["report"]
 
 
 @click.command(cls=Sectioned)
-@with_options(POSES, FUNCTION, SPECIFICATION, METHOD, MANUFACTURING, poses_required=False)
+@with_options(POSES, FUNCTION, SPECIFICATION, METHOD, SIX_BARS, MANUFACTURING, poses_required=False)
 @click.option(
     "-o", "file", metavar="FILE", help="Name of the page; by default that of POSES with .html."
 )
@@ -41,16 +47,16 @@ def report(
     output: str | None,
     title: str | None,
     force: bool,
+    six_bars: bool,
     **given: Any,
 ) -> int:
     """Write a page on which the linkages for POSES move.
 
-    It is one file, and needs no network.  The options are those of `burmester synthesize`, where
-    REGION and NAME are explained.
+    With --six-bars, the six-bars.  It is one file, and needs no network.  The options are those
+    of `burmester synthesize`, where REGION and NAME are explained.
     """
     from burmester.cli.function import function_task, page_of_function
     from burmester.cli.progress_line import working
-    from burmester.describe.sentences import headline
     from burmester.io import files
     from burmester.printable import printable
     from burmester.report import page
@@ -71,11 +77,25 @@ def report(
             )
     else:
         assert poses is not None
-        synthesis = run_synthesis(poses, **given)
+        if not six_bars:
+            require_six_bars(**given)
+        synthesis = (run_six_bars if six_bars else run_synthesis)(poses, **given)
         with working("drawing the page"):
             text = page(synthesis, printable(title or name))
-        good = bool(synthesis.usable)
-        first = headline(synthesis) if good else f"{synthesis.outcome.message}."
+        good = synthesis.works
+        first = _answer(synthesis)
     files.write(path, text, force=force)
     click.echo(f"{first}\nwrote {printable(path)}; open it in any browser")
     return EXIT_FOUND if good else EXIT_NOTHING
+
+
+def _answer(synthesis: Synthesis) -> str:
+    """The best linkage in a sentence; where there is none, why, and what helps."""
+    from burmester.describe import sentences, six_bar_words
+
+    if synthesis.six_bars is not None and synthesis.six_bars.found:
+        return f"{six_bar_words.headline(synthesis.six_bars.found[0])}."
+    if synthesis.usable:
+        return sentences.headline(synthesis)
+    outcome = synthesis.outcome
+    return f"{outcome.message}." + (f"\nWhat helps: {outcome.help}." if outcome.help else "")

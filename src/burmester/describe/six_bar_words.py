@@ -12,7 +12,16 @@ from burmester.synthesis.result import Synthesis
 from burmester.tasks.notation import least_angle, length_of
 from burmester.wording import figure, listed
 
-__all__ = ["HEADS", "driver_name", "headline", "joint_rows", "length_rows", "row", "sentences"]
+__all__ = [
+    "HEADS",
+    "distances",
+    "driver_name",
+    "headline",
+    "joint_rows",
+    "length_rows",
+    "row",
+    "sentences",
+]
 
 HEADS = ("", "driver", "turns by", "transmits", "link ratio", "extent", "locks after")
 DIGITS = 7  # significant ones of dimensions
@@ -69,6 +78,11 @@ def length_rows(found: FoundSixBar) -> list[tuple[str, str, str]]:
     """The lengths of the two links that have no more than that."""
     length = found.lengths
     return [(f"{name}, {bar}", _number(length[bar]), "") for name, bar in _PLAIN.items()]
+
+
+def distances(found: FoundSixBar) -> list[tuple[str, str]]:
+    """Every distance between two joints of one link, such as ("AB", "30")."""
+    return [(bar, _number(length)) for bar, length in found.lengths.items()]
 
 
 def row(synthesis: Synthesis, found: FoundSixBar) -> tuple[str, ...]:

@@ -13,13 +13,18 @@ from burmester.synthesis.function_generation import FunctionSynthesis
 from burmester.synthesis.result import Synthesis
 from burmester.web.data import report_data
 from burmester.web.function_data import function_report
+from burmester.web.six_bar_data import six_bar_report
 
 __all__ = ["function_page", "page", "page_of"]
 
 
 def page(synthesis: Synthesis, title: str) -> str:
-    """The report of a synthesis: a whole HTML document, scripts, styles and data within."""
-    return page_of(report_data(synthesis), title)
+    """The report of a synthesis: a whole HTML document, scripts, styles and data within.
+
+    It shows the six-bars where these were looked for, else the four-bars.
+    """
+    report = report_data if synthesis.six_bars is None else six_bar_report
+    return page_of(report(synthesis), title)
 
 
 def function_page(synthesis: FunctionSynthesis, title: str) -> str:

@@ -34,7 +34,7 @@ from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of
 from burmester.web.pivot_map import pivot_map
 
-__all__ = ["linkage_report", "report_data", "scene_of"]
+__all__ = ["linkage_report", "poses_report", "report_data", "scene_of"]
 
 SCHEMA = "burmester.report/1"
 FRAMES = 24_000  # frames of all linkages together
@@ -59,7 +59,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "warnings": list(map(message_data, synthesis.warnings)),
         "method": synthesis.method,
         "unit": task.length_unit,
-        "poses": _poses(task),
+        "poses": poses_report(task),
         "body": None if task.body is None else task.body.vertices.tolist(),
         "keep_out": _keep_out(task),
         "scene": scene,
@@ -95,7 +95,8 @@ def scene_of(synthesis: Synthesis) -> float:
     return size if size > 0 and math.isfinite(size) else 1.0
 
 
-def _poses(task: Task) -> list[dict[str, Any]]:
+def poses_report(task: Task) -> list[dict[str, Any]]:
+    """The poses of a task with their names, and their weights where it states them."""
     poses: list[dict[str, Any]] = [dict(each) for each in poses_data(task.poses)]
     for index, pose in enumerate(poses):
         own = "" if task.names is None else task.names[index]

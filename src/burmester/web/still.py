@@ -17,9 +17,10 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.sixbar.found import FoundSixBar
 from burmester.tasks.motion_task import Task
 
-__all__ = ["own_circuit", "still"]
+__all__ = ["own_circuit", "six_bar_still", "still"]
 
 SIZE_PX = 420.0  # the longer side of the picture
 MARGIN = 0.07  # share of the drawing's size that stays free on each side
@@ -64,6 +65,30 @@ def still(linkage: Linkage, places: Displacement, task: Task, title: str) -> str
         shapes[:0] = _body(task, poses, None)
     shapes[:0] = _keep_out(task)
     return _svg(shapes, pins, title)
+
+
+def six_bar_still(found: FoundSixBar, task: Task, title: str) -> str:
+    """An SVG of a six-bar at the middle one of the poses of its task, with the body's path."""
+    drive = found.drive[len(found.drive) // 2]
+    joints, place = found.joints(drive), found.body(drive)
+    path = found.body(found.along(SAMPLES)).translation
+    filled = 'fill="{0}" fill-opacity=".15" stroke="{0}" stroke-width="2"'
+    plates = {"CDE": LINK, "BDG": LINK, "EHM": COUPLER}
+    corners = {**joints, "M": place.translation}
+    shapes = [
+        *_body(task, found.body(found.drive), place),
+        (f'fill="none" stroke="{CURVE}" stroke-width="1.5" stroke-dasharray="2 4"', path),
+        *(
+            (filled.format(colour), np.stack([corners[name] for name in plate]))
+            for plate, colour in plates.items()
+        ),
+        *(_frame(task.poses[k], task.poses) for k in range(len(found.drive))),
+        *(
+            (f'fill="none" stroke="{LINK}" stroke-width="4"', np.stack([joints[p], joints[q]]))
+            for p, q in ("AC", "GH")
+        ),
+    ]
+    return _svg(shapes, [(at, name in "AB") for name, at in joints.items()], title)
 
 
 def _body(

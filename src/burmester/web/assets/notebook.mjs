@@ -398,115 +398,121 @@ ted); fill-opacity: 0.1; }\n.bm-region-edge { stroke: var(--bm-muted); stroke-wi
 -order: stroke; stroke: var(--bm-panel); stroke-width: 4px; }\n.bm-curve { fill: none; stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-curve.bm-beyond { stro\
 ke-width: 1; opacity: 0.5; }\n.bm-curve.bm-same { stroke-dasharray: 6 4; opacity: 0.7; }\n.bm-curve.bm-other { stroke-dasharray: 1.5 4; opacity: 0.75; }\n.bm-pivot\
 -path { fill: none; stroke-width: 1; opacity: 0.42; }\n.bm-pivot-path.bm-side0 { stroke: var(--bm-driver); }\n.bm-pivot-path.bm-side1 { stroke: var(--bm-follower)\
-; }\n.bm-solid { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.5; stroke-linejoin: round; }\n.bm-ground { stroke: var(--bm-coupler); stroke-wi\
-dth: 1.4; fill: none; }\n.bm-thin { opacity: 0.55; }\n.bm .bm-name { font-weight: 600; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm text\
-.bm-side0, .bm b.bm-side0, .bm th.bm-side0 { fill: var(--bm-driver); color: var(--bm-driver); }\n.bm text.bm-side1, .bm b.bm-side1, .bm th.bm-side1 { fill: var(-\
--bm-follower); color: var(--bm-follower); }\n.bm-wanted path { fill: none; stroke: var(--bm-wanted); stroke-width: 1.3; stroke-dasharray: 3.5 2.5; }\n.bm-wanted c\
-ircle { fill: none; stroke: var(--bm-wanted); stroke-width: 1.4; }\n.bm-achieved path { fill: none; stroke: var(--bm-ink); stroke-width: 1.1; }\n.bm-achieved circ\
-le { fill: var(--bm-ink); }\n.bm-elsewhere { opacity: 0.38; }\n.bm-errors path { fill: none; stroke: var(--bm-error); stroke-width: 1.8; stroke-linejoin: round; s\
-troke-linecap: round; }\n.bm .bm-pose-names text { font-weight: 600; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.b\
-m-bar { stroke-width: 11; stroke-linecap: round; fill: none; }\n.bm-core { stroke-width: 7.5; stroke-linecap: round; fill: none; }\n.bm-link.bm-side0 .bm-bar { st\
-roke: var(--bm-driver); }\n.bm-link.bm-side0 .bm-core { stroke: var(--bm-driver-solid); }\n.bm-link.bm-side1 .bm-bar { stroke: var(--bm-follower); }\n.bm-link.bm-s\
-ide1 .bm-core { stroke: var(--bm-panel); }\n.bm-plate-rim { fill: none; stroke: var(--bm-coupler); stroke-width: 17; stroke-linejoin: round; stroke-linecap: roun\
-d; opacity: 0.9; }\n.bm-plate { fill: var(--bm-plate); stroke: var(--bm-plate); stroke-width: 14; stroke-linejoin: round; stroke-linecap: round; }\n.bm-coupler { \
-opacity: 0.86; }\n.bm-slot-rim { stroke: var(--bm-coupler); stroke-width: 21; stroke-linecap: round; }\n.bm-slot-plate { stroke: var(--bm-plate); stroke-width: 18\
-; stroke-linecap: round; }\n.bm-slot-edge { stroke: var(--bm-coupler); stroke-width: 12.5; }\n.bm-slot { stroke: var(--bm-panel); stroke-width: 10; }\n.bm-block re\
-ct { stroke-width: 1.6; }\n.bm-block.bm-side0 rect { fill: var(--bm-driver-solid); stroke: var(--bm-driver); }\n.bm-block.bm-side1 rect { fill: var(--bm-panel); s\
-troke: var(--bm-follower); }\n.bm-pin { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-origin { fill: var(--bm-ink); }\n.bm-body-frame { f\
-ill: none; stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm .bm-letter { font-weight: 700; font-style: italic; }\n.bm-far-mark { fill: none; stroke-width: 2.4; st\
-roke-linecap: round; stroke-linejoin: round; }\n.bm-far-mark.bm-side0 { stroke: var(--bm-driver); }\n.bm-far-mark.bm-side1 { stroke: var(--bm-follower); }\n.bm-dri\
-ve-mark { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }\n\n.bm-controls { display: grid; gap: 6px; mar\
-gin: 0 0 10px; }\n.bm-row { display: flex; flex-wrap: wrap; gap: 8px; align-items: flex-start; }\n.bm-button { font: inherit; font-size: 0.9rem; color: inherit; b\
-ackground: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 8px; padding: 5px 11px; min-height: 34px; cursor: pointer; display: inline-flex; ga\
-p: 7px; align-items: center; white-space: nowrap; }\n.bm-button:hover { border-color: var(--bm-muted); }\n.bm-button:disabled { opacity: 0.45; cursor: default; }\n\
-.bm-play { background: var(--bm-accent); border-color: var(--bm-accent); color: var(--bm-panel); min-width: 92px; justify-content: center; font-weight: 600; }\n.\
-bm-play svg { fill: currentColor; }\n.bm-whole { display: inline-flex; gap: 6px; align-items: center; min-height: 34px; font-size: 0.9rem; white-space: nowrap; c\
-ursor: pointer; }\n.bm-whole input, .bm-far-pivots input { accent-color: var(--bm-accent); margin: 0; }\n.bm-whole:has(:disabled) { opacity: 0.45; cursor: default\
-; }\n.bm-track { min-width: 0; }\n.bm-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-color: var(--bm-accent); }\n.bm-stops { width: 10\
-0%; overflow: visible; }\n.bm-stops path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; stroke:\
- var(--bm-panel); stroke-width: 3px; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { display: inline-block; max-width: 100%;\
- }\n.bm-under { display: flex; flex-wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-top: 10px; }\n.bm-choose { display: f\
-lex; flex-wrap: wrap; gap: 4px 18px; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden] { display\
-: none; }\n.bm-factor { white-space: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: v\
-ar(--bm-panel); border: 1px solid var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: \
-2px 18px; flex: 1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: no\
-ne; }\n\n.bm-stand { min-width: 0; }\n.bm-view { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); align-content: start; }\n.bm-aside { display: grid\
-; gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-conte\
-nt: space-between; gap: 14px; border-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: ri\
-ght; }\n.bm-note-text { font-size: 0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width\
-: thin; }\n.bm table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden;\
- clip-path: inset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-al\
-ign: left; font-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertic\
-al-align: top; white-space: nowrap; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertica\
-l-align: bottom; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .\
-bm .bm-pose-table td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .b\
-m-linkages td:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-p\
-ose-table tbody th { position: sticky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:ha\
-s(.bm-pose-table) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(\
---bm-wash); }\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scro\
-ll { margin-top: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-every { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color:\
- var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width\
-: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: none; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual \
-{ stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; str\
-oke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: \
-var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line\
- { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-p\
-anel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-\
-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-vi\
-sible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); op\
-acity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke:\
- var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); s\
-troke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { po\
-sition: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0;\
- width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px\
- solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.b\
-m-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; \
-stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel);\
- stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: \
-none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stro\
-ke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\
-\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var\
-(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1\
- { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; wid\
-th: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), v\
-ar(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n\
-.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit\
-); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { di\
-splay: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-\
-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px \
-solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbin\
-g; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0\
-.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none\
-; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { str\
-oke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-im\
-age-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke:\
- var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font\
--size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage, .bm-stand { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main \
-> .bm-aside { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-\
-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n\
-  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white\
--space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead\
- { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: \
-1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: flex; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; \
-white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-space: normal; m\
-in-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:la\
-st-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-\
-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n\
-}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: s\
-tart; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch; overflow: hidd\
-en auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main, .bm-view { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stand, .bm-curve\
-s, .bm-pair-box { grid-column: 1 / -1; }\n  .bm-stage, .bm-aside, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-\
-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage\
- { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-curves { grid-\
-column: span 6; align-self: start; }\n  .bm-pair-box { grid-column: span 4; align-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1;\
- }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm\
--follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: \
-#b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c;\n    font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-f\
-actor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !important; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0\
-; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-\
-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scroll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-word\
-s { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid; }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0\
-; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+; }\n.bm-pivot-path.bm-side-inner { stroke: var(--bm-coupler); }\n.bm-solid { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.5; stroke-linejoin\
+: round; }\n.bm-ground { stroke: var(--bm-coupler); stroke-width: 1.4; fill: none; }\n.bm-thin { opacity: 0.55; }\n.bm .bm-name { font-weight: 600; paint-order: st\
+roke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm text.bm-side0, .bm b.bm-side0, .bm th.bm-side0 { fill: var(--bm-driver); color: var(--bm-driver); }\n.bm \
+text.bm-side1, .bm b.bm-side1, .bm th.bm-side1 { fill: var(--bm-follower); color: var(--bm-follower); }\n.bm-wanted path { fill: none; stroke: var(--bm-wanted); \
+stroke-width: 1.3; stroke-dasharray: 3.5 2.5; }\n.bm-wanted circle { fill: none; stroke: var(--bm-wanted); stroke-width: 1.4; }\n.bm-achieved path { fill: none; s\
+troke: var(--bm-ink); stroke-width: 1.1; }\n.bm-achieved circle { fill: var(--bm-ink); }\n.bm-elsewhere { opacity: 0.38; }\n.bm-errors path { fill: none; stroke: v\
+ar(--bm-error); stroke-width: 1.8; stroke-linejoin: round; stroke-linecap: round; }\n.bm .bm-pose-names text { font-weight: 600; fill: var(--bm-muted); paint-ord\
+er: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-bar { stroke-width: 11; stroke-linecap: round; fill: none; }\n.bm-core { stroke-width: 7.5; stroke-\
+linecap: round; fill: none; }\n.bm-link.bm-side0 .bm-bar { stroke: var(--bm-driver); }\n.bm-link.bm-side0 .bm-core { stroke: var(--bm-driver-solid); }\n.bm-link.bm\
+-side1 .bm-bar { stroke: var(--bm-follower); }\n.bm-link.bm-side1 .bm-core { stroke: var(--bm-panel); }\n.bm-inner .bm-bar { stroke: var(--bm-coupler); }\n.bm-inne\
+r .bm-core { stroke: var(--bm-panel); }\n.bm-carried .bm-bar { stroke: var(--bm-coupler); stroke-width: 17; opacity: 0.9; }\n.bm-carried .bm-core { stroke: var(--\
+bm-plate); stroke-width: 14; }\n.bm-key .bm-carried .bm-bar { stroke-width: 13; }\n.bm-key .bm-carried .bm-core { stroke-width: 10; }\n.bm-ternary { opacity: 0.86;\
+ }\n.bm-ternary path { stroke-linejoin: round; }\n.bm-ternary.bm-side0 .bm-core { fill: var(--bm-driver-solid); fill-opacity: 0.45; }\n.bm-ternary.bm-side1 .bm-cor\
+e { fill: var(--bm-follower); fill-opacity: 0.12; }\n.bm-ternary.bm-inner .bm-core { fill: var(--bm-coupler); fill-opacity: 0.12; }\n.bm-ternary.bm-carried .bm-co\
+re { fill: var(--bm-plate); }\n.bm-plate-rim { fill: none; stroke: var(--bm-coupler); stroke-width: 17; stroke-linejoin: round; stroke-linecap: round; opacity: 0\
+.9; }\n.bm-plate { fill: var(--bm-plate); stroke: var(--bm-plate); stroke-width: 14; stroke-linejoin: round; stroke-linecap: round; }\n.bm-coupler { opacity: 0.86\
+; }\n.bm-slot-rim { stroke: var(--bm-coupler); stroke-width: 21; stroke-linecap: round; }\n.bm-slot-plate { stroke: var(--bm-plate); stroke-width: 18; stroke-line\
+cap: round; }\n.bm-slot-edge { stroke: var(--bm-coupler); stroke-width: 12.5; }\n.bm-slot { stroke: var(--bm-panel); stroke-width: 10; }\n.bm-block rect { stroke-w\
+idth: 1.6; }\n.bm-block.bm-side0 rect { fill: var(--bm-driver-solid); stroke: var(--bm-driver); }\n.bm-block.bm-side1 rect { fill: var(--bm-panel); stroke: var(--\
+bm-follower); }\n.bm-pin { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-origin { fill: var(--bm-ink); }\n.bm-body-frame { fill: none; st\
+roke: var(--bm-ink); stroke-width: 1.8; }\n.bm .bm-letter { font-weight: 700; font-style: italic; }\n.bm-far-mark { fill: none; stroke-width: 2.4; stroke-linecap:\
+ round; stroke-linejoin: round; }\n.bm-far-mark.bm-side0 { stroke: var(--bm-driver); }\n.bm-far-mark.bm-side1 { stroke: var(--bm-follower); }\n.bm-drive-mark { fil\
+l: none; stroke: var(--bm-driver); stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }\n\n.bm-controls { display: grid; gap: 6px; margin: 0 0 10px\
+; }\n.bm-row { display: flex; flex-wrap: wrap; gap: 8px; align-items: flex-start; }\n.bm-button { font: inherit; font-size: 0.9rem; color: inherit; background: va\
+r(--bm-panel); border: 1px solid var(--bm-line); border-radius: 8px; padding: 5px 11px; min-height: 34px; cursor: pointer; display: inline-flex; gap: 7px; align\
+-items: center; white-space: nowrap; }\n.bm-button:hover { border-color: var(--bm-muted); }\n.bm-button:disabled { opacity: 0.45; cursor: default; }\n.bm-play { ba\
+ckground: var(--bm-accent); border-color: var(--bm-accent); color: var(--bm-panel); min-width: 92px; justify-content: center; font-weight: 600; }\n.bm-play svg {\
+ fill: currentColor; }\n.bm-whole { display: inline-flex; gap: 6px; align-items: center; min-height: 34px; font-size: 0.9rem; white-space: nowrap; cursor: pointe\
+r; }\n.bm-whole input, .bm-far-pivots input { accent-color: var(--bm-accent); margin: 0; }\n.bm-whole:has(:disabled) { opacity: 0.45; cursor: default; }\n.bm-track\
+ { min-width: 0; }\n.bm-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-color: var(--bm-accent); }\n.bm-stops { width: 100%; overflow:\
+ visible; }\n.bm-stops path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-pan\
+el); stroke-width: 3px; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { display: inline-block; max-width: 100%; }\n.bm-under \
+{ display: flex; flex-wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-top: 10px; }\n.bm-choose { display: flex; flex-wra\
+p: wrap; gap: 4px 18px; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden] { display: none; }\n.bm\
+-factor { white-space: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel\
+); border: 1px solid var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; fle\
+x: 1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-st\
+and { min-width: 0; }\n.bm-view { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); align-content: start; }\n.bm-aside { display: grid; gap: 16px; \
+grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content: space-bet\
+ween; gap: 14px; border-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-no\
+te-text { font-size: 0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm\
+ table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: i\
+nset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; fo\
+nt-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top\
+; white-space: nowrap; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-align: bott\
+om; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-t\
+able td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td\
+:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbo\
+dy th { position: sticky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-ta\
+ble) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\
+\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-t\
+op: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-e\
+very { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid\
+-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: non\
+e; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm\
+-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 1\
+2px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); \
+}\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.\
+bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-\
+cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { posi\
+tion: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position\
+: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor\
+ { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55\
+; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-fol\
+lower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pa\
+irs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\n.bm-pairs-map canvas { posit\
+ion: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map\
+ svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-p\
+airs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-or\
+der: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { f\
+ill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-p\
+anel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { \
+fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none\
+; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: roun\
+d; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stro\
+ke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel\
+); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-\
+radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white\
+-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-bran\
+ch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { fon\
+t-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; height: 11px; border: 1px solid \
+var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-nea\
+r); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cu\
+rsor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: \
+0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; op\
+acity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round;\
+ }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stro\
+ke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm\
+-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1\
+760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { di\
+splay: contents; }\n  .bm-stage, .bm-stand { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside { order: -3; }\n  .bm-choices { align-items: stretch; }\
+\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width:\
+ 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6p\
+x; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: b\
+reak-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: \
+1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-sta\
+cks td { display: flex; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-\
+stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-he\
+ad); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: \
+var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620p\
+x) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-\
+template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; pa\
+dding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .b\
+m-main, .bm-view { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stand, .bm-curves, .bm-pair-box { grid-column: 1 / -1; }\n  .bm-stage, .bm-aside, .\
+bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pi\
+vots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-co\
+lumn: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-curves { grid-column: span 6; align-self: start; }\n  .bm-pair-box { grid-column:\
+ span 4; align-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-\
+ink: #000; --bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --\
+bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; -\
+-bm-body: #1c7a6c;\n    font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout\
+ { display: none !important; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; \
+}\n  .bm-card { border: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: \
+8pt; }\n  .bm .bm-scroll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one {\
+ break-inside: avoid; }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -611,7 +617,7 @@ timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.ma
 clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
 var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
 (fact,k)=>!Object.is(fact,before[k]))}var paces=new Set;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(
-data.body,view,[0,0]);var BODY_AXIS=AXIS+10;var LETTER=14;var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s(
+data.body,view,[0,0]);var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s(
 "g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middl\
 e"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.
 kind](this,side));this.coupler.append(s("path",{class:"bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.
@@ -624,24 +630,24 @@ X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.has
 const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;
 if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.
 led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",
-"M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.
-map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(
-dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/
-2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),
-view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-\
-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.
-append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(
-this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,
-[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){
-this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,
-"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({
-blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.
-block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(
-this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.
-scale;const seen2=along2=>inBody(pointOnLine(dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.
-strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2(
-(low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.
-a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var ANGLES={"°":1,deg:1,degree:1,degrees:1,rad:180/Math.PI,mrad:.18/Math.PI};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var button=(text,onclick,attributes={})=>h("button",{type:"button",class:"bm-button",onclick,...attributes},text);var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
+TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([
+x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(
+x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[
+x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,
+pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("c\
+ircle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=
+dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);
+setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,
+"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=
+s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,
+inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){
+this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);
+this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){
+this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(
+dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);
+for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){
+const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};
+var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var ANGLES={"°":1,deg:1,degree:1,degrees:1,rad:180/Math.PI,mrad:.18/Math.PI};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var button=(text,onclick,attributes={})=>h("button",{type:"button",class:"bm-button",onclick,...attributes},text);var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
 text.length+4)/2,places=[],count=few?8:16;for(let ring=0;ring<(few?1:3);ring+=1){for(let k=0;k<count;k+=1){const turn=(k%2?1:-1)*Math.ceil(k/2)*(2*Math.PI/count),
 angle=toward+turn,away=distance+9*ring;places.push([(away+half-5)*Math.cos(angle),away*Math.sin(angle),3*Math.abs(turn)+14*ring])}}return places}function along(up,width){
 const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{constructor(scene){
@@ -938,18 +944,19 @@ if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*Math.max(
 path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,
 k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??
 all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}
-this.go(next.frame);this.atPose=next.k}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-
-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)
-[near2,least2]=[k,away]});return near2}show(told=true){const{path,linkage,data}=this;if(!path){for(const part of this.parts)part.textContent="";return}const place=placeAt(
-linkage,path,this.u,data.chart.length);const drive=linear(path.drive,this.u),transmission=linear(path.transmission,this.u);const near2=this.atPose=this.nearest(
-place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,"value",this.u);this.tell(place,drive,transmission,
-near2)}this.draw.show(place,drive,transmission,near2)}tell(place,drive,transmission,near2){const{data,linkage}=this;const unit=data.unit?` ${data.unit}`:"",digits=decimalsOf(
-data);const driver=linkage.led[0].kind==="PR"?`${fixed(drive,digits)}${unit}`:`${fixed(drive,1)}°`;const pose=data.poses[near2],row=linkage.pose_errors[near2];
-const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit} from pose ${poseName(pose)}`;
-const missed2=()=>`at pose ${poseName(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit)}`;const said=!pose?"be\
-tween the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit}, ${fixed(((degrees(place.
-a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?
-`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){
+this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.length)}nearest(place){let near2=0,least2=Infinity;this.
+data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.
+length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path}=this;if(!path){for(const part of this.
+parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path.drive,this.u),transmission=place.transmission??linear(path.transmission,
+this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,
+"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;return linkage.
+led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${fixed(drive,1)}°`}tell(place,drive,transmission,near2){const{data,linkage}=this;
+const unit=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.pose_errors[near2];const at=row?.
+at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit} from pose ${poseName(pose)}`;const missed2=()=>`\
+at pose ${poseName(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit)}`;const said=!pose?"between the poses":at?
+missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit}, ${fixed(((degrees(place.a)+180)%360+360)%360-
+180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;
+if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){
 const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(
 end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",
 {width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);const[x,y]=act(place,

@@ -98,13 +98,13 @@ length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmull
 linkage.led,place,length)}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===null||values[i+1]===null)return null;
 const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function frameAt(values,wanted){let low=0,high=values.length-1;if(wanted<=
 values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=wanted)low=middle2;else high=middle2}
-const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var LONGEST_STEP=.015;var MOST_BETWEEN=40;function placesOf(data,linkage,way,{low,high}){const at=u=>Number.isInteger(u)?{x:way.x[u],y:way.y[u],a:way.angle[u]}:
-placeAt(linkage,way,u,data.chart.length);const places=[at(low)];let before=low;const goTo=u=>{const next=at(u),last=places[places.length-1];const count=Math.min(
-MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=count;k+=1)places.push(at(before+k/(count+1)*(u-before)));
-places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);
-const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(
-dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.
-line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var WIDEST=4;function farFrom(data){const[x,y]=["x","y"].map(k=>{const[low,high]=data.poses.reduce(([a,b],pose)=>[Math.min(a,pose[k]),
+const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)?{x:way.x[u],y:way.y[u],a:way.
+angle[u]}:placeAt(linkage,way,u,data.chart.length));function placesAlong(data,{low,high},at){const places=[at(low)];let before=low;const goTo=u=>{const next=at(
+u),last=places[places.length-1];const count=Math.min(MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=
+count;k+=1)places.push(at(before+k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){
+const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){
+const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along2){
+const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var WIDEST=4;function farFrom(data){const[x,y]=["x","y"].map(k=>{const[low,high]=data.poses.reduce(([a,b],pose)=>[Math.min(a,pose[k]),
 Math.max(b,pose[k])],[Infinity,-Infinity]);return(low+high)/2});return point2=>!(Math.hypot(point2[0]-x,point2[1]-y)<WIDEST*data.scene)}function pivotsAt(linkage,places){
 const found=[];for(const dyad of linkage.led){if(dyad.fixed_pivot)found.push({dyad,fixed:true,at:dyad.fixed_pivot});const own=dyad.moving_pivot?[dyad.moving_pivot]:
 dyad.kind==="RP"&&places.length?travelOf(dyad,places).map(end=>pointOnLine(dyad,end)):[];for(const point2 of own)for(const place of places)found.push({dyad,fixed:false,
@@ -210,21 +210,21 @@ corner=>act(place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var includ
 Math.max(u,a),Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(
 withBody,data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;
 const inner=sizeOf(withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+
-reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;function mechanism(data,linkage,view,places){const drawn=new Mechanism(linkage);
-drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});
-this.links=s("g");this.blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=
-s("text",{class:"bm-letter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.
-plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.kind](this,side));this.coupler.append(s("path",{class:"bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"\
-bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,
-this.blocks,this.pins,this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=
-Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.
-remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(
-dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of this.plates)put(plate,
-"d",d);this.shapeArrow()}show(place){const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.hasBody)put(
-this.outline,"transform",at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transfo\
-rm",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} tran\
-slate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
-if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d","M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");put(arrow2,"transform",`transl\
+reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;function mechanism(data,linkage,view,places){
+const drawn=new Mechanism(linkage);drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=
+s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"b\
+m-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-\
+plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.kind](this,side));this.coupler.append(s("path",{class:"bm-body-fram\
+e",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.group=s("g",{class:"bm-l\
+inkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){this.
+view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.group.
+prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,
+view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).map(corner=>corner.map(px).join(" ")).join("L")}\
+Z`;for(const plate of this.plates)put(plate,"d",d);this.shapeArrow()}show(place){const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.
+coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/
+view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transfor\
+m",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-2\
+6 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",TURNING_ARROW);put(arrow2,"transform",`transl\
 ate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){
 const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`\
 bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,
@@ -791,47 +791,49 @@ offset,0);const turned=Math.atan2(nx,-ny)+(bodySide>0?Math.PI:0);const drawn=Mat
 k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(row=>row.position??0));if(!(worst>1e-9*data.
 scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*data.scene);return fits.length?fits[fits.length-1]:1}var standing2=(dyad,places)=>dyad.
 fixed_pivot??(dyad.kind==="PR"&&places.length?pointOnLine(dyad,travelOf(dyad,places).reduce((a,b)=>(a+b)/2)):null);var Plane=class{constructor(data,parent){this.data=data;this.svg=s("svg",{class:"bm-plane",role:"img",tabindex:"0"});this.parent=parent;parent.append(this.svg)}build(linkage,way,stretch,{
-factor,fill,far}){const{data,svg}=this,path2=linkage?.ways[way];this.places=path2?placesOf(data,linkage,path2,stretch):[];const bare=boundsOf(data,linkage,this.
-places,far);const width=Math.max(260,this.parent.clientWidth);const box=widened(bare,data,linkage,this.places,width,far);this.cut=!far&&widened(bare,data,linkage,
+factor,fill,far}){const{data,svg}=this,path2=linkage?.ways[way];this.linkage=linkage;this.way=way;this.places=path2?this.placesOf(path2,stretch):[];const bare=this.
+bounds(far);const width=Math.max(260,this.parent.clientWidth);const box=widened(bare,data,linkage,this.places,width,far);this.cut=!far&&widened(bare,data,linkage,
 this.places,width,true).some((each,k)=>each!==box[k]);const shape=(box[3]-box[1])/(box[2]-box[0]);const own=clamp(width*clamp(shape,.45,1),260,clamp(.62*window.
-innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(box,width,height,width<500?34:42);this.view=view;this.linkage=
-linkage;this.way=way;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;svg.dataset.left=view.left;
-svg.dataset.top=view.top;svg.replaceChildren();svg.append(this.grid(),keepOut(data,view),ghosts(data,linkage,view));if(linkage)svg.append(this.paths());const labels=new Labels(
-view);this.names=s("g",{class:"bm-names"},keepOutNames(data,view,labels));if(linkage)svg.append(this.ground(labels));for(const pose of data.poses){const x=view.
-X(pose.x),y=view.Y(pose.y),angle=radians(pose.angle_deg);const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(x,y,12,12);for(const share of[.35,.65,
-1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-.6*share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?mechanism(
-data,linkage,view,this.places):null;if(this.moving)svg.append(this.moving.group);if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}grid(){const{view}=this,
-group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.unit?` ${this.data.unit}`:"";const across=ticks(-view.left/view.scale,(view.width-view.
-left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/view.scale,view.top/view.scale,view.height/80);for(const{at,text}of across){const x=px(view.
-X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.width-(unit2?54:30)){group.append(s("text",{x,y:view.height-6,"text-anchor":"middle"},
-text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(s("path",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-24)group.append(s("text",{x:6,
-y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));return group}paths(){const{
-view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.ways.forEach((way,k)=>{const same=way.circuit===linkage.ways[this.way]?.circuit;const kind=k===
-this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=placesOf(this.data,linkage,way,{low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,y})=>[x,y]),
-view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const[side,dyad]of linkage.led.entries()){if(!dyad.moving_pivot||dyad.kind==="PR")continue;const d2=polyline(
-places.map(place=>act(place,dyad.moving_pivot)),view);group.append(s("path",{class:`bm-pivot-path bm-side${side}`,d:d2}))}const d=polyline(places.map(({x,y})=>[
-x,y]),view);group.append(s("path",{class:"bm-curve bm-here",d}));return group}ground(labels){const group=s("g",{class:"bm-grounds"});this.linkage.led.forEach((dyad,side)=>{
-if(dyad.kind==="PR")this.rail(group,labels,dyad,side);else if(dyad.fixed_pivot)this.fixedPivot(group,labels,dyad,side)});return group}rail(group,labels,dyad,side){
-if(!this.places.length)return;const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,
-"data-dyad":dyad.id,transform:transform(x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=
-drawn;k+=14)labels.block(x-k*ny,y-k*nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){
-const x=this.view.X(dyad.fixed_pivot[0]),y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute(
-"transform",`translate(${px(x)} ${px(y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){
-const{data,view}=this,isFar=farFrom(data),digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);if(!at||!isFar(at))
-return;const[x,y]=[view.X(at[0]),view.Y(at[1])];const cx=view.width/2,cy=view.height/2,size2=Math.hypot(x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.
-min((cx-12)/Math.abs(u),(cy-12)/Math.abs(v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(
-each,digits)).join(", ")})`;labels.block(ex,ey,20,20);this.names.append(s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(ex,
-ey,Math.atan2(-v,u))}),labels.put(ex,ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}poses(linkage,factor,labels){const{data,view}=this,group=s("g",
-{class:"bm-poses"});const small=data.poses.length>24?.6:1;const arrows=this.errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});data.poses.
-forEach((pose,k)=>{const x=view.X(pose.x),y=view.Y(pose.y);group.append(s("g",{class:"bm-wanted",transform:transform(x,y,radians(pose.angle_deg)),"data-pose":k+
-1},s("path",{d:axes(AXIS*small)}),s("circle",{r:4.5*small})));if(data.poses.length<=60)names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];
-if(!row||row.x===null)return;const elsewhere=row.way===this.way?"":" bm-elsewhere";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.
-X(row.x),view.Y(row.y),radians(row.angle_deg))},s("path",{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){
-const{data,view}=this,arrows=s("g",{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.
-poses[k],x=view.X(pose.x),y=view.Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<
-1.5)return;const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(
-y+dy-head*(uy+sign*.5*ux))}`;arrows.append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(
-x+share*dx,y+share*dy,8,8)});return arrows}show(place){this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
+innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(box,width,height,width<500?34:42);this.view=view;svg.setAttribute(
+"viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;svg.dataset.left=view.left;svg.dataset.top=view.top;svg.replaceChildren();
+svg.append(this.grid(),keepOut(data,view),this.ghosts());if(linkage)svg.append(this.paths());const labels=new Labels(view);this.names=s("g",{class:"bm-names"},keepOutNames(
+data,view,labels));if(linkage)svg.append(this.ground(labels));for(const pose of data.poses){const x=view.X(pose.x),y=view.Y(pose.y),angle=radians(pose.angle_deg);
+const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(x,y,12,12);for(const share of[.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-
+.6*share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?this.mechanism():null;if(this.moving)svg.append(this.moving.group);
+if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}placesOf(way,stretch){return placesOf(this.data,this.linkage,way,stretch)}bounds(far){return boundsOf(
+this.data,this.linkage,this.places,far)}ghosts(){return ghosts(this.data,this.linkage,this.view)}mechanism(){return mechanism(this.data,this.linkage,this.view,this.
+places)}grid(){const{view}=this,group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.unit?` ${this.data.unit}`:"";const across=ticks(-view.
+left/view.scale,(view.width-view.left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/view.scale,view.top/view.scale,view.height/80);for(const{
+at,text}of across){const x=px(view.X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.width-(unit2?54:30)){group.append(s("text",{x,y:view.
+height-6,"text-anchor":"middle"},text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(s("path",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-
+24)group.append(s("text",{x:6,y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));
+return group}paths(){const{view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.ways.forEach((way,k)=>{const same=way.circuit===linkage.ways[this.way]?.
+circuit;const kind=k===this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=this.placesOf(way,{low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,
+y})=>[x,y]),view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const{side,points}of this.pivotPaths()){group.append(s("path",{class:`bm-pivot-p\
+ath bm-side${side}`,d:polyline(points,view)}))}const d=polyline(places.map(({x,y})=>[x,y]),view);group.append(s("path",{class:"bm-curve bm-here",d}));return group}pivotPaths(){
+const drawn=[...this.linkage.led.entries()].filter(([,dyad])=>dyad.moving_pivot&&dyad.kind!=="PR");return drawn.map(([side,dyad])=>({side,points:this.places.map(
+place=>act(place,dyad.moving_pivot))}))}ground(labels){const group=s("g",{class:"bm-grounds"});this.linkage.led.forEach((dyad,side)=>{if(dyad.kind==="PR")this.rail(
+group,labels,dyad,side);else if(dyad.fixed_pivot)this.fixedPivot(group,labels,dyad,side)});return group}rail(group,labels,dyad,side){if(!this.places.length)return;
+const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,"data-dyad":dyad.id,transform:transform(
+x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=14)labels.block(x-k*ny,y-k*
+nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.view.X(dyad.fixed_pivot[0]),
+y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute("transform",`translate(${px(x)} ${px(
+y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){const{data,view}=this,isFar=farFrom(data),
+digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);if(!at||!isFar(at))return;const[x,y]=[view.X(at[0]),view.Y(at[1])];
+const cx=view.width/2,cy=view.height/2,size2=Math.hypot(x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.min((cx-12)/Math.abs(u),(cy-12)/Math.abs(
+v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(each,digits)).join(", ")})`;labels.
+block(ex,ey,20,20);this.names.append(s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(ex,ey,Math.atan2(-v,u))}),labels.put(ex,
+ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}poses(linkage,factor,labels){const{data,view}=this,group=s("g",{class:"bm-poses"});const small=data.
+poses.length>24?.6:1;const arrows=this.errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});data.poses.forEach((pose,k)=>{const x=view.X(pose.
+x),y=view.Y(pose.y);group.append(s("g",{class:"bm-wanted",transform:transform(x,y,radians(pose.angle_deg)),"data-pose":k+1},s("path",{d:axes(AXIS*small)}),s("ci\
+rcle",{r:4.5*small})));if(data.poses.length<=60)names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===null)return;const elsewhere=row.
+way===this.way?"":" bm-elsewhere";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg))},s(
+"path",{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){const{data,view}=this,arrows=s(
+"g",{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.
+x),y=view.Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.
+min(7,.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;
+arrows.append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});
+return arrows}show(place){this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
@@ -915,35 +917,36 @@ pe"},linkage.type)),h("span",{class:"bm-verdict"},linkage.usable?"✓ usable":"�
 name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){const{store,of,known}=this;if(k)store.takeCognate(
 known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.show();this.cards.children[k]?.querySelector("butt\
 on").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var GAP=28;var USUAL_LIMIT=40;var MANY_POSES=40;var HEADROOM=1.32;var INSET=8;var LONGEST_NAME5=16;
-var NAME_WIDTH=11;var Plots=class{constructor(data,parent,scrub){this.data=data;this.parent=parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":"E\
-rrors and transmission angle"});parent.append(this.svg);const go=event=>{if(!this.way)return;const box=this.svg.getBoundingClientRect();const at=(event.clientX-
-box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);scrub(frameAt(this.way.drive,this.low+clamp(at,0,1)*(this.high-this.low)))};this.svg.addEventListener("poin\
-terdown",event=>{this.svg.setPointerCapture(event.pointerId);go(event)});this.svg.addEventListener("pointermove",event=>event.buttons&1&&go(event))}build(linkage,index,stretch){
-const{data,svg}=this,way=linkage.ways[index];this.way=way;svg.replaceChildren();this.cursor=null;if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: er\
-rors at its poses, and its transmission angle along the driver`);const width=this.width=Math.max(260,this.parent.clientWidth);const poses=linkage.pose_errors.map(
-(row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.some(({pose})=>pose.label!==pose.name);const longest=Math.max(
-0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+6:0);const height=this.top+3*PANEL+2*GAP+BOTTOM;svg.
-setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);const[driver]=linkage.led,slides=driver.kind==="PR";this.stretch=stretch;this.
-low=linear(way.drive,stretch.low);this.high=linear(way.drive,stretch.high);this.X=drive=>LEFT+INSET+(drive-this.low)/(this.high-this.low)*(width-LEFT-RIGHT-2*INSET);
-this.across=slides?ticks(this.low,this.high,width/90):angleTicks(this.low,this.high,Math.max(3,width/70));const rows=poses.map(row=>({...row,drive:linear(way.drive,
-row.frame)}));const unit2=data.unit??"unit of the poses";this.errors(0,`position error (${unit2})`,rows,row=>row.position,1e-11*data.scene);this.errors(1,"angle\
- error (°)",rows,row=>row.turned_deg,1e-9);const base=this.transmission(2,rows);if(upright)this.uprightNames(rows);const title=slides?`place of ${driver.id} on\
- its line (${unit2})`:`driver angle (${driver.id})`;svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/2,y:height-6,"text-anchor":"middle"},title));this.
-cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.mark=s("circle",{r:4.5});this.cursor.append(this.mark);svg.append(this.cursor)}errors(k,title,rows,value,rounding){
-const{svg,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?
-HEADROOM*greatest:1;const Y=v=>base-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?
-"exact, up to rounding":"no pose is on this assembly"))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm\
--tick",x:LEFT-6,y:base+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[
-...rows].sort((a,b)=>a.drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s(
-"circle",{class:"bm-dot",cx:x,cy:y,r:3.5},s("title",{},`pose ${poseName2(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&
-(rows.length<=MANY_POSES||greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){
-const{svg,way,width,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const Y=this.Y=v=>base-v/90*PANEL;this.panel("transmission angle (°)",y0,base,true);for(const at of[
-0,30,60,90])this.rule(Y(at),at);const asked=this.data.asked_transmission_deg,limit=asked??USUAL_LIMIT;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}\
-H${width-RIGHT}`}));const below=limit>15&&(linear(way.transmission,this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-
-4,y:px(Y(limit))+(below?12:-4),"text-anchor":"end"},`${figure(limit)}°, ${asked?"asked":"a usual limit"}`);const{low,high}=this.stretch,frames=[low];for(let i=Math.
-floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const angle=linear(way.transmission,u);if(angle===null)continue;
-line2+=`${pen}${px(X(linear(way.drive,u)))} ${px(Y(angle))}`;pen="L"}svg.append(s("path",{class:"bm-line",d:line2}));for(const row of rows){if(row.transmission_deg===
-null)continue;svg.append(s("circle",{class:"bm-dot",cx:px(X(row.drive)),cy:px(Y(row.transmission_deg)),r:3}))}svg.append(limitName2);return base}uprightNames(rows){
+var NAME_WIDTH=11;var Plots=class{static HEIGHT=3*PANEL+2*GAP;static TITLE="Errors and transmission angle";constructor(data,parent,scrub){this.data=data;this.parent=
+parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":this.constructor.TITLE});parent.append(this.svg);const go=event=>{if(!this.way)return;const box=this.
+svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);scrub(frameAt(this.way.drive,this.low+clamp(at,0,1)*(this.
+high-this.low)))};this.svg.addEventListener("pointerdown",event=>{this.svg.setPointerCapture(event.pointerId);go(event)});this.svg.addEventListener("pointermove",
+event=>event.buttons&1&&go(event))}build(linkage,index,stretch){const{data,svg}=this,way=linkage.ways[index];this.way=way;svg.replaceChildren();this.cursor=null;
+if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: ${this.constructor.TITLE.toLowerCase()} along the driver`);const width=this.width=Math.max(260,this.
+parent.clientWidth);const poses=linkage.pose_errors.map((row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.some(
+({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+
+6:0);const height=this.top+this.constructor.HEIGHT+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);const[driver]=linkage.
+led,slides=driver.kind==="PR";this.stretch=stretch;this.low=linear(way.drive,stretch.low);this.high=linear(way.drive,stretch.high);this.X=drive=>LEFT+INSET+(drive-
+this.low)/(this.high-this.low)*(width-LEFT-RIGHT-2*INSET);this.across=slides?ticks(this.low,this.high,width/90):angleTicks(this.low,this.high,Math.max(3,width/70));
+const rows=poses.map(row=>({...row,drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";const base=this.panels(rows,unit2);if(upright)
+this.uprightNames(rows);const title=slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;svg.append(s("text",{class:"bm-title",x:(LEFT+
+width-RIGHT)/2,y:height-6,"text-anchor":"middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.mark=s("circle",{r:4.5});
+this.cursor.append(this.mark);svg.append(this.cursor)}panels(rows,unit2){this.errors(0,`position error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);
+this.errors(1,"angle error (°)",rows,row=>row.turned_deg,1e-9);return this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,y0=this.top+
+k*(PANEL+GAP),base=y0+PANEL;const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*greatest:
+1;const Y=v=>base-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, up to roun\
+ding":"no pose is on this assembly"))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT-6,y:base+
+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[...rows].sort((a,b)=>a.
+drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s("circle",{class:"bm-do\
+t",cx:x,cy:y,r:3.5},s("title",{},`pose ${poseName2(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.length<=MANY_POSES||
+greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{svg,way,width,X}=this,
+y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const Y=this.Y=v=>base-v/90*PANEL;this.panel("transmission angle (°)",y0,base,true);for(const at of[0,30,60,90])this.rule(
+Y(at),at);const asked=this.data.asked_transmission_deg,limit=asked??USUAL_LIMIT;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}H${width-RIGHT}`}));
+const below=limit>15&&(linear(way.transmission,this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-4,y:px(Y(limit))+(below?
+12:-4),"text-anchor":"end"},`${figure(limit)}°, ${asked?"asked":"a usual limit"}`);this.curve(way.transmission,Y,"bm-line");for(const row of rows){if(row.transmission_deg===
+null)continue;svg.append(s("circle",{class:"bm-dot",cx:px(X(row.drive)),cy:px(Y(row.transmission_deg)),r:3}))}svg.append(limitName2);return base}curve(values,Y,name){
+const{low,high}=this.stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const value=linear(
+values,u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen="L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){
 let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=this.X(row.drive),y=this.top-20;if(x-last<NAME_WIDTH)continue;last=x;const text=s("\
 text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});text.append(shortened(poseName2(row.pose),LONGEST_NAME5));this.svg.
 append(s("g",{},s("title",{},poseName2(row.pose)),text))}}panel(title,y0,base,labelled3=false){const{svg,width}=this;svg.append(s("rect",{class:"bm-panel",x:LEFT,
@@ -1236,22 +1239,23 @@ this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this
 low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){
 const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.
 length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){
-this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach(
-(pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*
-Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2,linkage,data}=this;if(!path2){for(const part of this.
-parts)part.textContent="";return}const place=placeAt(linkage,path2,this.u,data.chart.length);const drive=linear(path2.drive,this.u),transmission=linear(path2.transmission,
-this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,
-"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}tell(place,drive,transmission,near2){const{data,linkage}=this;
-const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data);const driver=linkage.led[0].kind==="PR"?`${fixed(drive,digits)}${unit2}`:`${fixed(drive,1)}°`;
-const pose=data.poses[near2],row=linkage.pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.
-x-pose.x,place.y-pose.y))}${unit2} from pose ${poseName2(pose)}`;const missed2=()=>`at pose ${poseName2(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(
-row.said.position,row.said.turned,unit2)}`;const said=!pose?"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}\
-, ${fixed(place.y,digits)})${unit2}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}\
-°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.
-slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*
-text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/
-2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?
-"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
+this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.
+length)}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.
+hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){
+const{path:path2}=this;if(!path2){for(const part of this.parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path2.drive,this.u),
+transmission=place.transmission??linear(path2.transmission,this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);
+give(this.slider,"max",this.stretch.high);give(this.slider,"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){
+const{data,linkage}=this;return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${fixed(drive,1)}°`}tell(place,drive,transmission,near2){
+const{data,linkage}=this;const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.
+pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit2} fr\
+om pose ${poseName2(pose)}`;const missed2=()=>`at pose ${poseName2(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,
+unit2)}`;const said=!pose?"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit2}\
+, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{
+const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-valuetext",`driver ${driver}\
+, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,left=clamp(x-size2/
+2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%
+turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H\
+7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
 !linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=linkage.
 pose_errors.map(()=>null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,led,piece,
 chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.ways[row.

@@ -571,8 +571,8 @@ function constraint(dyad, place) {
   let nx, ny, residual;
   if (dyad.kind === "RR") {
     const ax = x - dyad.fixed_pivot[0], ay = y - dyad.fixed_pivot[1];
-    const size2 = Math.hypot(ax, ay) || 1;
-    [nx, ny, residual] = [ax / size2, ay / size2, size2 - dyad.radius];
+    const size3 = Math.hypot(ax, ay) || 1;
+    [nx, ny, residual] = [ax / size3, ay / size3, size3 - dyad.radius];
   } else {
     [nx, ny] = normalOf(dyad);
     residual = nx * x + ny * y - dyad.line.offset;
@@ -839,6 +839,10 @@ var Player = class {
     this.go(next.frame);
     this.atPose = next.k;
   }
+  /** The place of the body at a frame of the way. */
+  placeAt(u) {
+    return placeAt(this.linkage, this.path, u, this.data.chart.length);
+  }
   /** The pose nearest to a place, the angle weighed as the errors weigh it. */
   nearest(place) {
     let near2 = 0, least = Infinity;
@@ -851,13 +855,13 @@ var Player = class {
   }
   /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
   show(told = true) {
-    const { path, linkage, data } = this;
+    const { path } = this;
     if (!path) {
       for (const part of this.parts) part.textContent = "";
       return;
     }
-    const place = placeAt(linkage, path, this.u, data.chart.length);
-    const drive = linear(path.drive, this.u), transmission = linear(path.transmission, this.u);
+    const place = this.placeAt(this.u);
+    const drive = linear(path.drive, this.u), transmission = place.transmission ?? linear(path.transmission, this.u);
     const near2 = this.atPose = this.nearest(place);
     if (told) {
       give(this.slider, "min", this.stretch.low);
@@ -867,11 +871,15 @@ var Player = class {
     }
     this.draw.show(place, drive, transmission, near2);
   }
+  /** Where the driver is: an angle, or a place on its line. */
+  driverText(drive) {
+    const { data, linkage } = this;
+    return linkage.led[0].kind === "PR" ? `${fixed(drive, decimalsOf(data))}${data.unit ? ` ${data.unit}` : ""}` : `${fixed(drive, 1)}°`;
+  }
   /** The readout: driver, body, transmission angle, and the nearest pose. */
   tell(place, drive, transmission, near2) {
     const { data, linkage } = this;
-    const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
-    const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit2}` : `${fixed(drive, 1)}°`;
+    const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data), driver = this.driverText(drive);
     const pose = data.poses[near2], row = linkage.pose_errors[near2];
     const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
     const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName(pose)}`;
@@ -893,10 +901,10 @@ var Player = class {
 function laidOut(texts, width, count) {
   const ends = Array(count).fill(-99);
   return texts.map(({ x, text }) => {
-    const size2 = 6.4 * text.length, left = clamp(x - size2 / 2, 0, Math.max(0, width - size2));
+    const size3 = 6.4 * text.length, left = clamp(x - size3 / 2, 0, Math.max(0, width - size3));
     const at = ends.findIndex((end) => left > end + 4);
-    if (at >= 0) ends[at] = left + size2;
-    return { text, at, middle: left + size2 / 2 };
+    if (at >= 0) ends[at] = left + size3;
+    return { text, at, middle: left + size3 / 2 };
   });
 }
 var around = (u, turn) => (u % turn + turn) % turn;
@@ -955,8 +963,8 @@ var size = (error) => Math.abs(error) < 1e-7 ? "0°" : `${figure(error)}°`;
 // src/burmester/web/widget/travel.mjs
 var LONGEST_STEP = 0.015;
 var MOST_BETWEEN = 40;
-function placesOf(data, linkage, way, { low, high }) {
-  const at = (u) => Number.isInteger(u) ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length);
+var placesOf = (data, linkage, way, stretch) => placesAlong(data, stretch, (u) => Number.isInteger(u) ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
+function placesAlong(data, { low, high }, at) {
   const places = [at(low)];
   let before = low;
   const goTo = (u) => {
@@ -1192,6 +1200,7 @@ function widened(box, data, linkage, places, width, all) {
 // src/burmester/web/widget/mechanism.mjs
 var BODY_AXIS = AXIS + 10;
 var LETTER = 14;
+var TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
 var BLOCK_IN_SLOT = [18, 10];
 var SPARE2 = 5;
 var ARROW = 24;
@@ -1258,7 +1267,7 @@ var Mechanism = class {
     if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
     if (!driver.fixed_pivot) return;
     const [x, y] = driver.fixed_pivot;
-    put(arrow, "d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
+    put(arrow, "d", TURNING_ARROW);
     put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
   }
 };
@@ -1388,8 +1397,10 @@ var Plane = class {
    */
   build(linkage, way, stretch, { factor, fill, far }) {
     const { data, svg } = this, path = linkage?.ways[way];
-    this.places = path ? placesOf(data, linkage, path, stretch) : [];
-    const bare = boundsOf(data, linkage, this.places, far);
+    this.linkage = linkage;
+    this.way = way;
+    this.places = path ? this.placesOf(path, stretch) : [];
+    const bare = this.bounds(far);
     const width = Math.max(260, this.parent.clientWidth);
     const box = widened(bare, data, linkage, this.places, width, far);
     this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
@@ -1398,15 +1409,13 @@ var Plane = class {
     const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
     const view = viewOf(box, width, height, width < 500 ? 34 : 42);
     this.view = view;
-    this.linkage = linkage;
-    this.way = way;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     svg.dataset.scale = view.scale;
     svg.dataset.left = view.left;
     svg.dataset.top = view.top;
     svg.replaceChildren();
-    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
+    svg.append(this.grid(), keepOut(data, view), this.ghosts());
     if (linkage) svg.append(this.paths());
     const labels = new Labels(view);
     this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
@@ -1421,10 +1430,26 @@ var Plane = class {
       }
     }
     svg.append(this.poses(linkage, factor, labels));
-    this.moving = path ? mechanism(data, linkage, view, this.places) : null;
+    this.moving = path ? this.mechanism() : null;
     if (this.moving) svg.append(this.moving.group);
     if (linkage && !far) this.farPivots(labels);
     svg.append(this.names);
+  }
+  /** The places of the body along a stretch of a way. */
+  placesOf(way, stretch) {
+    return placesOf(this.data, this.linkage, way, stretch);
+  }
+  /** The box that the picture has to hold, but for outlines. */
+  bounds(far) {
+    return boundsOf(this.data, this.linkage, this.places, far);
+  }
+  /** The body at every pose. */
+  ghosts() {
+    return ghosts(this.data, this.linkage, this.view);
+  }
+  /** The moving parts. */
+  mechanism() {
+    return mechanism(this.data, this.linkage, this.view, this.places);
   }
   grid() {
     const { view } = this, group = s("g", { class: "bm-grid", "aria-hidden": "true" });
@@ -1455,18 +1480,21 @@ var Plane = class {
     linkage.ways.forEach((way, k) => {
       const same = way.circuit === linkage.ways[this.way]?.circuit;
       const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
-      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
+      const whole = this.placesOf(way, { low: 0, high: way.x.length - 1 });
       const d2 = polyline(whole.map(({ x, y }) => [x, y]), view);
       group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
     });
-    for (const [side, dyad] of linkage.led.entries()) {
-      if (!dyad.moving_pivot || dyad.kind === "PR") continue;
-      const d2 = polyline(places.map((place) => act(place, dyad.moving_pivot)), view);
-      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: d2 }));
+    for (const { side, points } of this.pivotPaths()) {
+      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: polyline(points, view) }));
     }
     const d = polyline(places.map(({ x, y }) => [x, y]), view);
     group.append(s("path", { class: "bm-curve bm-here", d }));
     return group;
+  }
+  /** The paths of the body's pivots: those on links and in slots. */
+  pivotPaths() {
+    const drawn = [...this.linkage.led.entries()].filter(([, dyad]) => dyad.moving_pivot && dyad.kind !== "PR");
+    return drawn.map(([side, dyad]) => ({ side, points: this.places.map((place) => act(place, dyad.moving_pivot)) }));
   }
   /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
   ground(labels) {
@@ -1508,8 +1536,8 @@ var Plane = class {
       const at = standing(dyad, this.places);
       if (!at || !isFar(at)) return;
       const [x, y] = [view.X(at[0]), view.Y(at[1])];
-      const cx = view.width / 2, cy = view.height / 2, size2 = Math.hypot(x - cx, y - cy);
-      const u = (x - cx) / size2, v = (y - cy) / size2;
+      const cx = view.width / 2, cy = view.height / 2, size3 = Math.hypot(x - cx, y - cy);
+      const u = (x - cx) / size3, v = (y - cy) / size3;
       const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
       const ex = cx + reach * u, ey = cy + reach * v;
       const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
@@ -1559,9 +1587,9 @@ var Plane = class {
       if (row.x === null) return;
       const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
       const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
-      const size2 = Math.hypot(dx, dy);
-      if (size2 < 1.5) return;
-      const head = Math.min(7, 0.5 * size2), ux = dx / size2, uy = dy / size2;
+      const size3 = Math.hypot(dx, dy);
+      if (size3 < 1.5) return;
+      const head = Math.min(7, 0.5 * size3), ux = dx / size3, uy = dy / size3;
       const tip = `${px(x + dx)} ${px(y + dy)}`;
       const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
       arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
@@ -1663,7 +1691,7 @@ var FamilyPairs = class {
     this.columns = this.isCurve ? this.map.fixed.length : this.map.columns;
     this.rows = this.isCurve ? this.columns : this.map.rows;
     this.starts = [];
-    (this.map.loops ?? []).reduce((start, size2) => (this.starts.push(start), start + size2), 0);
+    (this.map.loops ?? []).reduce((start, size3) => (this.starts.push(start), start + size3), 0);
   }
   /** The letter of a loop, where there are several. */
   letter(loop) {
@@ -1693,8 +1721,8 @@ var FamilyPairs = class {
   }
   /** The name of a place along the curve: its share of its loop, after the loop's letter. */
   placeName(k) {
-    const loop = this.starts.findLastIndex((start) => start <= k), size2 = this.map.loops[loop];
-    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size2).toFixed(2)}`;
+    const loop = this.starts.findLastIndex((start) => start <= k), size3 = this.map.loops[loop];
+    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size3).toFixed(2)}`;
   }
   /** The cell of a fixed pivot in the plane of three poses. */
   cellOf(pivot) {
@@ -1762,9 +1790,9 @@ var PartnerCurve = class {
     const inside2 = ([x, y]) => x > 0 && y > 0 && x < width && y < height;
     const beyond = (p, q) => !inside2(p) && !inside2(q) && (p[0] - width / 2) * (q[0] - width / 2) + (p[1] - height / 2) * (q[1] - height / 2) < 0;
     pairs.starts.forEach((start, loop) => {
-      const size2 = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size2) % size2]);
+      const size3 = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size3) % size3]);
       const between = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-      for (let k = 0; k < size2; k += 1) {
+      for (let k = 0; k < size3; k += 1) {
         const piece = [between(at(k - 1), at(k)), at(k), between(at(k), at(k + 1))];
         if (beyond(at(k - 1), at(k)) || beyond(at(k), at(k + 1))) continue;
         const d = `M${piece.map((p) => p.map(px).join(" ")).join("L")}`;
@@ -1772,7 +1800,7 @@ var PartnerCurve = class {
         curve.append(s("path", { d, stroke: `rgb(${colour(best[start + k]).join()})` }));
       }
       for (const share of SHARES) {
-        const [x, y] = at(Math.min(size2 - 1, Math.round(share * size2)));
+        const [x, y] = at(Math.min(size3 - 1, Math.round(share * size3)));
         if (!inside2([x, y])) continue;
         marks.append(s("circle", { class: "bm-pairs-mark", cx: px(x), cy: px(y), r: 2.2 }));
         marks.append(labels.put(x, y, `${pairs.letter(loop)}${share}`, 12, {}));
@@ -1914,10 +1942,10 @@ var FamilyMap = class {
     const { margin, across, down } = this.view, out = s("g", { class: "bm-pairs-axes" });
     const { pairs } = this, left = margin.left, foot2 = margin.top + down;
     pairs.starts.forEach((start, loop) => {
-      const size2 = this.map.loops[loop], letter = pairs.letter(loop);
-      const shares = size2 / this.columns * across < 150 ? [0, 0.5] : SHARES;
+      const size3 = this.map.loops[loop], letter = pairs.letter(loop);
+      const shares = size3 / this.columns * across < 150 ? [0, 0.5] : SHARES;
       for (const share of shares) {
-        const along = (start + share * size2) / this.columns * across, text = `${letter}${share}`;
+        const along = (start + share * size3) / this.columns * across, text = `${letter}${share}`;
         out.append(
           s("path", { d: `M${px(left + along)} ${foot2}v4M${left} ${px(foot2 - along)}h-4` }),
           s("text", { x: px(left + along), y: foot2 + 17, "text-anchor": "middle" }, text),
@@ -2050,9 +2078,9 @@ function intersections(c, o, d) {
 // src/burmester/web/widget/ray_casting.mjs
 var WIDTH = 440;
 var TURNING_SHARE = 0.35;
-function drawStill(canvas, scene, size2, turning) {
-  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size2.width);
-  const width = Math.round(size2.width * share), height = Math.round(size2.height * share);
+function drawStill(canvas, scene, size3, turning) {
+  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size3.width);
+  const width = Math.round(size3.width * share), height = Math.round(size3.height * share);
   canvas.width = width;
   canvas.height = height;
   if (!scene.quadrics.length) return;
@@ -2071,10 +2099,10 @@ function cast(image, { eye, ahead, right, up, reach, quadrics, paint, angles }) 
       let dx = ahead[0] + u * right[0] + v * up[0];
       let dy = ahead[1] + u * right[1] + v * up[1];
       let dz = ahead[2] + u * right[2] + v * up[2];
-      const size2 = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
-      dx *= size2;
-      dy *= size2;
-      dz *= size2;
+      const size3 = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
+      dx *= size3;
+      dy *= size3;
+      dz *= size3;
       const x1 = (-1 - ex) / dx, x2 = (1 - ex) / dx, y1 = (-1 - ey) / dy, y2 = (1 - ey) / dy;
       const z1 = (-1 - ez) / dz, z2 = (1 - ez) / dz;
       const enter = Math.max(Math.min(x1, x2), Math.min(y1, y2), Math.min(z1, z2));
@@ -2262,7 +2290,7 @@ var Shader = class _Shader {
     gl.vertexAttribPointer(corner, 2, gl.FLOAT, false, 0, 0);
     this.places = Object.fromEntries(UNIFORMS.map((name) => [name, gl.getUniformLocation(program, name)]));
   }
-  draw(scene, size2, turning) {
+  draw(scene, size3, turning) {
     const { gl, places } = this;
     gl.clearColor(0, 0, 0, 0);
     if (!scene.quadrics.length) {
@@ -2274,26 +2302,26 @@ var Shader = class _Shader {
     for (const name of ["eye", "right", "up", "ahead"]) gl.uniform3fv(places[name], scene[name]);
     gl.uniform2fv(places.reach, scene.reach);
     gl.uniform4fv(places.angles, scene.angles);
-    this.pace ??= this.measure(size2);
+    this.pace ??= this.measure(size3);
     const full = Math.min(2, window.devicePixelRatio || 1), most = turning ? TURNING_MILLISECONDS : STILL_MILLISECONDS;
     const ways = turning ? [[1, 1], [0.7, 1], [0.45, 1]] : [[full, 4], [1, 4], [full, 1], [1, 1], [0.7, 1]];
-    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size2.width * size2.height < most);
-    this.once(size2, ...fits ?? ways[ways.length - 1]);
+    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size3.width * size3.height < most);
+    this.once(size3, ...fits ?? ways[ways.length - 1]);
   }
   /** Milliseconds a ray takes: where graphics are slow, the picture gets fewer of them. */
-  measure(size2) {
+  measure(size3) {
     const { gl } = this;
-    this.once(size2, 0.12, 1);
+    this.once(size3, 0.12, 1);
     gl.finish();
     const start = performance.now();
-    this.once(size2, 0.3, 1);
+    this.once(size3, 0.3, 1);
     gl.finish();
-    return (performance.now() - start) / (0.09 * size2.width * size2.height);
+    return (performance.now() - start) / (0.09 * size3.width * size3.height);
   }
   /** One picture: pixels of the canvas per pixel of the page along a side, rays per pixel. */
-  once(size2, dense, samples) {
+  once(size3, dense, samples) {
     const { gl, canvas, places } = this;
-    const width = Math.round(size2.width * dense), height = Math.round(size2.height * dense);
+    const width = Math.round(size3.width * dense), height = Math.round(size3.height * dense);
     if (canvas.width !== width || canvas.height !== height) {
       canvas.width = width;
       canvas.height = height;
@@ -2493,8 +2521,8 @@ var ImageSpace = class {
   axisNames(back2) {
     const name = (point, text) => {
       const [x, y] = this.project(point), [cx, cy] = [x - this.width / 2, y - this.height / 2];
-      const size2 = Math.hypot(cx, cy) || 1;
-      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size2), y: px(y + 14 * cy / size2 + 4), "text-anchor": "middle" }, text);
+      const size3 = Math.hypot(cx, cy) || 1;
+      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size3), y: px(y + 14 * cy / size3 + 4), "text-anchor": "middle" }, text);
     };
     const base = this.turn.above >= 0 ? -1 : 1;
     return [name([0, -back2[1], base], "Z1"), name([-back2[0], 0, base], "Z2")];
@@ -2774,10 +2802,13 @@ var INSET2 = 8;
 var LONGEST_NAME2 = 16;
 var NAME_WIDTH = 11;
 var Plots = class {
+  static HEIGHT = 3 * PANEL + 2 * GAP2;
+  // pixels: of all panels
+  static TITLE = "Errors and transmission angle";
   constructor(data, parent, scrub) {
     this.data = data;
     this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": "Errors and transmission angle" });
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": this.constructor.TITLE });
     parent.append(this.svg);
     const go = (event) => {
       if (!this.way) return;
@@ -2798,13 +2829,13 @@ var Plots = class {
     svg.replaceChildren();
     this.cursor = null;
     if (!way) return;
-    svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
+    svg.setAttribute("aria-label", `${linkage.id}: ${this.constructor.TITLE.toLowerCase()} along the driver`);
     const width = this.width = Math.max(260, this.parent.clientWidth);
     const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME2).length));
     this.top = TOP2 + (upright ? 6.2 * longest + 6 : 0);
-    const height = this.top + 3 * PANEL + 2 * GAP2 + BOTTOM2;
+    const height = this.top + this.constructor.HEIGHT + BOTTOM2;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
@@ -2815,9 +2846,7 @@ var Plots = class {
     this.across = slides ? ticks(this.low, this.high, width / 90) : angleTicks(this.low, this.high, Math.max(3, width / 70));
     const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit2 = data.unit ?? "unit of the poses";
-    this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * data.scene);
-    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
-    const base = this.transmission(2, rows);
+    const base = this.panels(rows, unit2);
     if (upright) this.uprightNames(rows);
     const title = slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
     svg.append(s("text", { class: "bm-title", x: (LEFT2 + width - RIGHT2) / 2, y: height - 6, "text-anchor": "middle" }, title));
@@ -2825,6 +2854,12 @@ var Plots = class {
     this.mark = s("circle", { r: 4.5 });
     this.cursor.append(this.mark);
     svg.append(this.cursor);
+  }
+  /** Draw the panels; returns the base of the last one. */
+  panels(rows, unit2) {
+    this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * this.data.scene);
+    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
+    return this.transmission(2, rows);
   }
   /** The errors of the poses as stems; below `rounding` they are zero. */
   errors(k, title, rows, value, rounding) {
@@ -2865,23 +2900,27 @@ var Plots = class {
     svg.append(s("path", { class: "bm-usual", d: `M${LEFT2} ${px(Y(limit))}H${width - RIGHT2}` }));
     const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
     const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT2 - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
-    const { low, high } = this.stretch, frames = [low];
-    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
-    frames.push(high);
-    let line = "", pen = "M";
-    for (const u of frames) {
-      const angle = linear(way.transmission, u);
-      if (angle === null) continue;
-      line += `${pen}${px(X(linear(way.drive, u)))} ${px(Y(angle))}`;
-      pen = "L";
-    }
-    svg.append(s("path", { class: "bm-line", d: line }));
+    this.curve(way.transmission, Y, "bm-line");
     for (const row of rows) {
       if (row.transmission_deg === null) continue;
       svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
     }
     svg.append(limitName);
     return base;
+  }
+  /** Values along the way as a line over the drive. */
+  curve(values, Y, name) {
+    const { low, high } = this.stretch, frames = [low];
+    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
+    frames.push(high);
+    let line = "", pen = "M";
+    for (const u of frames) {
+      const value = linear(values, u);
+      if (value === null) continue;
+      line += `${pen}${px(this.X(linear(this.way.drive, u)))} ${px(Y(value))}`;
+      pen = "L";
+    }
+    this.svg.append(s("path", { class: name, d: line }));
   }
   /** Names of the poses over their stems, those that have room. */
   uprightNames(rows) {
@@ -3072,7 +3111,7 @@ var Report = class {
     const known = Boolean(this.linkage);
     this.linkage = this.linkages[index];
     this.cards.mark(index);
-    this.factor.value = String(factorFor(this.data, this.linkage));
+    if (this.factor) this.factor.value = String(factorFor(this.data, this.linkage));
     this.player.load(this.linkage);
     if (known) this.bringIntoSight();
   }
@@ -3105,10 +3144,10 @@ var Report = class {
     this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
     this.offerAll(linkage);
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
-    this.space.build(linkage, way);
+    this.space?.build(linkage, way);
     this.map?.build(linkage);
     this.family?.build(linkage, this.linkages.indexOf(linkage));
-    if (!player?.path) this.space.hide();
+    if (!player?.path) this.space?.hide();
     player?.drawStops();
     player?.show();
   }
@@ -3123,8 +3162,8 @@ var Report = class {
   /** What moves, at a place of the body; near: the index of the nearest pose. */
   show(place, drive, transmission, near2) {
     this.plane.show(place);
-    this.space.show(place);
-    this.plots.show(drive, transmission);
+    this.space?.show(place);
+    this.plots.show(drive, transmission, place);
     const row = this.rows[near2];
     if (row === this.current) return;
     this.current?.classList.remove("bm-current");
@@ -3244,8 +3283,8 @@ var GeneratorView = class extends Report {
 };
 function closed2({ ground, input_link: a, coupler: r, output_link: b, side, input_phase, output_phase, curve }, input) {
   const theta = radians(input_phase + input), x = ground - a * Math.cos(theta), y = -a * Math.sin(theta);
-  const size2 = Math.hypot(x, y), opening = Math.acos((r * r - b * b - size2 * size2) / (2 * b * size2));
-  const between = degrees(Math.acos((r * r + b * b - size2 * size2) / (2 * r * b)));
+  const size3 = Math.hypot(x, y), opening = Math.acos((r * r - b * b - size3 * size3) / (2 * b * size3));
+  const between = degrees(Math.acos((r * r + b * b - size3 * size3) / (2 * r * b)));
   if (Number.isNaN(opening)) return { output: null, transmission: null };
   const output = degrees(Math.atan2(y, x) + side * opening) - output_phase;
   const k = curve.input.reduce((best, each, i) => Math.abs(each - input) < Math.abs(curve.input[best] - input) ? i : best, 0);
@@ -3300,11 +3339,393 @@ var FunctionReport = class {
   }
 };
 
+// src/burmester/web/widget/six_bar.mjs
+var FRAMES = 361;
+var plus2 = (p, q) => [p[0] + q[0], p[1] + q[1]];
+var minus = (p, q) => [p[0] - q[0], p[1] - q[1]];
+var times2 = (p, q) => [p[0] * q[0] - p[1] * q[1], p[0] * q[1] + p[1] * q[0]];
+var scaled2 = (p, k) => [k * p[0], k * p[1]];
+var size2 = (p) => Math.hypot(p[0], p[1]);
+var over = (p, q) => scaled2(times2(p, [q[0], -q[1]]), 1 / (q[0] * q[0] + q[1] * q[1]));
+function meeting(centre, radius, other, otherRadius, side) {
+  const way = minus(other, centre), squared = size2(way) ** 2;
+  const along = (squared + radius ** 2 - otherRadius ** 2) / (2 * squared);
+  return plus2(centre, times2(way, [along, side * Math.sqrt(Math.max(0, radius ** 2 / squared - along ** 2))]));
+}
+function acute(p, q) {
+  const [across, around2] = times2(p, [q[0], -q[1]]);
+  return degrees(Math.atan2(Math.abs(around2), Math.abs(across)));
+}
+function sixBarAt(sixBar, drive) {
+  const { ground, coupler, body } = sixBar, { A, B } = ground, isFirst = sixBar.driver === "first";
+  const arm = (length) => [length * Math.cos(radians(drive)), length * Math.sin(radians(drive))];
+  const bar = size2(coupler.D);
+  let C, D;
+  if (isFirst) {
+    C = plus2(A, arm(sixBar.first_crank));
+    D = meeting(C, bar, B, sixBar.second_crank, sixBar.sides[0]);
+  } else {
+    D = plus2(B, arm(sixBar.second_crank));
+    C = meeting(D, bar, A, sixBar.first_crank, sixBar.sides[0]);
+  }
+  const E = plus2(C, times2(over(minus(D, C), coupler.D), coupler.E));
+  const G = plus2(B, times2(scaled2(minus(D, B), 1 / sixBar.second_crank), sixBar.crank_joint));
+  const held = minus(body.H, body.E);
+  const H = meeting(G, sixBar.floating_link, E, size2(held), sixBar.sides[1]);
+  const turn = over(minus(H, E), held), [x, y] = minus(E, times2(turn, body.E));
+  const first = isFirst ? acute(minus(C, D), minus(B, D)) : acute(minus(D, C), minus(A, C));
+  const loops = [first, acute(minus(G, H), minus(E, H))];
+  return { x, y, a: Math.atan2(turn[1], turn[0]), joints: { A, B, C, D, E, G, H }, loops, transmission: Math.min(...loops) };
+}
+function wayOf(sixBar) {
+  const [low, high] = sixBar.ends_deg, round = sixBar.turns_fully;
+  const share = (k) => round ? k / (FRAMES - 1) : (1 - Math.cos(Math.PI * k / (FRAMES - 1))) / 2;
+  const drive = Array.from({ length: FRAMES }, (_, k) => low + (high - low) * share(k));
+  const places = drive.map((each) => sixBarAt(sixBar, each));
+  const column = (value) => places.map(value);
+  return {
+    circuit: 1,
+    branch: 1,
+    branches: 1,
+    round,
+    dead: [!round, !round],
+    poses: sixBar.drive_deg.map((_, k) => k + 1),
+    drive,
+    x: column((at) => at.x),
+    y: column((at) => at.y),
+    angle: column((at) => at.a),
+    transmission: column((at) => at.transmission),
+    loops: [0, 1].map((k) => column((at) => at.loops[k]))
+  };
+}
+function moving(sixBar, poses) {
+  const way = wayOf(sixBar), { A, B } = sixBar.ground;
+  const cranks = [{ id: "AC", kind: "crank", fixed_pivot: A }, { id: "BD", kind: "crank", fixed_pivot: B }];
+  return {
+    ...sixBar,
+    ways: [way],
+    led: sixBar.driver === "first" ? cranks : cranks.reverse(),
+    pose_errors: sixBar.drive_deg.map((drive, k) => {
+      const at = sixBarAt(sixBar, drive);
+      return {
+        x: at.x,
+        y: at.y,
+        angle_deg: degrees(at.a),
+        way: 0,
+        frame: frameAt(way.drive, drive),
+        drive_deg: drive,
+        joints: at.joints,
+        loops: at.loops,
+        position: Math.hypot(at.x - poses[k].x, at.y - poses[k].y),
+        transmission_deg: at.transmission,
+        said: { position: "exact", turned: "exact" }
+      };
+    })
+  };
+}
+
+// src/burmester/web/widget/six_bar_mechanism.mjs
+var NAME = 15;
+var BODY_AXIS2 = AXIS + 10;
+var LINKS = ["CDE", "BDG", "AC", "GH", "EHM"];
+var NAMED_ON = { C: "CDE", D: "CDE", E: "CDE", G: "BDG", H: "GH" };
+var kindOf = (link, driver) => link === "EHM" ? "bm-carried" : link === "AC" || link === "BDG" ? `bm-side${link === "AC" === (driver === "first") ? 0 : 1}` : "bm-inner";
+var SixBarMechanism = class {
+  constructor(data, linkage, view) {
+    this.view = view;
+    this.links = LINKS.map((joints) => {
+      const strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+      const group = s("g", { class: `bm-link ${kindOf(joints, linkage.driver)}${joints.length > 2 ? " bm-ternary" : ""}`, "data-link": joints.replace("M", "") }, strokes);
+      return { joints, strokes, group };
+    });
+    this.outline = data.body ? s("path", { class: "bm-body-outline", d: bodyOutline(data, view) }) : null;
+    this.frame = s("g", { class: "bm-coupler" }, s("path", { class: "bm-body-frame", d: axes(BODY_AXIS2) }), s("circle", { class: "bm-origin", r: 4 }));
+    this.pins = [..."ABCDEGH"].map((joint) => ({
+      joint,
+      pin: s("circle", { class: `bm-pin${joint < "C" ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint }),
+      name: NAMED_ON[joint] ? s("text", { class: "bm-name", "text-anchor": "middle" }, joint) : null
+    }));
+    const pivot = linkage.led[0].fixed_pivot;
+    this.group = s(
+      "g",
+      { class: "bm-linkage bm-six-bar" },
+      this.outline,
+      s("path", { class: "bm-drive-mark bm-side0", d: TURNING_ARROW, transform: `translate(${px(view.X(pivot[0]))} ${px(view.Y(pivot[1]))}) rotate(-90)` }),
+      this.links.map((each) => each.group),
+      this.frame,
+      this.pins.map((each) => each.pin),
+      this.pins.map((each) => each.name)
+    );
+  }
+  show(place) {
+    const { view } = this, at = {};
+    for (const [joint, [x, y]] of Object.entries({ ...place.joints, M: [place.x, place.y] })) at[joint] = [view.X(x), view.Y(y)];
+    for (const { joints, strokes } of this.links) {
+      const d = `M${[...joints].map((joint) => at[joint].map(px).join(" ")).join("L")}${joints.length > 2 ? "Z" : ""}`;
+      for (const stroke of strokes) put(stroke, "d", d);
+    }
+    const seen = transform(...at.M, place.a);
+    put(this.frame, "transform", seen);
+    if (this.outline) put(this.outline, "transform", seen);
+    for (const { joint, pin, name } of this.pins) {
+      const [x, y] = at[joint];
+      put(pin, "cx", px(x));
+      put(pin, "cy", px(y));
+      if (!name) continue;
+      const [u, v] = outwards([...NAMED_ON[joint]].map((each) => at[each]), at[joint]);
+      put(name, "x", px(x + NAME * u));
+      put(name, "y", px(y + NAME * v + 4));
+    }
+  }
+};
+function outwards(corners, [x, y]) {
+  const middle = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
+  const u = x - middle[0], v = y - middle[1], size3 = Math.hypot(u, v);
+  return size3 > 1 ? [u / size3, v / size3] : [0, -1];
+}
+
+// src/burmester/web/widget/six_bar_plane.mjs
+var BESIDE_PIVOT = [16, 28, 40];
+var SixBarPlane = class extends Plane {
+  build(linkage, way, stretch, how) {
+    super.build(linkage, way, stretch, { ...how, far: true });
+  }
+  placesOf(way, stretch) {
+    return placesAlong(this.data, stretch, (u) => sixBarAt(this.linkage, linear(way.drive, u)));
+  }
+  bounds(far) {
+    return including(super.bounds(far), this.places.flatMap((place) => Object.values(place.joints)));
+  }
+  /** The body at every pose; where it has no outline, its two joints and its origin. */
+  ghosts() {
+    const { data, linkage, view } = this;
+    if (data.body || !linkage) return super.ghosts();
+    const plates = linkage.pose_errors.map(({ x, y, joints }) => s("path", { class: "bm-ghost", d: `${polyline([[x, y], joints.E, joints.H], view)}Z` }));
+    return s("g", { class: "bm-ghosts" }, plates);
+  }
+  mechanism() {
+    return new SixBarMechanism(this.data, this.linkage, this.view);
+  }
+  /** The paths of the two pins that carry the body. */
+  pivotPaths() {
+    return ["E", "H"].map((joint) => ({ side: "-inner", points: this.places.map((place) => place.joints[joint]) }));
+  }
+  ground(labels) {
+    const group = s("g", { class: "bm-grounds" });
+    this.keepCranksFree(labels);
+    this.linkage.led.forEach(({ id, fixed_pivot }, side) => this.fixedPivot(group, labels, { id: id[0], fixed_pivot }, side));
+    return group;
+  }
+  /** Where cranks are on their way no name is to stand. */
+  keepCranksFree(labels) {
+    const { view, places } = this, every = Math.ceil(places.length / 9);
+    for (const { joints } of places.filter((_, k) => k % every === 0)) {
+      for (const [pivot, end] of ["AC", "BD", "BG"]) {
+        const [[x, y], [u, v]] = [joints[pivot], joints[end]].map((at) => [view.X(at[0]), view.Y(at[1])]);
+        const size3 = Math.hypot(u - x, v - y) || 1;
+        for (const along of BESIDE_PIVOT) labels.block(x + along * (u - x) / size3, y + along * (v - y) / size3, 12, 12);
+      }
+    }
+  }
+};
+
+// src/burmester/web/widget/six_bar_player.mjs
+var SixBarPlayer = class extends Player {
+  placeAt(u) {
+    return sixBarAt(this.linkage, linear(this.path.drive, u));
+  }
+  driverText(drive) {
+    return `${this.linkage.crank} ${fixed(drive, 1)}°`;
+  }
+};
+
+// src/burmester/web/widget/six_bar_plots.mjs
+var PANEL2 = 150;
+var SOUND = 30;
+var SixBarPlots = class extends Plots {
+  static HEIGHT = PANEL2;
+  static TITLE = "Transmission angles of both loops";
+  panels(rows) {
+    const { svg, way, width, top } = this, base = top + PANEL2;
+    this.Y = (v) => base - v / 90 * PANEL2;
+    this.panel("transmission angle (°)", top, base, true);
+    for (const at of [0, 30, 60, 90]) this.rule(this.Y(at), at);
+    const asked = this.data.asked_transmission_deg, limit = asked ?? SOUND, y = px(this.Y(limit));
+    svg.append(
+      s("path", { class: "bm-usual", d: `M${LEFT2} ${y}H${width - RIGHT2}` }),
+      s("text", { class: "bm-tick bm-halo", x: width - RIGHT2 - 4, y: y + 12, "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "of a sound linkage"}`)
+    );
+    way.loops.forEach((values, k) => {
+      this.curve(values, this.Y, `bm-line bm-loop${k}`);
+      for (const row of rows) svg.append(s("circle", { class: `bm-dot bm-loop${k}`, cx: px(this.X(row.drive)), cy: px(this.Y(row.loops[k])), r: 3 }));
+    });
+    return base;
+  }
+  build(linkage, index, stretch) {
+    super.build(linkage, index, stretch);
+    if (!this.cursor) return;
+    this.other = s("circle", { r: 4.5 });
+    this.cursor.append(this.other);
+  }
+  show(drive, transmission, place) {
+    if (!this.cursor) return;
+    super.show(drive, place.loops[0]);
+    this.other.setAttribute("cy", px(this.Y(place.loops[1])));
+  }
+};
+
+// src/burmester/web/widget/six_bar_tables.mjs
+var SixBarCards = class extends CardList {
+  constructor(linkages, choose) {
+    super(linkages.map((each, k) => card3(each, () => choose(k))));
+  }
+};
+var verdictOf2 = (linkage) => linkage.sound ? "✓ works, sound" : "✓ works";
+function card3(linkage, onclick) {
+  const { said } = linkage, [, driver, turn] = said.row;
+  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+  return h(
+    "button",
+    { type: "button", class: "bm-choice bm-good", "aria-pressed": "false", "data-linkage": linkage.id, onclick },
+    h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
+    h("span", { class: "bm-verdict" }, verdictOf2(linkage)),
+    h(
+      "dl",
+      {},
+      fact("driver", `${driver}${linkage.turns_fully ? ", turns fully" : `, by ${turn}`}`),
+      fact("transmission", `${said.transmission} or more`),
+      fact("extent", said.extent),
+      fact("link ratio", said.link_ratio, "bm-detail")
+    ),
+    said.shortcomings.length ? h("span", { class: "bm-reason" }, `It ${said.shortcomings.join("; ")}`) : null
+  );
+}
+function sixBarTable(data) {
+  const heads = ["", { name: "driver", text: true }, ...data.heads.slice(2), { name: "falls short", text: true }];
+  const rows = data.linkages.map(({ said }) => h("tr", {}, cells([...said.row, said.shortcomings.join("; ") || "–"], [1, heads.length - 1], heads)));
+  return table("All six-bars, best first", heads, rows, { class: "bm-linkages bm-stacks" });
+}
+var lines = (parts) => parts.map((part) => h("span", { class: "bm-line-of" }, part));
+function sixBarDimensions(data, { id, said }) {
+  const rows = said.dimensions.map(([link, ...joints]) => h("tr", {}, cells([link, lines(joints.filter(Boolean))])));
+  return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
+}
+function sixBarDistances(data, { id, said }) {
+  const caption = `Distances between joints of ${id}${data.unit ? `, in ${data.unit}` : ""}`;
+  const rows = said.distances.map((row) => h("tr", {}, cells(row)));
+  return h("details", { class: "bm-every" }, h("summary", {}, "Distances between joints"), table(caption, [{ name: "joints", text: true }, "distance"], rows));
+}
+function sixBarFacts(data, { said }) {
+  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", "exact, up to rounding"]];
+  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+}
+function sixBarPoses(data, linkage) {
+  const digits = decimalsOf(data), unit2 = data.unit ? ` (${data.unit})` : "";
+  const heads = ["pose", "x", `y${unit2}`, "angle", ...linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : []];
+  const rows = data.poses.map((pose, k) => {
+    const values = [poseName(pose), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`];
+    if (linkage) {
+      const row = linkage.pose_errors[k];
+      values.push(...[row.drive_deg, ...row.loops].map((angle) => `${fixed(angle, 1)}°`));
+    }
+    return h("tr", { "data-pose": k + 1 }, cells(values));
+  });
+  const named = data.poses.some((pose) => pose.label !== pose.name);
+  return table(linkage ? `Poses, and how ${linkage.id} stands there` : "Poses", heads, rows, { class: named ? "bm-pose-table bm-named" : "bm-pose-table" });
+}
+var loopTips = (linkage) => [linkage.driver === "first" ? "D" : "C", "H"];
+function sixBarKey(data, hasLinkages) {
+  const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
+  const link = (kind) => s("g", { class: `bm-link ${kind}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
+  const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
+  if (hasLinkages) {
+    items.push(
+      one(link("bm-side0"), "driver (filled)"),
+      one(link("bm-side1"), "other crank (hollow)"),
+      one(link("bm-inner"), "coupler CDE and floating link GH"),
+      one(link("bm-carried"), "body, with its frame M"),
+      one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M")
+    );
+  }
+  if (data.body || hasLinkages) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
+  return h("ul", { class: "bm-keys" }, items);
+}
+function loopKey(linkage) {
+  const one = (k, text) => h("li", {}, s("svg", { width: 34, height: 12, viewBox: "0 -6 34 12", "aria-hidden": "true", class: "bm-key" }, s("path", { class: `bm-line bm-loop${k}`, d: "M0 0H32" })), text);
+  const [first, second] = loopTips(linkage);
+  return h("ul", { class: "bm-keys" }, one(0, `first loop, at ${first}`), one(1, `second loop, at ${second}`));
+}
+
+// src/burmester/web/widget/six_bar_report.mjs
+var SixBarReport = class extends Report {
+  constructor(data, el, options) {
+    super({ ...data, linkages: data.six_bars.map((each) => moving(each, data.poses)) }, el, options);
+  }
+  frame() {
+    const { data, linkages } = this, any = linkages.length > 0;
+    const main = h("div", { class: "bm-main" }), body = h("div", { class: "bm-body" });
+    this.root.append(header(data, any), body);
+    if (any) {
+      this.player = new SixBarPlayer(data, (...now) => this.show(...now), () => this.rebuild());
+      this.cards = new SixBarCards(linkages, (index) => this.choose(index));
+      body.append(this.cards.element);
+    }
+    body.append(main);
+    main.append(this.stage());
+    if (any) main.append(this.numbersAndPlots());
+    this.poses = section("pose-box", "Pose by pose");
+    main.append(this.poses);
+    if (any) main.append(section("all", "All six-bars", sixBarTable(data), this.everyDimension()));
+    this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes));
+  }
+  stage() {
+    const drawing = h("div", { class: "bm-drawing" });
+    this.plane = new SixBarPlane(this.data, drawing);
+    this.title = h("h2", { class: "bm-stage-title" }, "The poses");
+    this.story = h("p", { class: "bm-story" });
+    return h(
+      "section",
+      { class: "bm-card bm-stage", "aria-label": "The linkage moving" },
+      this.title,
+      this.story,
+      drawing,
+      this.player?.element,
+      h("div", { class: "bm-under" }, sixBarKey(this.data, Boolean(this.player)))
+    );
+  }
+  numbersAndPlots() {
+    this.numbers = h("div", { class: "bm-fill" });
+    this.loops = h("div", {});
+    const plots = h("div", { class: "bm-fill" });
+    this.plots = new SixBarPlots(this.data, plots, (u) => this.player.go(u));
+    plots.append(this.loops);
+    this.aside = h("div", { class: "bm-aside" }, section("numbers", "Numbers", this.numbers), section("plotted", "Transmission over the driver", plots));
+    return this.aside;
+  }
+  everyDimension() {
+    const parts = this.linkages.map((each) => h("div", { class: "bm-every-one" }, sixBarDimensions(this.data, each)));
+    return h("details", { class: "bm-every" }, h("summary", {}, "Dimensions of every six-bar"), h("div", { class: "bm-every-all" }, parts));
+  }
+  rebuild() {
+    const { linkage, data, player } = this;
+    if (linkage) {
+      player.rebuild();
+      this.title.textContent = `${linkage.id}: ${linkage.type}`;
+      this.story.textContent = linkage.said.story;
+      this.numbers.replaceChildren(sixBarDimensions(data, linkage), sixBarFacts(data, linkage), sixBarDistances(data, linkage));
+      this.loops.replaceChildren(loopKey(linkage));
+    }
+    this.poses.replaceChildren(this.poses.querySelector("h2"), sixBarPoses(data, linkage));
+    this.rows = [...this.poses.querySelectorAll("tbody tr")];
+    this.draw();
+  }
+};
+
 // src/burmester/web/widget/widget.mjs
 var widget = {
   render({ model, el }) {
     const options = { webgl: model.get("webgl") ?? true };
-    const made = (data) => new (data.generators ? FunctionReport : Report)(data, el, options);
+    const made = (data) => new (data.generators ? FunctionReport : data.six_bars ? SixBarReport : Report)(data, el, options);
     let report = made(model.get("data"));
     const anew = () => {
       report.close();

@@ -12,6 +12,8 @@ import { pointOnLine, travelOf } from "./travel.mjs";
 
 const BODY_AXIS = AXIS + 10; // pixels: the x axis of the body
 export const LETTER = 14; // pixels: how far the letter M stands from the origin of M, along x and against y: names of poses stand elsewhere
+/** A driver that turns, around the origin. */
+export const TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
 const BLOCK_IN_SLOT = [18, 10]; // pixels: its length and height
 const SPARE = 5; // pixels: how far a slot goes on beyond its block
 const ARROW = 24; // pixels: how far the arrow of a sliding driver stands from its block
@@ -86,7 +88,7 @@ export class Mechanism {
     if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
     if (!driver.fixed_pivot) return;
     const [x, y] = driver.fixed_pivot;
-    put(arrow, "d", "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9");
+    put(arrow, "d", TURNING_ARROW);
     put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
   }
 }

@@ -82,7 +82,7 @@ function bodyCorners(data, linkage, places) {
 const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
 
 /** A box, [x low, y low, x high, y high], that holds points, too. */
-const including = (box, points) =>
+export const including = (box, points) =>
   points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
 
 /** The box of the picture that holds the outlines, too: all of them, or as far as the linkage stays large.

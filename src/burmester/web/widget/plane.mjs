@@ -48,8 +48,10 @@ export class Plane {
    */
   build(linkage, way, stretch, { factor, fill, far }) {
     const { data, svg } = this, path = linkage?.ways[way];
-    this.places = path ? placesOf(data, linkage, path, stretch) : [];
-    const bare = boundsOf(data, linkage, this.places, far);
+    this.linkage = linkage;
+    this.way = way;
+    this.places = path ? this.placesOf(path, stretch) : [];
+    const bare = this.bounds(far);
     const width = Math.max(260, this.parent.clientWidth);
     const box = widened(bare, data, linkage, this.places, width, far);
     this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
@@ -58,15 +60,13 @@ export class Plane {
     const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
     const view = viewOf(box, width, height, width < 500 ? 34 : 42);
     this.view = view;
-    this.linkage = linkage;
-    this.way = way;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     svg.dataset.scale = view.scale;
     svg.dataset.left = view.left;
     svg.dataset.top = view.top;
     svg.replaceChildren();
-    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
+    svg.append(this.grid(), keepOut(data, view), this.ghosts());
     if (linkage) svg.append(this.paths());
     const labels = new Labels(view);
     this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
@@ -81,10 +81,30 @@ export class Plane {
       }
     }
     svg.append(this.poses(linkage, factor, labels));
-    this.moving = path ? mechanism(data, linkage, view, this.places) : null;
+    this.moving = path ? this.mechanism() : null;
     if (this.moving) svg.append(this.moving.group);
     if (linkage && !far) this.farPivots(labels);
     svg.append(this.names);
+  }
+
+  /** The places of the body along a stretch of a way. */
+  placesOf(way, stretch) {
+    return placesOf(this.data, this.linkage, way, stretch);
+  }
+
+  /** The box that the picture has to hold, but for outlines. */
+  bounds(far) {
+    return boundsOf(this.data, this.linkage, this.places, far);
+  }
+
+  /** The body at every pose. */
+  ghosts() {
+    return ghosts(this.data, this.linkage, this.view);
+  }
+
+  /** The moving parts. */
+  mechanism() {
+    return mechanism(this.data, this.linkage, this.view, this.places);
   }
 
   grid() {
@@ -117,18 +137,22 @@ export class Plane {
     linkage.ways.forEach((way, k) => {
       const same = way.circuit === linkage.ways[this.way]?.circuit;
       const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
-      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
+      const whole = this.placesOf(way, { low: 0, high: way.x.length - 1 });
       const d = polyline(whole.map(({ x, y }) => [x, y]), view);
       group.append(s("path", { class: `bm-curve ${kind}`, d }));
     });
-    for (const [side, dyad] of linkage.led.entries()) {
-      if (!dyad.moving_pivot || dyad.kind === "PR") continue;
-      const d = polyline(places.map((place) => act(place, dyad.moving_pivot)), view);
-      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d }));
+    for (const { side, points } of this.pivotPaths()) {
+      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: polyline(points, view) }));
     }
     const d = polyline(places.map(({ x, y }) => [x, y]), view);
     group.append(s("path", { class: "bm-curve bm-here", d }));
     return group;
+  }
+
+  /** The paths of the body's pivots: those on links and in slots. */
+  pivotPaths() {
+    const drawn = [...this.linkage.led.entries()].filter(([, dyad]) => dyad.moving_pivot && dyad.kind !== "PR");
+    return drawn.map(([side, dyad]) => ({ side, points: this.places.map((place) => act(place, dyad.moving_pivot)) }));
   }
 
   /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */

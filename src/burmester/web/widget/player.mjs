@@ -228,6 +228,11 @@ export class Player {
     this.atPose = next.k;
   }
 
+  /** The place of the body at a frame of the way. */
+  placeAt(u) {
+    return placeAt(this.linkage, this.path, u, this.data.chart.length);
+  }
+
   /** The pose nearest to a place, the angle weighed as the errors weigh it. */
   nearest(place) {
     let near = 0, least = Infinity;
@@ -241,13 +246,13 @@ export class Player {
 
   /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
   show(told = true) {
-    const { path, linkage, data } = this;
+    const { path } = this;
     if (!path) {
       for (const part of this.parts) part.textContent = "";
       return;
     }
-    const place = placeAt(linkage, path, this.u, data.chart.length);
-    const drive = linear(path.drive, this.u), transmission = linear(path.transmission, this.u);
+    const place = this.placeAt(this.u);
+    const drive = linear(path.drive, this.u), transmission = place.transmission ?? linear(path.transmission, this.u);
     const near = (this.atPose = this.nearest(place));
     if (told) {
       give(this.slider, "min", this.stretch.low);
@@ -258,11 +263,16 @@ export class Player {
     this.draw.show(place, drive, transmission, near);
   }
 
+  /** Where the driver is: an angle, or a place on its line. */
+  driverText(drive) {
+    const { data, linkage } = this;
+    return linkage.led[0].kind === "PR" ? `${fixed(drive, decimalsOf(data))}${data.unit ? ` ${data.unit}` : ""}` : `${fixed(drive, 1)}°`;
+  }
+
   /** The readout: driver, body, transmission angle, and the nearest pose. */
   tell(place, drive, transmission, near) {
     const { data, linkage } = this;
-    const unit = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data);
-    const driver = linkage.led[0].kind === "PR" ? `${fixed(drive, digits)}${unit}` : `${fixed(drive, 1)}°`;
+    const unit = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data), driver = this.driverText(drive);
     const pose = data.poses[near], row = linkage.pose_errors[near];
     const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
     // A task may lose poses before it is solved again.

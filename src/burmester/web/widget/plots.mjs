@@ -5,7 +5,8 @@ import { frameAt, linear } from "./kinematics.mjs";
 import { angleTicks, clamp, figure, px, ticks } from "./numbers.mjs";
 import { poseName, shortened } from "./tables.mjs";
 
-const LEFT = 62, RIGHT = 14, TOP = 22, BOTTOM = 44; // pixels around the panels
+export const LEFT = 62, RIGHT = 14; // pixels beside the panels
+const TOP = 22, BOTTOM = 44; // pixels over and under them
 const PANEL = 84, GAP = 28; // pixels: height of a panel, distance between two
 const USUAL_LIMIT = 40; // degrees: the transmission angle below which designers hesitate
 const MANY_POSES = 40; // above this number only the three greatest errors are named
@@ -16,10 +17,13 @@ const NAME_WIDTH = 11; // pixels: what an upright name takes of the width
 
 /** An SVG element in `parent`; a pointer on it calls `scrub` with a frame of the way. */
 export class Plots {
+  static HEIGHT = 3 * PANEL + 2 * GAP; // pixels: of all panels
+  static TITLE = "Errors and transmission angle";
+
   constructor(data, parent, scrub) {
     this.data = data;
     this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": "Errors and transmission angle" });
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": this.constructor.TITLE });
     parent.append(this.svg);
     const go = (event) => {
       if (!this.way) return;
@@ -41,14 +45,14 @@ export class Plots {
     svg.replaceChildren();
     this.cursor = null;
     if (!way) return;
-    svg.setAttribute("aria-label", `${linkage.id}: errors at its poses, and its transmission angle along the driver`);
+    svg.setAttribute("aria-label", `${linkage.id}: ${this.constructor.TITLE.toLowerCase()} along the driver`);
     const width = (this.width = Math.max(260, this.parent.clientWidth));
     // Long names stand upright, in a strip over the first panel.
     const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
-    const height = this.top + 3 * PANEL + 2 * GAP + BOTTOM;
+    const height = this.top + this.constructor.HEIGHT + BOTTOM;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
@@ -61,9 +65,7 @@ export class Plots {
       : angleTicks(this.low, this.high, Math.max(3, width / 70));
     const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit = data.unit ?? "unit of the poses";
-    this.errors(0, `position error (${unit})`, rows, (row) => row.position, 1e-11 * data.scene);
-    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
-    const base = this.transmission(2, rows);
+    const base = this.panels(rows, unit);
     if (upright) this.uprightNames(rows);
     const title = slides ? `place of ${driver.id} on its line (${unit})` : `driver angle (${driver.id})`;
     svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
@@ -71,6 +73,13 @@ export class Plots {
     this.mark = s("circle", { r: 4.5 });
     this.cursor.append(this.mark);
     svg.append(this.cursor);
+  }
+
+  /** Draw the panels; returns the base of the last one. */
+  panels(rows, unit) {
+    this.errors(0, `position error (${unit})`, rows, (row) => row.position, 1e-11 * this.data.scene);
+    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
+    return this.transmission(2, rows);
   }
 
   /** The errors of the poses as stems; below `rounding` they are zero. */
@@ -114,23 +123,28 @@ export class Plots {
     // Its name stands on the side of the line where the curve is not.
     const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
     const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
-    const { low, high } = this.stretch, frames = [low];
-    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
-    frames.push(high);
-    let line = "", pen = "M";
-    for (const u of frames) {
-      const angle = linear(way.transmission, u);
-      if (angle === null) continue;
-      line += `${pen}${px(X(linear(way.drive, u)))} ${px(Y(angle))}`;
-      pen = "L";
-    }
-    svg.append(s("path", { class: "bm-line", d: line }));
+    this.curve(way.transmission, Y, "bm-line");
     for (const row of rows) {
       if (row.transmission_deg === null) continue;
       svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
     }
     svg.append(limitName);
     return base;
+  }
+
+  /** Values along the way as a line over the drive. */
+  curve(values, Y, name) {
+    const { low, high } = this.stretch, frames = [low];
+    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
+    frames.push(high);
+    let line = "", pen = "M";
+    for (const u of frames) {
+      const value = linear(values, u);
+      if (value === null) continue;
+      line += `${pen}${px(this.X(linear(this.way.drive, u)))} ${px(Y(value))}`;
+      pen = "L";
+    }
+    this.svg.append(s("path", { class: name, d: line }));
   }
 
   /** Names of the poses over their stems, those that have room. */

@@ -161,7 +161,7 @@ export class Report {
     const known = Boolean(this.linkage);
     this.linkage = this.linkages[index];
     this.cards.mark(index);
-    this.factor.value = String(factorFor(this.data, this.linkage));
+    if (this.factor) this.factor.value = String(factorFor(this.data, this.linkage));
     this.player.load(this.linkage);
     if (known) this.bringIntoSight();
   }
@@ -197,10 +197,10 @@ export class Report {
     this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
     this.offerAll(linkage);
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
-    this.space.build(linkage, way);
+    this.space?.build(linkage, way);
     this.map?.build(linkage);
     this.family?.build(linkage, this.linkages.indexOf(linkage));
-    if (!player?.path) this.space.hide();
+    if (!player?.path) this.space?.hide();
     player?.drawStops();
     player?.show();
   }
@@ -217,8 +217,8 @@ export class Report {
   /** What moves, at a place of the body; near: the index of the nearest pose. */
   show(place, drive, transmission, near) {
     this.plane.show(place);
-    this.space.show(place);
-    this.plots.show(drive, transmission);
+    this.space?.show(place);
+    this.plots.show(drive, transmission, place);
     const row = this.rows[near];
     if (row === this.current) return;
     this.current?.classList.remove("bm-current");

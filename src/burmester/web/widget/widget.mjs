@@ -5,11 +5,12 @@
 
 import { FunctionReport } from "./function_report.mjs";
 import { Report } from "./report.mjs";
+import { SixBarReport } from "./six_bar_report.mjs";
 
 const widget = {
   render({ model, el }) {
     const options = { webgl: model.get("webgl") ?? true };
-    const made = (data) => new (data.generators ? FunctionReport : Report)(data, el, options);
+    const made = (data) => new (data.generators ? FunctionReport : data.six_bars ? SixBarReport : Report)(data, el, options);
     let report = made(model.get("data"));
     const anew = () => {
       report.close();

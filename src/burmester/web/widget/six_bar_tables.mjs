@@ -1,0 +1,107 @@
+// Cards, tables and facts of six-bars, and the key of their drawing.
+
+import { CardList } from "./cards.mjs";
+import { h, s } from "./dom.mjs";
+import { axes } from "./drawing.mjs";
+import { fixed } from "./numbers.mjs";
+import { cells, decimalsOf, poseName, table } from "./tables.mjs";
+
+export class SixBarCards extends CardList {
+  constructor(linkages, choose) {
+    super(linkages.map((each, k) => card(each, () => choose(k))));
+  }
+}
+
+const verdictOf = (linkage) => (linkage.sound ? "✓ works, sound" : "✓ works");
+
+function card(linkage, onclick) {
+  const { said } = linkage, [, driver, turn] = said.row;
+  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+  return h(
+    "button",
+    { type: "button", class: "bm-choice bm-good", "aria-pressed": "false", "data-linkage": linkage.id, onclick },
+    h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
+    h("span", { class: "bm-verdict" }, verdictOf(linkage)),
+    h(
+      "dl",
+      {},
+      fact("driver", `${driver}${linkage.turns_fully ? ", turns fully" : `, by ${turn}`}`),
+      fact("transmission", `${said.transmission} or more`),
+      fact("extent", said.extent),
+      fact("link ratio", said.link_ratio, "bm-detail"),
+    ),
+    said.shortcomings.length ? h("span", { class: "bm-reason" }, `It ${said.shortcomings.join("; ")}`) : null,
+  );
+}
+
+/** All six-bars with their figures. */
+export function sixBarTable(data) {
+  const heads = ["", { name: "driver", text: true }, ...data.heads.slice(2), { name: "falls short", text: true }];
+  const rows = data.linkages.map(({ said }) => h("tr", {}, cells([...said.row, said.shortcomings.join("; ") || "–"], [1, heads.length - 1], heads)));
+  return table("All six-bars, best first", heads, rows, { class: "bm-linkages bm-stacks" });
+}
+
+const lines = (parts) => parts.map((part) => h("span", { class: "bm-line-of" }, part));
+
+/** What to build a six-bar from: the joints of each link in its own frame, or its length. */
+export function sixBarDimensions(data, { id, said }) {
+  const rows = said.dimensions.map(([link, ...joints]) => h("tr", {}, cells([link, lines(joints.filter(Boolean))])));
+  return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
+}
+
+/** The distances between the joints of one link, to measure and to check. */
+export function sixBarDistances(data, { id, said }) {
+  const caption = `Distances between joints of ${id}${data.unit ? `, in ${data.unit}` : ""}`;
+  const rows = said.distances.map((row) => h("tr", {}, cells(row)));
+  return h("details", { class: "bm-every" }, h("summary", {}, "Distances between joints"), table(caption, [{ name: "joints", text: true }, "distance"], rows));
+}
+
+/** The figures of a six-bar, under the heads of the table of all. */
+export function sixBarFacts(data, { said }) {
+  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", "exact, up to rounding"]];
+  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+}
+
+/** The poses, and driver and transmission angles there. */
+export function sixBarPoses(data, linkage) {
+  const digits = decimalsOf(data), unit = data.unit ? ` (${data.unit})` : "";
+  const heads = ["pose", "x", `y${unit}`, "angle", ...(linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : [])];
+  const rows = data.poses.map((pose, k) => {
+    const values = [poseName(pose), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`];
+    if (linkage) {
+      const row = linkage.pose_errors[k];
+      values.push(...[row.drive_deg, ...row.loops].map((angle) => `${fixed(angle, 1)}°`));
+    }
+    return h("tr", { "data-pose": k + 1 }, cells(values));
+  });
+  const named = data.poses.some((pose) => pose.label !== pose.name);
+  return table(linkage ? `Poses, and how ${linkage.id} stands there` : "Poses", heads, rows, { class: named ? "bm-pose-table bm-named" : "bm-pose-table" });
+}
+
+/** The joints at which both loops transmit, the first one's first. */
+export const loopTips = (linkage) => [linkage.driver === "first" ? "D" : "C", "H"];
+
+/** The signs of the drawing, and what they mean. */
+export function sixBarKey(data, hasLinkages) {
+  const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
+  const link = (kind) => s("g", { class: `bm-link ${kind}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
+  const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
+  if (hasLinkages) {
+    items.push(
+      one(link("bm-side0"), "driver (filled)"),
+      one(link("bm-side1"), "other crank (hollow)"),
+      one(link("bm-inner"), "coupler CDE and floating link GH"),
+      one(link("bm-carried"), "body, with its frame M"),
+      one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M"),
+    );
+  }
+  if (data.body || hasLinkages) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
+  return h("ul", { class: "bm-keys" }, items);
+}
+
+/** The lines of the plot, and what they mean. */
+export function loopKey(linkage) {
+  const one = (k, text) => h("li", {}, s("svg", { width: 34, height: 12, viewBox: "0 -6 34 12", "aria-hidden": "true", class: "bm-key" }, s("path", { class: `bm-line bm-loop${k}`, d: "M0 0H32" })), text);
+  const [first, second] = loopTips(linkage);
+  return h("ul", { class: "bm-keys" }, one(0, `first loop, at ${first}`), one(1, `second loop, at ${second}`));
+}
