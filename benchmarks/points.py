@@ -51,7 +51,8 @@ def main():
             )
             new = len(lacking(known, seen, SAME))
             print(
-                f"{name:6} {seconds:6.2f} s  found {found.found:5}  lost {found.lost:2}"
+                f"{name:6} {seconds:6.3f} s  found {found.found:5}  lost {found.lost:2}"
+                f"  solved problems {found.systems}"
                 f"  real {found.real:3}  linkages {len(found.batch):3}"
                 f"  from random starts {len(seen):3}, of these new {new}",
                 flush=True,

@@ -62,7 +62,8 @@ def _gaps(y, positions, turn, free):
             turned = 1j * own[:, place] * moving[:, dyad, 0]
             rows[:, dyad, place, column] = 2 * (back[:, place] * turned).real
     gaps, slopes = square[:, :, 1:] - square[:, :, :1], rows[:, :, 1:] - rows[:, :, :1]
-    return gaps.reshape(len(y), -1), slopes.reshape(len(y), -1, y.shape[1])
+    count = 2 * (len(turn) - 1)
+    return gaps.reshape(-1, count), slopes.reshape(-1, count, y.shape[1])
 
 
 def lacking(known, pivots, same):
