@@ -126,12 +126,15 @@ class Evaluation:
     ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
         """The linkages in their order, as found and as a batch (dyads alike), and their places.
 
-        Where there are tolerances, at their places deepest inside, and at those given if they are
-        inside as well: these may be on another branch, or in another order.  once: at those given
-        only, where they are inside.
+        Along a path, at their places that trace it.  Where there are tolerances, at their places
+        deepest inside, and at those given if they are inside as well: these may be on another
+        branch, or in another order.  once: at those given only, where they are inside.
         """
         candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
-        if self.target.boxes is not None:
+        if self.target.path is not None:
+            rows, cranks = self.target.traced(candidates.batch)
+            candidates = candidates._replace(rows=rows, drivers=cranks)
+        elif self.target.boxes is not None:
             candidates = _at_deepest_places(candidates, self.target, self.target.boxes, once=once)
         own = (
             candidates.batch.from_canonical(self.target.frames)

@@ -176,6 +176,7 @@ def target_of(problem: SynthesisProblem) -> Target:
         task.exact if boxes is None else None,
         problem.options.norm == "worst",
         boxes,
+        task.path,
     )
 
 

@@ -13,6 +13,8 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
+from burmester.fourbar.timed_places import places_at_turns
+from burmester.fourbar.traced_places import places_along
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.linear_algebra import matvec
@@ -24,6 +26,7 @@ from burmester.refinement.least_error import Refined, refine
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 
 __all__ = ["Target"]
 
@@ -36,6 +39,7 @@ class Target:
     kept: the limits of the dyads, as constraints, and the boxes.
     weights, exact, worst: as in `refine`.
     boxes: where the task has tolerances; then errors count in their metric.
+    path: where the poses are points of a path; then places are those that trace it.
     whole, index: where these are a sample of more poses, the target of them all, and which of
         them these are.
     """
@@ -49,6 +53,7 @@ class Target:
     exact: NDArray[np.bool_] | None = None
     worst: bool = False
     boxes: ToleranceBoxes | None = None
+    path: TracedPath | None = None
     whole: Target | None = None
     index: NDArray[np.intp] | None = None
 
@@ -103,14 +108,18 @@ class Target:
     def _at(self, index: NDArray[np.intp], weights: FloatArray | None) -> Target:
         thin = self if self.boxes is None else self._with_boxes(self.boxes.at(index))
         exact = None if self.exact is None else self.exact[index]
-        return replace(thin, poses=self.poses[index], weights=weights, exact=exact)
+        path = self.path and self.path.at(index)
+        return replace(thin, poses=self.poses[index], weights=weights, exact=exact, path=path)
 
     def places(self, batch: LinkageBatch, *, on_both: bool = False) -> FloatArray:
         """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost.
 
         Where there are boxes: of the places deepest inside them, on the circuit that uses the least
-        share of all.  on_both: on both circuits, where only so all are inside.
+        share of all.  on_both: on both circuits, where only so all are inside.  Along a path: see
+        `traced`.
         """
+        if self.path is not None:
+            return self.traced(batch)[0]
         if self.boxes is not None:
             rows, every = rows_of(places_in_boxes(batch, self.boxes.boxes), self.length), len(batch)
             used = self.boxes.boxes.share(rows)
@@ -123,6 +132,25 @@ class Target:
         rows = rows_of(on_circuits(batch, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)
         return np.asarray(rows[np.arange(len(batch)), cost.argmin(axis=1)])
+
+    def traced(self, batch: LinkageBatch) -> tuple[FloatArray, NDArray[np.intp] | None]:
+        """Rows (k, N, 3) of the places that trace the path, and the sides (k,) of the cranks.
+
+        In the order of the points, or at their crank angles; only these say which dyad drives.
+        """
+        assert self.path is not None
+        points, turns, w = self.poses.translation, self.path.crank_angles, self.weights
+        if turns is not None:
+            return places_at_turns(batch, points, turns, self.length, weights=w)
+        rows = places_along(
+            batch,
+            points,
+            self.length,
+            weights=w,
+            boxes=None if self.boxes is None else self.boxes.boxes,
+            any_order=self.requirements.any_order,
+        )
+        return rows, None
 
     def places_of(self, rows: FloatArray) -> Displacement:
         """Rows (*, 3) as displacements."""

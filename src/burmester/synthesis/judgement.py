@@ -65,9 +65,8 @@ def _judgement(
     both, advice = dyads_at_poses(dyads, task)
     lengths = any(isinstance(each, RR) for each in dyads) and not isinstance(linkage, Linkage)
     require_linkage(both, task, assembled=lengths)
-    step(f"looking at {task.poses.shape[0]} poses")
-    diagnosis = diagnose(task)
-    problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
+    problem, findings = _problem(task, options)
+    task = problem.given
     evaluation = Evaluation(problem, target_of(problem))
     given = _found_dyads(both, evaluation)
     step("judging the linkage")
@@ -78,17 +77,35 @@ def _judgement(
         every += [
             replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(near, start=2)
         ]
-    if _is_open(problem):
+    if _is_open(problem) or task.path is not None:
         every = [replace(each, uncertainty=None, determined=True, other_types=()) for each in every]
     linkages = at_given_poses(evaluation.with_spreads(every), problem)
     outcome = _outcome(linkages, problem, improve)
     warnings = (
         *task.notes,
         *advice,
-        *diagnosis.findings,
+        *findings,
         *linkage_advice(task, linkages, outcome.code),
     )
     return Synthesis(problem, outcome, _at_all_poses(given, task), linkages, warnings)
+
+
+def _problem(
+    task: Task, options: SynthesisOptions
+) -> tuple[SynthesisProblem, tuple[Advice, ...]]:
+    """The task as synthesis judges its linkages, and what is to be said of it.
+
+    The points of a path have free angles, and a tolerance where the task states none.
+    """
+    if task.path is not None:
+        from burmester.synthesis.path_generation import with_tolerance  # noqa: PLC0415  paths only
+
+        given, note = with_tolerance(task, options)
+        return SynthesisProblem.of(given, None, options), tuple(note)
+    step(f"looking at {task.poses.shape[0]} poses")
+    diagnosis = diagnose(task)
+    problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
+    return problem, tuple(diagnosis.findings)
 
 
 def _found_dyads(dyads: tuple[Dyad, Dyad], evaluation: Evaluation) -> Pair:
@@ -118,8 +135,12 @@ def _judged(given: Pair, evaluation: Evaluation) -> FoundLinkage:
     for pair in orders:
         own = LinkageBatch.of([Linkage(pair[0].dyad, pair[1].dyad)])
         batch = own.to_canonical(evaluation.target.frames)
+        none = np.zeros(1, dtype=bool)
+        if evaluation.target.path is not None:
+            rows = evaluation.target.places(batch)
+            found += evaluation.members(Candidates(batch, rows, [pair], none, own))
+            continue
         for rows in places_to_judge(batch, evaluation.target):
-            none = np.zeros(1, dtype=bool)
             found += evaluation.evaluate(Candidates(batch, rows[None], [pair], none, own))
 
     def order(each: FoundLinkage) -> tuple[bool, int, float]:

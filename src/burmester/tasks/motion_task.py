@@ -131,9 +131,16 @@ class Task:
     path: TracedPath | None = None
 
     @property
+    def free_angles(self) -> NDArray[np.bool_]:
+        """The poses (N,) whose angle is free: points of the body."""
+        if self.tolerances is None:
+            return np.zeros(self.poses.shape, dtype=bool)
+        return self.tolerances.free[:, 2]
+
+    @property
     def angles_are_free(self) -> bool:
         """Whether only points of the body are asked for, and no angle anywhere."""
-        return self.tolerances is not None and bool(self.tolerances.free[:, 2].all())
+        return bool(self.free_angles.all())
 
     def __post_init__(self) -> None:
         self._own_values()
