@@ -123,7 +123,8 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
 
 
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
-    if best.within_tolerance is not None:
+    tolerances = synthesis.task.tolerances
+    if tolerances is not None and tolerances.gives_room:
         return "stays inside the tolerance of every pose"
     if explanation.meets_exactly(best, synthesis.length):
         return "passes every pose exactly, up to rounding"
@@ -264,8 +265,8 @@ def pose_tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None
     tolerances = synthesis.task.tolerances
     if found.within_tolerance is None or tolerances is None or not found.usable:
         return None
-    if (tolerances.exact | tolerances.free).all():
-        return f"{found.id} meets all that is not free, up to rounding."
+    if not tolerances.gives_room:
+        return None
     return f"Of the poses' tolerances {found.id} uses {most_used(found, synthesis.task)}."
 
 

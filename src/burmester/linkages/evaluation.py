@@ -23,7 +23,12 @@ from burmester.numerics.weights import weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.target import Target
-from burmester.refinement.tolerance_boxes import ToleranceBoxes, counted_error, shares_used
+from burmester.refinement.tolerance_boxes import (
+    ToleranceBoxes,
+    counted_error,
+    poses_counted,
+    shares_used,
+)
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
@@ -211,7 +216,7 @@ class Evaluation:
             own, rows = rounded(
                 batch,
                 rows,
-                self.target,
+                self._target_of_rounding(each),
                 step=options.rounding_step,
                 stock=options.stock_lengths,
                 driver=driver,
@@ -226,6 +231,18 @@ class Evaluation:
             # Rounded dimensions are exact, whatever the poses leave open.
             out += [replace(one, error_before_rounding=each.error, other_types=()) for one in new]
         return ranked(out, self.problem)
+
+    def _target_of_rounding(self, found: FoundLinkage) -> Target:
+        """What a linkage is rounded by: free angles where it has them.
+
+        Components that are to be met exactly cannot be: they are met as closely as possible.
+        """
+        target, tolerances = self.target, self.task.tolerances
+        if tolerances is None:
+            return target
+        own = poses_counted(found.error.places, self.task)
+        target = replace(target, poses=target.frames.to_canonical(own))
+        return target if tolerances.gives_room else target.relaxed
 
     def with_spreads(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The linkages with the spread of errors as built, where a tolerance is given."""
@@ -273,7 +290,9 @@ class Evaluation:
             length = reach / math.radians(asked.within_deg)
         missed = np.maximum(position, length * turn)
         slack = None
-        if (shares := self.shares(places)) is not None:
+        shares, tolerances = None, self.task.tolerances
+        if tolerances is not None and tolerances.gives_room:  # else the errors alone are judged
+            shares = shares_used(places, self.task, float(self.target.frames.length))
             slack = 2 * np.nan_to_num(np.hypot(position, length * turn)).max(axis=1)
             stated = asked.within is not None or asked.within_deg is not None
             missed = np.maximum(shares.max(axis=-1), missed / reach if stated else 0.0)

@@ -123,6 +123,11 @@ class PoseTolerances:
         return np.asarray(np.isinf(self.bounds))
 
     @property
+    def gives_room(self) -> bool:
+        """Whether some component may be missed by a tolerance, and is neither exact nor free."""
+        return not bool((self.exact | self.free).all())
+
+    @property
     def exact_poses(self) -> NDArray[np.bool_]:
         """The poses (N,) that are exact in all three components."""
         return np.asarray(self.exact.all(axis=1))
