@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from burmester.diagnosis.checks import diagnose
+from burmester.errors import Advice, InputError
 from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import RR, Dyad
 from burmester.fourbar.linkage import Linkage
@@ -49,9 +50,17 @@ def judge_linkage(
     task: any number of poses.
     linkage: the linkage, or its two dyads, RR, PR or RP, or pivots alone (`OpenLink`).
 
-    Raises InputError E112 (numbers too large), E154 (two dyads that make no linkage) and E155
-    (lengths that can be assembled nowhere).
+    Raises InputError E112 (numbers too large), E154 (two dyads that make no linkage), E155
+    (lengths that can be assembled nowhere), E158 (pivots alone at points) and E159 (better ones
+    at points that the crank times).
     """
+    if improve and task.path is not None and task.path.crank_angles is not None:
+        raise InputError(
+            "E159",
+            "better linkages are not looked for where the crank times the points",
+            why="the search near a linkage keeps to points, and not to the angles of its crank",
+            help="leave --improve out, and compare with what `burmester synthesize` finds",
+        )
     with limited(options.time_limit) as watch:
         return with_time_limit(_judgement(task, linkage, options, improve), watch)
 
