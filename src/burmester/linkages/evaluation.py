@@ -233,16 +233,18 @@ class Evaluation:
         return ranked(out, self.problem)
 
     def _target_of_rounding(self, found: FoundLinkage) -> Target:
-        """What a linkage is rounded by: free angles where it has them.
+        """What a linkage is rounded by: the poses, free angles being its own.
 
-        Components that are to be met exactly cannot be: they are met as closely as possible.
+        Where it is to meet them exactly, or at given angles of its crank, it is to keep its motion.
         """
         target, tolerances = self.target, self.task.tolerances
         if tolerances is None:
             return target
+        timed = target.path is not None and target.path.crank_angles is not None
         own = poses_counted(found.error.places, self.task)
-        target = replace(target, poses=target.frames.to_canonical(own))
-        return target if tolerances.gives_room else target.relaxed
+        if timed or not tolerances.gives_room:
+            target, own = target.without_boxes, found.error.places
+        return replace(target, poses=target.frames.to_canonical(own))
 
     def with_spreads(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The linkages with the spread of errors as built, where a tolerance is given."""

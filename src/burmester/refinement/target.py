@@ -28,7 +28,10 @@ from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
 
-__all__ = ["Target"]
+__all__ = ["ONE_CIRCUIT_RATIO", "Target"]
+
+# Stay on one circuit if its worst error is at most this many times the unrestricted one.
+ONE_CIRCUIT_RATIO = 2.0
 
 
 @final
@@ -62,9 +65,14 @@ class Target:
         """The same without the condition that places are inside the boxes."""
         return self if self.boxes is None else self._with_boxes(replace(self.boxes, binding=False))
 
-    def _with_boxes(self, boxes: ToleranceBoxes) -> Target:
+    @property
+    def without_boxes(self) -> Target:
+        """The same without tolerances: distances count as they are."""
         kept = tuple(each for each in self.kept if not isinstance(each, ToleranceBoxes))
-        return replace(self, kept=(*kept, boxes), boxes=boxes)
+        return replace(self, kept=kept, boxes=None)
+
+    def _with_boxes(self, boxes: ToleranceBoxes) -> Target:
+        return replace(self, kept=(*self.without_boxes.kept, boxes), boxes=boxes)
 
     def refine(
         self, batch: LinkageBatch, rows: FloatArray, metric: FloatArray | None = None, **how: Any
@@ -115,7 +123,8 @@ class Target:
         """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost.
 
         Where there are boxes: of the places deepest inside them, on the circuit that uses the least
-        share of all.  on_both: on both circuits, where only so all are inside.  Along a path: see
+        share of all.  on_both: on both circuits, where only so all are inside, or where nothing has
+        a tolerance and one circuit alone is much farther away.  Along a path: see
         `traced`.
         """
         if self.path is not None:
@@ -127,7 +136,9 @@ class Target:
             one = rows[np.arange(every), worst.argmin(axis=1)]
             side = used.argmin(axis=1)
             mixed = np.take_along_axis(rows, side[:, None, :, None], axis=1)[:, 0]
-            split = on_both & (used.min(axis=1).max(axis=-1) <= 1) & (worst.min(axis=1) > 1)
+            least, most = used.min(axis=1).max(axis=-1), worst.min(axis=1)
+            nearer = (least <= 1) | (not self.boxes.give_room) & (most > ONE_CIRCUIT_RATIO * least)
+            split = on_both & (most > 1) & nearer
             return np.where(split[:, None, None], mixed, one)
         rows = rows_of(on_circuits(batch, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)

@@ -54,7 +54,7 @@ def judge_linkage(
     (lengths that can be assembled nowhere), E158 (pivots alone at points) and E159 (better ones
     at points that the crank times).
     """
-    if improve and task.path is not None and task.path.crank_angles is not None:
+    if improve and _is_timed(task):
         raise InputError(
             "E159",
             "better linkages are not looked for where the crank times the points",
@@ -99,9 +99,7 @@ def _judgement(
     return Synthesis(problem, outcome, _at_all_poses(given, task), linkages, warnings)
 
 
-def _problem(
-    task: Task, options: SynthesisOptions
-) -> tuple[SynthesisProblem, tuple[Advice, ...]]:
+def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, tuple[Advice, ...]]:
     """The task as synthesis judges its linkages, and what is to be said of it.
 
     The points of a path have free angles, and a tolerance where the task states none.
@@ -188,6 +186,11 @@ def _of_family(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage
     return sorted(usable, key=lambda each: greatest_move(given, each))[:1]
 
 
+def _is_timed(task: Task) -> bool:
+    """Whether the crank times the points of a path."""
+    return task.path is not None and task.path.crank_angles is not None
+
+
 def _is_open(problem: SynthesisProblem) -> bool:
     """Whether so few poses leave every pivot open."""
     return max(problem.missing_conditions) > 0
@@ -220,7 +223,7 @@ def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improv
             if near
             else ("; none was found near it that does")
         )
-    elif not found.usable or found.shortcomings:
+    elif (not found.usable or found.shortcomings) and not _is_timed(task):
         options.append(
             f"look for {'better ones near it' if found.usable else 'one near it that works'} "
             "with --improve"
