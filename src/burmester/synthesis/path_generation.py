@@ -534,6 +534,8 @@ def _none(task: Task, options: SynthesisOptions, findings: Sequence[Advice]) -> 
     timed = task.path is not None and task.path.crank_angles is not None
     more = "give more than five points, which may then be missed a little"
     help = more if timed else "give the limits more room"
+    if not span(task) > 0:
+        help = "give points that lead somewhere, in the order in which they are traced"
     outcome = Outcome("R351", _why_none(task), help)
     return Synthesis(problem, outcome, warnings=tuple(findings))
 

@@ -62,7 +62,7 @@ def in_words(is_point: NDArray[np.bool_]) -> str:
     """How many linkages poses and points (N,) leave, for those who look at a task."""
     asked = _asked(is_point)
     if not is_determined(is_point):
-        return asked
+        return f"{asked}: infinitely many four-bars, of which good ones are chosen"
     poses, points = int((~is_point).sum()), int(is_point.sum())
     case = Case(poses, points) if poses else Case(1, points - 1)
     number, also = CASES[case], ""

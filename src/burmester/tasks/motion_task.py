@@ -388,6 +388,7 @@ def _require_fitting(
             help="take the mark away, or give this pose the tolerance 0 in all three",
         )
     if tolerances.conditions > most:
+        _refuse_points(tolerances)
         raise InputError(
             "E133",
             f"{tolerances.conditions} exact conditions, and a four-bar can meet {2 * CONDITIONS}",
@@ -395,6 +396,23 @@ def _require_fitting(
             "and angle is two conditions, in two of them one",
             help="give more components a tolerance, all poses the same one by default",
         )
+
+
+def _refuse_points(tolerances: PoseTolerances) -> None:
+    """E133 in other words for poses and points, which have no tolerances."""
+    points = np.flatnonzero(tolerances.free[:, 2])
+    if tolerances.gives_room or not len(points):
+        return
+    poses = count_of(tolerances.shape[0] - len(points), "pose")
+    raise InputError(
+        "E133",
+        f"{poses} and {count_of(len(points), 'point')} are more than a four-bar can meet exactly",
+        why=f"a pose is two conditions and a point, which has no angle, is one: they are "
+        f"{tolerances.conditions}, and {2 * CONDITIONS} are the most; pose {points[0] + 1} has no "
+        "angle",
+        help="say by --pose-tolerance how far they may be missed, or leave some out; or give every "
+        "pose its angle",
+    )
 
 
 def _parts(poses: Displacement) -> tuple[FloatArray, FloatArray]:
