@@ -82,7 +82,7 @@ def dimensions_as_html(linkage: SavedLinkage) -> str:
         linkage.error,
         default_length_per_radian(task),
         characteristic_length(task),
-        task.free_angles,
+        free_angles=task.free_angles,
     )
     rows = "".join(
         f"<tr><td>{escape(each.dyad)}</td><td>{each.what}</td>"

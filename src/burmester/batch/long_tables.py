@@ -1,7 +1,8 @@
 """Tasks in one long table, Parquet or CSV: a row a pose, the rows of a task together.
 
 The columns are `task`, `x`, `y`, `angle_deg` or `angle_rad`, and `weight` and `exact` if wanted;
-without angles they are points, perhaps with `crank_deg` or `crank_rad`; or a row a pair of angles: `task`, `input_deg`, `output_deg` (or both in `_rad`), and `weight`.
+without angles they are points, perhaps with `crank_deg` or `crank_rad`.  Or a row a pair of angles:
+`task`, `input_deg`, `output_deg` (or both in `_rad`), and `weight`.
 The table is read from front to back, a piece at a time; it may be larger than the memory.
 
 E101 not readable      E104 no numbers, or no names of tasks      E107 a column that is not known

@@ -93,8 +93,8 @@ def decimals_of_linkage(
     error: PoseError,
     length: float,
     size: float,
-    free_angles: NDArray[np.bool_] | None = None,
     *,
+    free_angles: NDArray[np.bool_] | None = None,
     at_least: int = 0,
 ) -> Decimals:
     """The least decimals with which a linkage misses its poses by less than a tenth more.

@@ -53,7 +53,7 @@ def decimals_of(synthesis: Synthesis, found: FoundLinkage) -> Decimals:
         found.error,
         synthesis.problem.length_per_radian,
         synthesis.length,
-        synthesis.task.free_angles,
+        free_angles=synthesis.task.free_angles,
         at_least=0 if step is None else figures_of(step),
     )
 

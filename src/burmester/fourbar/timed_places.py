@@ -72,7 +72,7 @@ def _starts(
     loop: DrivenLoop, wanted: ComplexArray, turns: FloatArray, share: FloatArray
 ) -> list[tuple[int, float]]:
     """The closures and phases that are nearest to the points, and nearer than those beside them."""
-    phases = np.arange(PHASES) * (2 * math.pi / PHASES)
+    phases = np.linspace(0.0, 2 * math.pi, PHASES, endpoint=False)
     cost = _costs(loop, phases, wanted, turns, share)
     low = (cost <= np.roll(cost, 1, axis=0)) & (cost <= np.roll(cost, -1, axis=0))
     at, closure = np.nonzero(low & np.isfinite(cost))

@@ -58,14 +58,14 @@ class _Samples(NamedTuple):
 
 
 class _Stretch(NamedTuple):
-    """A stretch of a circuit: `count` samples from number `first`; all of a closed one goes round.
+    """A stretch of a circuit: `size` samples from number `first`; all of a closed one goes round.
 
     clear: whether one of the drivers passes no dead point on it.
     """
 
     circuit: int
     first: int
-    count: int
+    size: int
     around: bool
     clear: bool
 
@@ -89,7 +89,8 @@ def places_along(
     """Rows (k, N, 3) of the places of linkages (k,) that trace points (N, 2); nan where none does.
 
     In frames where lengths are about 1; rows are x, y, length x angle, and the angle goes on from
-    place to place by less than half a turn.  boxes: the tolerances (N,).  any_order: each point where it is nearest.
+    place to place by less than half a turn.  boxes: the tolerances (N,).  any_order: each point
+    where it is nearest.
     """
     wanted, share = complex_of(points), weights_or_ones(weights, points.shape[:1])
     out = np.full((len(batch), len(points), 3), np.nan)
@@ -198,8 +199,8 @@ def _laid(
             begins = _anchors(np.abs(samples.curve[each.circuit] - near[0]))
         for begin in begins:
             for sense in (1, -1):
-                steps = np.minimum(np.arange(number + 1), each.count - (0 if each.around else 1))
-                start = begin if each.around or sense > 0 else each.first + each.count - 1
+                steps = np.minimum(np.arange(number + 1), each.size - (0 if each.around else 1))
+                start = begin if each.around or sense > 0 else each.first + each.size - 1
                 which.append(index)
                 lists.append(start + sense * steps)
                 anchored.append(each.around and not any_order)
@@ -276,9 +277,9 @@ def _at_feet(
         reach[row] = np.maximum(middle[row] - before, after - middle[row])
         along = np.abs(curve[(at + 1) % number] - curve[(at - 1) % number])
         speed[row] = along / (after - before)
-        ends = np.array([stretch.first, stretch.first + stretch.count - 1])
+        ends = np.array([stretch.first, stretch.first + stretch.size - 1])
         low[row], high[row] = samples.share_at(stretch.circuit, ends)
-        if stretch.count == number:  # a whole circuit goes on beyond the last samples
+        if stretch.size == number:  # a whole circuit goes on beyond the last samples
             low[row], high[row] = (-np.inf, np.inf) if stretch.around else (0.0, 1.0)
 
     def away(rows: FloatArray) -> FloatArray:
@@ -321,16 +322,16 @@ def _narrowed(
 def _downhill(samples: _Samples, way: _Way, wanted: ComplexArray) -> NDArray[np.intp]:
     """The positions (N,) to which points go down from sample to sample, within their stretch."""
     stretch, number = way.stretch, samples.share.shape[1]
-    every = np.arange(stretch.count)
+    every = np.arange(stretch.size)
     curve = samples.curve[stretch.circuit, (stretch.first + every) % number]
     away = np.nan_to_num(np.abs(curve[:, None] - wanted), nan=np.inf)
     beside = np.stack([np.roll(away, 1, axis=0), away, np.roll(away, -1, axis=0)])
     if not stretch.around:
         beside[0, 0] = beside[2, -1] = np.inf
     beside[1] = np.nextafter(away, -np.inf)  # it stays where its neighbours are as near
-    go = (every[:, None] + beside.argmin(axis=0) - 1) % stretch.count
-    for _ in range(math.ceil(math.log2(max(stretch.count, 2)))):
+    go = (every[:, None] + beside.argmin(axis=0) - 1) % stretch.size
+    for _ in range(math.ceil(math.log2(max(stretch.size, 2)))):
         go = np.take_along_axis(go, go, axis=0)
-    begin = (way.positions - stretch.first) % stretch.count
+    begin = (way.positions - stretch.first) % stretch.size
     at = go[begin, np.arange(len(wanted))]
     return np.asarray(stretch.first + at)

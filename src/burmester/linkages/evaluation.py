@@ -137,8 +137,8 @@ class Evaluation:
         """
         candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
         if self.target.path is not None:
-            rows, cranks = self.target.traced(candidates.batch)
-            candidates = candidates._replace(rows=rows, drivers=cranks)
+            traced, cranks = self.target.traced(candidates.batch)
+            candidates = candidates._replace(rows=traced, drivers=cranks)
         elif self.target.boxes is not None:
             candidates = _at_deepest_places(candidates, self.target, self.target.boxes, once=once)
         own = (
