@@ -241,11 +241,11 @@ def dyads_title(synthesis: Synthesis) -> str:
 
 def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     """What the half-widths of the dimensions are."""
-    if certain(synthesis, found):
+    if certain(synthesis, found) or found.uncertainty is None:
         return None
     task = synthesis.task
     position, angle = pose_sigma(task)
-    sure = found.uncertainty is None or all(each.determined for each in found.uncertainty)
+    sure = all(each.determined for each in found.uncertainty)
     given, turned = notation.length_of(position, task), degrees(angle)
     if not task.resolution[0]:
         err = f"the angles of the poses err by {turned} and their positions are exact"
@@ -331,8 +331,11 @@ def footnotes(synthesis: Synthesis) -> str:
     text = f"Lengths in {unit}; F is the ground, M the body."
     if synthesis.linkages:
         counts = notation.length_of(math.radians(synthesis.length_per_radian), task)
-        order = f" Usable linkages come first, of these {_order(synthesis)};"
-        text += f"{'' if synthesis.outcome.code in JUDGED else order} 1° counts as {counts}."
+        counted = "" if task.angles_are_free else f" 1° counts as {counts}."
+        if synthesis.outcome.code not in JUDGED:
+            order = f" Usable linkages come first, of these {_order(synthesis)}"
+            text += order + (";" if counted else ".")
+        text += counted
     if not any(task.resolution):
         text += " The poses are taken as exact; --pose-sigma says otherwise."
     if any(dyad.id[0] == "M" for found in synthesis.linkages for dyad in found.dyads):

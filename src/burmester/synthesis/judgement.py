@@ -86,7 +86,7 @@ def _judgement(
         every += [
             replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(near, start=2)
         ]
-    if _is_open(problem) or task.path is not None:
+    if _is_open(problem) or task.free_angles.any():  # no pose determines its pivots
         every = [replace(each, uncertainty=None, determined=True, other_types=()) for each in every]
     linkages = at_given_poses(evaluation.with_spreads(every), problem)
     outcome = _outcome(linkages, problem, improve)
