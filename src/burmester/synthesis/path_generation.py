@@ -518,7 +518,7 @@ def _outcome(
         )
     nearest = min(usable, key=lambda each: each.error.worst)
     if nearest.error.worst <= EXACT * span(task):
-        how = f"that pass {points}{timed}"
+        how = f"that {'passes' if len(usable) == 1 else 'pass'} {points}{timed}"
     else:
         how = (
             f"near {points}{timed}; the nearest, {nearest.id}, misses them by "
