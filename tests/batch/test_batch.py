@@ -339,10 +339,32 @@ def test_options_that_a_depth_takes_no_account_of_are_refused(tmp_path):
     assert caught.value.code == "E108"
 
 
+def test_points_of_a_table_are_solved_as_files_of_their_own(tmp_path):
+    turns = [0, 40, 85, 150, 230]
+    paths = [[(0, 0), (3, 1), (4, 4), (1, 6), (-2, 3)], [(1, 0), (3, 1), (4, 5), (1, 6), (-1, 2)]]
+    lines = ["task,x,y,crank_deg"]
+    for task, points in enumerate(paths):
+        lines += [f"{task},{x},{y},{t}" for (x, y), t in zip(points, turns, strict=True)]
+    (tmp_path / "tasks.csv").write_text("\n".join([*lines, ""]))
+    run(tmp_path / "tasks.csv", tmp_path / "out", workers=1)
+    for task, row in enumerate(pq.read_table(tmp_path / "out").to_pylist()):
+        own = [line.partition(",")[2] for line in lines if line[0] in f"t{task}"]
+        (tmp_path / "one.csv").write_text("\n".join([*own, ""]))
+        said = burmester.synthesize(burmester.read_task(tmp_path / "one.csv"))
+        assert row["code"] == said.outcome.code
+        found = [[plain(d)["length"] for d in each["dyads"]] for each in row["linkages"]]
+        assert found
+        assert found == [[float(d.dyad.radius) for d in e.dyads] for e in said.linkages]
+    run(tmp_path / "tasks.csv", tmp_path / "dyads", workers=1, depth="dyads")
+    told = pq.read_table(tmp_path / "dyads").to_pylist()
+    assert {each["outcome"] for each in told} == {"not at this depth"}
+
+
 TABLES = {
     "a misspelt column": ("task,x,y,angle_deg,weigth\n1,0,0,0,1\n", "E107", "write weight"),
     "no task": ("x,y,angle_deg\n0,0,0\n", "E105", "burmester synthesize"),
-    "no angle": ("task,x,y\n1,0,0\n", "E105", "angle_deg"),
+    "no x": ("task,y,angle_deg\n1,0,0\n", "E105", "angle_deg"),
+    "angles and cranks": ("task,x,y,angle_deg,crank_deg\n1,0,0,0,0\n", "E107", "leave one"),
     "two angles": ("task,x,y,angle_deg,angle_rad\n1,0,0,0,0\n", "E108", "leave one"),
     "apart": ("task,x,y,angle_deg\n1,0,0,0\n2,0,0,0\n1,3,0,0\n", "E108", "sort the table"),
     "no number": ("task,x,y,angle_deg\n1,zero,0,0\n", "E101", "write a table"),

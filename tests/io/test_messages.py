@@ -869,6 +869,18 @@ CASES: dict[str, Case] = {
         Args(f"{J} {FIRST} {SECOND}"),
         GOOD,
     ),
+    "pivots alone at points": Case(
+        "E158",
+        f"{J} {FIRST} {SECOND}",
+        Args(f"{J} {FIRST} {SECOND} --length 3.44 --length 3.56"),
+        {"poses.csv": "x,y\n" + "".join(f"{t},{t * t}\n" for t in range(12))},
+    ),
+    "better ones at timed points": Case(
+        "E159",
+        f"judge path.json {FIRST} {SECOND} --length 3.44 --length 3.56 --improve",
+        Args(f"judge path.json {FIRST} {SECOND} --length 3.44 --length 3.56"),
+        {"path.json": timed(0, 4, 8, 12, 15)},
+    ),
     "poses in place of a linkage": Case(
         "E156",
         f"{J} --linkage poses.csv",

@@ -12,7 +12,6 @@ from burmester.describe.dimensions import dimensions_of
 from burmester.describe.quality_words import in_short
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import ROUNDING
-from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of
@@ -91,10 +90,11 @@ def dimensions_as_html(linkage: SavedLinkage) -> str:
     task, own = linkage.task, linkage.linkage
     decimals = decimals_of_linkage(
         own,
-        poses_counted(linkage.error.places, task),
+        task.poses,
         linkage.error,
         default_length_per_radian(task),
         characteristic_length(task),
+        free_angles=task.free_angles,
     )
     rows = "".join(
         f"<tr><td>{escape(each.dyad)}</td><td>{each.what}</td>"

@@ -1,7 +1,8 @@
 """Tasks in one long table, Parquet or CSV: a row a pose, the rows of a task together.
 
 The columns are `task`, `x`, `y`, `angle_deg` or `angle_rad`, and `weight` and `exact` if wanted;
-or a row a pair of angles: `task`, `input_deg`, `output_deg` (or both in `_rad`), and `weight`.
+without angles they are points, perhaps with `crank_deg` or `crank_rad`.  Or a row a pair of angles:
+`task`, `input_deg`, `output_deg` (or both in `_rad`), and `weight`.
 The table is read from front to back, a piece at a time; it may be larger than the memory.
 
 E101 not readable      E104 no numbers, or no names of tasks      E107 a column that is not known
@@ -27,7 +28,8 @@ from burmester.wording import listed
 
 __all__ = ["COLUMNS", "is_pair_table", "is_parquet_file", "table_parts"]
 
-COLUMNS = ("task", "x", "y", "angle_deg", "angle_rad", "weight", "exact")
+CRANKS = ("crank_deg", "crank_rad")
+COLUMNS = ("task", "x", "y", "angle_deg", "angle_rad", *CRANKS, "weight", "exact")
 PAIR_COLUMNS = ("task", "input_deg", "output_deg", "input_rad", "output_rad", "weight")
 EXAMPLE = "task,x,y,angle_deg"
 PAIR_EXAMPLE = "task,input_deg,output_deg"
@@ -167,12 +169,16 @@ def _required(names: list[str], label: str) -> list[str]:
             raise InputError("E108", message, where=label, help="leave one of the two out")
     if known is PAIR_COLUMNS:
         return _required_pairs(names, label)
-    angles = {"angle_deg", "angle_rad"} & set(names)
-    if len(angles) == 2:
-        message = "the angles are given in degrees and in radians"
-        raise InputError("E108", message, where=label, help="leave one of the two columns out")
+    for angles in (("angle_deg", "angle_rad"), CRANKS):
+        if set(angles) <= set(names):
+            message = "the angles are given in degrees and in radians"
+            raise InputError("E108", message, where=label, help="leave one of the two columns out")
+    if {"angle_deg", "angle_rad"} & set(names) and (cranks := set(CRANKS) & set(names)):
+        message = f"the column {cranks.pop()} stands beside angles of the body"
+        why = "crank angles time points, whose angles are free"
+        help = "leave one of the two columns out"
+        raise InputError("E107", message, where=label, why=why, help=help)
     lacking = [each for each in ("task", "x", "y") if each not in names]
-    lacking += [] if angles else ["angle_deg"]
     if lacking:
         message = f"the column {lacking[0]} is missing"
         why = "a table of tasks has a row for each pose, with the name of its task"
@@ -300,6 +306,10 @@ def _tasks(columns: dict[str, Any], label: str, row: int, before: TaskNames) -> 
     pairs = "x" not in columns
     unit = "deg" if "angle_deg" in columns or "input_deg" in columns else "rad"
     numeric = [f"input_{unit}", f"output_{unit}"] if pairs else ["x", "y", f"angle_{unit}"]
+    points = not (pairs or numeric[-1] in columns)
+    if points:
+        cranks = [each for each in CRANKS if each in columns]
+        numeric, unit = ["x", "y", *cranks], "rad" if "crank_rad" in cranks else "deg"
     return TableTasks(
         first.to_numpy() if types.is_int64(first.type) else tuple(first.to_pylist()),
         np.array([*starts, len(names)], dtype=np.int64),
@@ -309,6 +319,7 @@ def _tasks(columns: dict[str, Any], label: str, row: int, before: TaskNames) -> 
         unit == "deg",
         label,
         pairs,
+        points,
     )
 
 

@@ -171,9 +171,10 @@ def _task(tasks: Tasks, index: int, options: BatchOptions) -> Task:
     if isinstance(tasks, TextTasks):
         return as_task(options, tasks.labels[index], tasks.data[index])
     one = tasks.only([index])
-    angle = "angle_deg" if one.degrees else "angle_rad"
+    angle = f"{'crank' if one.points else 'angle'}_{'deg' if one.degrees else 'rad'}"
+    names = ["x", "y", angle][: one.poses.shape[1]]
     marks = "" if one.exact is None else ",exact"
-    lines = [f"x,y,{angle}{',weight' if one.weights is not None else ''}{marks}"]
+    lines = [f"{','.join(names)}{',weight' if one.weights is not None else ''}{marks}"]
     for row, numbers in enumerate(one.poses.tolist()):
         cells = [repr(number).removesuffix(".0") for number in numbers]
         if one.weights is not None:
@@ -191,9 +192,11 @@ def _stacked(
     """Tasks in stacks, by their numbers of poses."""
     if isinstance(tasks, TextTasks):
         table, kept = _as_table(tasks, plan, wanted, sizes, refusals)
-    elif tasks.pairs:
-        sizes.pairs[wanted] = tasks.counts[wanted]
-        refusals += [Refusal(k, "not at this depth", None, NOT_STACKED) for k in wanted]
+    elif tasks.pairs or tasks.points:
+        counted = sizes.pairs if tasks.pairs else sizes.poses
+        counted[wanted] = tasks.counts[wanted]
+        why = NOT_STACKED if tasks.pairs else "points are solved at the depth full"
+        refusals += [Refusal(k, "not at this depth", None, why) for k in wanted]
         return [refused_rows([])]
     else:
         some = tasks if len(wanted) == len(tasks) else tasks.only(wanted)

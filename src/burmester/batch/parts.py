@@ -29,7 +29,8 @@ class TableTasks:
     names: of the tasks (T,); starts (T + 1,): the row at which each begins, and the end of the
     last; poses (R, 3): x, y and angle in the unit that `degrees` says; a number that is missing
     is nan; weights (R,), exact (R,): None where no column has them.  pairs: whether they are tasks
-    of function generators; then poses is (R, 2): inputs and outputs in that unit.
+    of function generators; then poses is (R, 2): inputs and outputs in that unit.  points: whether
+    they are points without angles; then poses is (R, 2), or (R, 3) with angles of the crank.
     """
 
     names: Names
@@ -40,6 +41,7 @@ class TableTasks:
     degrees: bool
     label: str
     pairs: bool = False
+    points: bool = False
 
     def __len__(self) -> int:
         return len(self.names)

@@ -94,12 +94,14 @@ def decimals_of_linkage(
     length: float,
     size: float,
     *,
+    free_angles: NDArray[np.bool_] | None = None,
     at_least: int = 0,
 ) -> Decimals:
     """The least decimals with which a linkage misses its poses by less than a tenth more.
 
     poses: (N,); error: of the linkage at them; poses that it does not reach do not count.
     length: what a radian counts as; size: the task's characteristic length, both in its unit.
+    free_angles: (N,), which count for nothing.
     at_least: decimals of lengths that are printed in any case.
     No fewer than show the error itself.  Both the greatest position error and the greatest angle
     error are kept; where "exact" is promised, they are FINEST lengths and radians at most.
@@ -116,11 +118,14 @@ def decimals_of_linkage(
     trials = _trials(dyads, error.places[here], promised, at_least)
     if not len(here) or any(isinstance(dyad, PP) for dyad in dyads):
         return trials[0]
+    free = np.zeros(error.angle.shape, dtype=bool) if free_angles is None else free_angles
+    asked, free = _asked(poses, error, free)
     errors = _errors_of(
         [linkage, *(Linkage(*each.printed(*dyads)) for each in trials)],
-        _asked(poses, error)[here],
+        asked[here],
         error.places[here],
         length,
+        free[:, here],
     )
     # By another length for a radian than the caller's, the linkage itself has other errors.
     kept = np.asarray((errors <= GROWTH * np.maximum(promised, errors[0])).all(axis=-1))[1:]
@@ -146,17 +151,20 @@ def decimals_of_dyad(dyad: Dyad, poses: Displacement, size: float) -> Decimals:
     return _first(trials, np.asarray((values <= GROWTH * promised).all(axis=-1)), values)
 
 
-def _asked(poses: Displacement, error: PoseError) -> Displacement:
-    """Poses (N,), what is free of them where the linkage has it: there its error counts as none."""
-    away = PoseError.at(error.places, poses)
-    turned, moved = (
-        one > other + ROUNDING * (1 + other)
-        for one, other in ((away.angle, error.angle), (away.position, error.position))
-    )
-    return Displacement(
+def _asked(
+    poses: Displacement, error: PoseError, free_angles: NDArray[np.bool_]
+) -> tuple[Displacement, NDArray[np.bool_]]:
+    """Poses (N,), what is free of them where the linkage has it: there its error counts as none.
+
+    Also which positions and which angles (2, N) are free.
+    """
+    away = PoseError.at(error.places, poses).position
+    moved = away > error.position + ROUNDING * (1 + error.position)
+    asked = Displacement(
         np.where(moved[:, None], error.places.translation, poses.translation),
-        np.where(turned, error.places.angle, poses.angle),
+        np.where(free_angles, error.places.angle, poses.angle),
     )
+    return asked, np.stack([moved, free_angles])
 
 
 def _most_missed(error: PoseError) -> NDArray[np.intp]:
@@ -204,11 +212,16 @@ def _half_travel(line: PR | RP, places: Displacement) -> float:
 
 
 def _errors_of(
-    linkages: list[Linkage], poses: Displacement, places: Displacement, length: float
+    linkages: list[Linkage],
+    poses: Displacement,
+    places: Displacement,
+    length: float,
+    free: NDArray[np.bool_],
 ) -> FloatArray:
     """The greatest position and angle errors (k, 2) of linkages (k,) close to one another.
 
     places: (N,), of one of them, at poses (N,).  Infinite where one does not come near a pose.
+    free: (2, N), positions and angles that count as met.
     """
     frames = error_frames(poses, length)
     unit = length / float(frames.length)
@@ -217,7 +230,8 @@ def _errors_of(
     rows = foot_points(batch, np.tile(start, (len(batch), 1, 1)), target, unit)
     found = frames.from_canonical(places_of(rows, unit))
     errors = [PoseError.at(found[k], poses) for k in range(len(batch))]
-    values = np.array([[each.position.max(), each.angle.max()] for each in errors])
+    both = np.array([[each.position, each.angle] for each in errors])
+    values = np.where(free & np.isfinite(both), 0.0, both).max(axis=-1)
     return np.asarray(np.nan_to_num(values, nan=np.inf))
 
 

@@ -15,7 +15,6 @@ from burmester.describe.decimals import (
 from burmester.describe.digits import fixed
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.numerics.arrays import FloatArray
-from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
@@ -50,10 +49,11 @@ def decimals_of(synthesis: Synthesis, found: FoundLinkage) -> Decimals:
     step = synthesis.options.rounding_step if found.error_before_rounding is not None else None
     return decimals_of_linkage(
         found.linkage,
-        poses_counted(found.error.places, synthesis.task),
+        synthesis.task.poses,
         found.error,
         synthesis.problem.length_per_radian,
         synthesis.length,
+        free_angles=synthesis.task.free_angles,
         at_least=0 if step is None else figures_of(step),
     )
 

@@ -123,16 +123,13 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
 
 
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
-    stated = synthesis.task.tolerances
-    if best.within_tolerance is not None and stated is not None:
-        if stated.has_room:
-            return "stays inside the tolerance of every pose"
-        if not stated.exact[:, :2].all():
-            return "meets exactly what is asked of every pose, up to rounding"
+    tolerances, asked = synthesis.task.tolerances, "pose"
+    if tolerances is not None and tolerances.gives_room:
+        return "stays inside the tolerance of every pose"
+    if tolerances is not None and tolerances.free[:, 2].any():
         asked = "point" if synthesis.task.angles_are_free else "pose and point"
-        return f"passes every {asked} exactly, up to rounding"
     if explanation.meets_exactly(best, synthesis.length):
-        return "passes every pose exactly, up to rounding"
+        return f"passes every {asked} exactly, up to rounding"
     return f"passes every pose within {explanation.worst_miss(best, synthesis.task)}"
 
 
@@ -246,11 +243,11 @@ def dyads_title(synthesis: Synthesis) -> str:
 
 def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     """What the half-widths of the dimensions are."""
-    if certain(synthesis, found):
+    if certain(synthesis, found) or found.uncertainty is None:
         return None
     task = synthesis.task
     position, angle = pose_sigma(task)
-    sure = found.uncertainty is None or all(each.determined for each in found.uncertainty)
+    sure = all(each.determined for each in found.uncertainty)
     given, turned = notation.length_of(position, task), degrees(angle)
     if not task.resolution[0]:
         err = f"the angles of the poses err by {turned} and their positions are exact"
@@ -270,8 +267,8 @@ def pose_tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None
     tolerances = synthesis.task.tolerances
     if found.within_tolerance is None or tolerances is None or not found.usable:
         return None
-    if not tolerances.has_room:
-        return None  # the headline says it
+    if not tolerances.gives_room:
+        return None
     return f"Of the poses' tolerances {found.id} uses {most_used(found, synthesis.task)}."
 
 
@@ -336,8 +333,11 @@ def footnotes(synthesis: Synthesis) -> str:
     text = f"Lengths in {unit}; F is the ground, M the body."
     if synthesis.linkages:
         counts = notation.length_of(math.radians(synthesis.length_per_radian), task)
-        order = f" Usable linkages come first, of these {_order(synthesis)};"
-        text += f"{'' if synthesis.outcome.code in JUDGED else order} 1° counts as {counts}."
+        counted = "" if task.angles_are_free else f" 1° counts as {counts}."
+        if synthesis.outcome.code not in JUDGED:
+            order = f" Usable linkages come first, of these {_order(synthesis)}"
+            text += order + (";" if counted else ".")
+        text += counted
     if not any(task.resolution):
         text += " The poses are taken as exact; --pose-sigma says otherwise."
     if any(dyad.id[0] == "M" for found in synthesis.linkages for dyad in found.dyads):

@@ -218,7 +218,8 @@ def printed_decimals(chosen: SavedLinkage, options: Options) -> tuple[Linkage, D
     )
     error = PoseError.at(own.places, own.poses)
     length = default_length_per_radian(chosen.task) * own.scale
-    return linkage, decimals_of_linkage(linkage, own.poses, error, length, size)
+    free = chosen.task.free_angles
+    return linkage, decimals_of_linkage(linkage, own.poses, error, length, size, free_angles=free)
 
 
 def dimension_notes(chosen: SavedLinkage, options: Options) -> list[str]:

@@ -23,12 +23,17 @@ from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.point_conditions import point_conditions
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import length_of
 from burmester.tasks.pose_tolerances import PoseTolerances
+from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
+from burmester.wording import count as count_of
 from burmester.wording import figure
 
 __all__ = ["check_data", "show"]
 
 SCHEMA = "burmester.check/1"
+LEAST_CLOSED = 6  # points of a path that may be closed
+NEAR_ENDS = 1.5  # steps between neighbours; ends of a path that are nearer nearly meet
 MAX_ROWS = 20  # poses shown; of more, the first 18 and the last 2
 
 
@@ -71,12 +76,16 @@ def _poses(task: Task) -> Table:
     if task.names is not None:
         columns["name"] = list(task.names)
     x, y = task.poses.translation.T
-    angle = np.degrees(task.poses.angle)
-    for head, values in ((f"x{unit}", x), (f"y{unit}", y), ("angle [°]", angle)):
-        columns[head] = [f"{value:.10g}" for value in values]
+    values = {f"x{unit}": x, f"y{unit}": y}
+    if task.path is None:
+        values["angle [°]"] = np.degrees(task.poses.angle)
+    elif task.path.crank_angles is not None:
+        values["crank [°]"] = np.degrees(task.path.crank_angles)
+    for head, column in values.items():
+        columns[head] = [f"{value:.10g}" for value in column]
     if task.weights is not None:
         columns["weight"] = [f"{value:g}" for value in task.weights]
-    if task.tolerances is not None:
+    if task.tolerances is not None and (task.path is None or task.tolerances.gives_room):
         _add_tolerances(columns, task.tolerances, unit)
     if task.exact is not None:
         columns["exact"] = ["yes" if mark else "" for mark in task.exact]
@@ -97,6 +106,8 @@ def _add_tolerances(columns: dict[str, list[str]], tolerances: PoseTolerances, u
     free, bounds = tolerances.free, tolerances.bounds * [1.0, 1.0, 180 / math.pi]
     for k, (name, of) in enumerate((("x", unit), ("y", unit), ("angle", " [°]"))):
         head = f"{name}{of}"
+        if head not in columns:  # of a path
+            continue
         shown = zip(columns[head], free[:, k], strict=True)
         columns[head] = ["free" if mark else value for value, mark in shown]
         columns[f"tol. {head}"] = [
@@ -118,19 +129,19 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
         yield "read", task.read_as
     yield "extent", f"{size}{unit or ', no unit stated'}"
     if task.path is not None:
-        turned = task.path.crank_angles
-        timed = "" if turned is None else f", timed by a crank that turns {_range(turned)}"
-        yield "path", f"{'closed' if task.path.closed else 'open'}{timed}"
+        yield "path", _path(task, task.path)
     points = point_conditions(task)
     if motion is not None and points is None:
         yield "rotation", f"{math.degrees(motion.rotation):.4g}°"
     if length or angle:
         positions = f"positions to ±{figure(length)}{unit}" if length else "positions are exact"
-        angles = f"angles to ±{figure(math.degrees(angle))}°" if angle else "angles are exact"
-        yield "known", f"{positions}, {angles}"
+        angles = f", angles to ±{figure(math.degrees(angle))}°" if angle else ", angles are exact"
+        yield "known", f"{positions}{'' if task.angles_are_free else angles}"
     else:
         yield "known", "exact, unless --pose-sigma says otherwise"
-    if points is not None:
+    if task.path is not None:
+        yield "asks", _asked_of_path(task, task.path)
+    elif points is not None:
         yield "asks", points.in_words()
     elif motion is not None:
         general = isinstance(motion.kind, General)
@@ -139,6 +150,34 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
             motion.nullity, f"{motion.nullity} independent quadrics hold"
         )
         yield "rank", f"{8 - motion.nullity} of 8: {quadrics} all poses in image space"
+
+
+def _path(task: Task, path: TracedPath) -> str:
+    """How a path is traced; of an open one whose ends meet nearly, how it is closed."""
+    turned, points = path.crank_angles, task.poses.translation
+    timed = "" if turned is None else f", timed by a crank that turns {_range(turned)}"
+    if path.closed:
+        return f"closed{timed}"
+    gap = float(np.hypot(*(points[-1] - points[0])))
+    step = float(np.median(np.hypot(*np.diff(points, axis=0).T)))
+    if not 0 < gap <= NEAR_ENDS * step or len(points) < LEAST_CLOSED:
+        return f"open{timed}"
+    return (
+        f"open{timed}; its ends are {length_of(gap, task)} apart, about as neighbours are: "
+        "--closed leads back to the first point"
+    )
+
+
+def _asked_of_path(task: Task, path: TracedPath) -> str:
+    """What is looked for, and what is assumed."""
+    points = count_of(task.poses.shape[0], "point")
+    if path.crank_angles is not None and task.poses.shape[0] == LEAST_TIMED:
+        return f"the four-bars through {points} at their crank angles"
+    near = f"four-bars near {points}" + ("" if path.crank_angles is None else ", timed")
+    tolerances = task.tolerances
+    stated = task.requirements.within is not None
+    stated |= tolerances is not None and tolerances.gives_room
+    return near + (", within a tolerance" if stated else "; no tolerance is stated: one is assumed")
 
 
 def _range(angles: FloatArray) -> str:

@@ -38,14 +38,19 @@ def _without(lines: str) -> tuple[str, ...]:
 def text(name: str = BLANK) -> str:
     """A template as it stands in its file (TOML), by default the one with every key.
 
-    Raises InputError E100 (no such template), with the nearest names first.
+    Raises InputError E100 (no such template), with the nearest names first, those too whose
+    summaries have the words of the name.
     """
     known = names()
     if name not in (*known, BLANK):  # also keeps "../" out of the path
         from difflib import SequenceMatcher
 
+        words = set(re.findall(r"[a-z]+", name.lower()))
+
         def likeness(other: str) -> float:
-            return SequenceMatcher(None, name.lower(), other).ratio()
+            said = re.findall(r"[a-z]+", summary(other).lower())
+            alike = SequenceMatcher(None, name.lower(), other).ratio()
+            return alike + len(words & set(said)) / max(len(words), 1)
 
         nearest = sorted(known, key=likeness, reverse=True)
         raise InputError(

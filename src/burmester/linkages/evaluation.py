@@ -23,7 +23,12 @@ from burmester.numerics.weights import weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.target import Target
-from burmester.refinement.tolerance_boxes import ToleranceBoxes, counted_error, shares_used
+from burmester.refinement.tolerance_boxes import (
+    ToleranceBoxes,
+    counted_error,
+    poses_counted,
+    shares_used,
+)
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
@@ -126,12 +131,15 @@ class Evaluation:
     ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
         """The linkages in their order, as found and as a batch (dyads alike), and their places.
 
-        Where there are tolerances, at their places deepest inside, and at those given if they are
-        inside as well: these may be on another branch, or in another order.  once: at those given
-        only, where they are inside.
+        Along a path, at their places that trace it.  Where there are tolerances, at their places
+        deepest inside, and at those given if they are inside as well: these may be on another
+        branch, or in another order.  once: at those given only, where they are inside.
         """
         candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
-        if self.target.boxes is not None:
+        if self.target.path is not None:
+            traced, cranks = self.target.traced(candidates.batch)
+            candidates = candidates._replace(rows=traced, drivers=cranks)
+        elif self.target.boxes is not None:
             candidates = _at_deepest_places(candidates, self.target, self.target.boxes, once=once)
         own = (
             candidates.batch.from_canonical(self.target.frames)
@@ -208,7 +216,7 @@ class Evaluation:
             own, rows = rounded(
                 batch,
                 rows,
-                self.target,
+                self._target_of_rounding(each),
                 step=options.rounding_step,
                 stock=options.stock_lengths,
                 driver=driver,
@@ -223,6 +231,20 @@ class Evaluation:
             # Rounded dimensions are exact, whatever the poses leave open.
             out += [replace(one, error_before_rounding=each.error, other_types=()) for one in new]
         return ranked(out, self.problem)
+
+    def _target_of_rounding(self, found: FoundLinkage) -> Target:
+        """What a linkage is rounded by: the poses, free angles being its own.
+
+        Where it is to meet them exactly, or at given angles of its crank, it is to keep its motion.
+        """
+        target, tolerances = self.target, self.task.tolerances
+        if tolerances is None:
+            return target
+        timed = target.path is not None and target.path.crank_angles is not None
+        own = poses_counted(found.error.places, self.task)
+        if timed or not tolerances.gives_room:
+            target, own = target.without_boxes, found.error.places
+        return replace(target, poses=target.frames.to_canonical(own))
 
     def with_spreads(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The linkages with the spread of errors as built, where a tolerance is given."""
@@ -270,7 +292,9 @@ class Evaluation:
             length = reach / math.radians(asked.within_deg)
         missed = np.maximum(position, length * turn)
         slack = None
-        if (shares := self.shares(places)) is not None:
+        shares, tolerances = None, self.task.tolerances
+        if tolerances is not None and tolerances.gives_room:  # else the errors alone are judged
+            shares = shares_used(places, self.task, float(self.target.frames.length))
             slack = 2 * np.nan_to_num(np.hypot(position, length * turn)).max(axis=1)
             stated = asked.within is not None or asked.within_deg is not None
             missed = np.maximum(shares.max(axis=-1), missed / reach if stated else 0.0)

@@ -42,7 +42,7 @@ from burmester.refinement.defect_free_search import (
     on_more_poses,
 )
 from burmester.refinement.kept_limits import DyadLimitsConstraint
-from burmester.refinement.target import Target
+from burmester.refinement.target import ONE_CIRCUIT_RATIO, Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
@@ -64,8 +64,6 @@ __all__ = [
     "target_of",
 ]
 
-# Stay on one circuit if its worst error is at most this many times the unrestricted one.
-ONE_CIRCUIT_RATIO = 2.0
 # Number of refinement steps of all linkages, and of further steps of the near ones.
 FIRST_STEPS, FURTHER_STEPS = 8, 52
 # Refine fully the best MIN_REFINED and all within REFINED_COST_RATIO times the lowest cost.
@@ -176,6 +174,7 @@ def target_of(problem: SynthesisProblem) -> Target:
         task.exact if boxes is None else None,
         problem.options.norm == "worst",
         boxes,
+        task.path,
     )
 
 

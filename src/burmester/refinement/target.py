@@ -13,6 +13,8 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
+from burmester.fourbar.timed_places import places_at_turns
+from burmester.fourbar.traced_places import places_along
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.linear_algebra import matvec
@@ -24,8 +26,12 @@ from burmester.refinement.least_error import Refined, refine
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 
-__all__ = ["Target"]
+__all__ = ["ONE_CIRCUIT_RATIO", "Target"]
+
+# Stay on one circuit if its worst error is at most this many times the unrestricted one.
+ONE_CIRCUIT_RATIO = 2.0
 
 
 @final
@@ -36,6 +42,7 @@ class Target:
     kept: the limits of the dyads, as constraints, and the boxes.
     weights, exact, worst: as in `refine`.
     boxes: where the task has tolerances; then errors count in their metric.
+    path: where the poses are points of a path; then places are those that trace it.
     whole, index: where these are a sample of more poses, the target of them all, and which of
         them these are.
     """
@@ -49,6 +56,7 @@ class Target:
     exact: NDArray[np.bool_] | None = None
     worst: bool = False
     boxes: ToleranceBoxes | None = None
+    path: TracedPath | None = None
     whole: Target | None = None
     index: NDArray[np.intp] | None = None
 
@@ -57,9 +65,14 @@ class Target:
         """The same without the condition that places are inside the boxes."""
         return self if self.boxes is None else self._with_boxes(replace(self.boxes, binding=False))
 
-    def _with_boxes(self, boxes: ToleranceBoxes) -> Target:
+    @property
+    def without_boxes(self) -> Target:
+        """The same without tolerances: distances count as they are."""
         kept = tuple(each for each in self.kept if not isinstance(each, ToleranceBoxes))
-        return replace(self, kept=(*kept, boxes), boxes=boxes)
+        return replace(self, kept=kept, boxes=None)
+
+    def _with_boxes(self, boxes: ToleranceBoxes) -> Target:
+        return replace(self, kept=(*self.without_boxes.kept, boxes), boxes=boxes)
 
     def refine(
         self, batch: LinkageBatch, rows: FloatArray, metric: FloatArray | None = None, **how: Any
@@ -103,14 +116,19 @@ class Target:
     def _at(self, index: NDArray[np.intp], weights: FloatArray | None) -> Target:
         thin = self if self.boxes is None else self._with_boxes(self.boxes.at(index))
         exact = None if self.exact is None else self.exact[index]
-        return replace(thin, poses=self.poses[index], weights=weights, exact=exact)
+        path = self.path and self.path.at(index)
+        return replace(thin, poses=self.poses[index], weights=weights, exact=exact, path=path)
 
     def places(self, batch: LinkageBatch, *, on_both: bool = False) -> FloatArray:
         """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost.
 
         Where there are boxes: of the places deepest inside them, on the circuit that uses the least
-        share of all.  on_both: on both circuits, where only so all are inside.
+        share of all.  on_both: on both circuits, where only so all are inside, or where nothing has
+        a tolerance and one circuit alone is much farther away.  Along a path: see
+        `traced`.
         """
+        if self.path is not None:
+            return self.traced(batch)[0]
         if self.boxes is not None:
             rows, every = rows_of(places_in_boxes(batch, self.boxes.boxes), self.length), len(batch)
             used = self.boxes.boxes.share(rows)
@@ -118,11 +136,32 @@ class Target:
             one = rows[np.arange(every), worst.argmin(axis=1)]
             side = used.argmin(axis=1)
             mixed = np.take_along_axis(rows, side[:, None, :, None], axis=1)[:, 0]
-            split = on_both & (used.min(axis=1).max(axis=-1) <= 1) & (worst.min(axis=1) > 1)
+            least, most = used.min(axis=1).max(axis=-1), worst.min(axis=1)
+            nearer = (least <= 1) | (not self.boxes.give_room) & (most > ONE_CIRCUIT_RATIO * least)
+            split = on_both & (most > 1) & nearer
             return np.where(split[:, None, None], mixed, one)
         rows = rows_of(on_circuits(batch, self.poses, self.length), self.length)
         cost = np.nan_to_num(self.cost(rows), nan=np.inf)
         return np.asarray(rows[np.arange(len(batch)), cost.argmin(axis=1)])
+
+    def traced(self, batch: LinkageBatch) -> tuple[FloatArray, NDArray[np.intp] | None]:
+        """Rows (k, N, 3) of the places that trace the path, and the sides (k,) of the cranks.
+
+        In the order of the points, or at their crank angles; only these say which dyad drives.
+        """
+        assert self.path is not None
+        points, turns, w = self.poses.translation, self.path.crank_angles, self.weights
+        if turns is not None:
+            return places_at_turns(batch, points, turns, self.length, weights=w)
+        rows = places_along(
+            batch,
+            points,
+            self.length,
+            weights=w,
+            boxes=None if self.boxes is None else self.boxes.boxes,
+            any_order=self.requirements.any_order,
+        )
+        return rows, None
 
     def places_of(self, rows: FloatArray) -> Displacement:
         """Rows (*, 3) as displacements."""

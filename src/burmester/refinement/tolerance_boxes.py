@@ -64,6 +64,11 @@ class ToleranceBoxes:
         )
 
     @property
+    def give_room(self) -> bool:
+        """Whether some component may be missed by a tolerance, and is neither exact nor free."""
+        return not bool((self.exact | self.free).all())
+
+    @property
     def metric(self) -> FloatArray:
         """The matrices (N, 3, 3) whose product with a gap is what counts of it.
 

@@ -21,10 +21,10 @@ from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.fourbar.pivot_box import extent
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
-from burmester.linkages.from_dyads import ONE_CIRCUIT_RATIO
 from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import shares
+from burmester.refinement.target import ONE_CIRCUIT_RATIO
 from burmester.stacked.answers import DyadRows, LinkageRows
 from burmester.stacked.found_dyads import ANGLES
 from burmester.tasks.length_per_radian import lengths_per_radian

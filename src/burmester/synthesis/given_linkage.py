@@ -3,6 +3,7 @@
 E112 a number too large to compute with
 E154 two dyads that make no linkage
 E155 lengths with which the linkage cannot be assembled at all
+E158 pivots alone, and points that do not say how long their link is
 """
 
 from __future__ import annotations
@@ -36,6 +37,8 @@ LENGTH_SPREAD = 0.02
 class OpenLink:
     """An RR dyad of which the pivots are known; the length of its link follows from the poses.
 
+    From those with an angle: a point of the body does not say where the moving pivot is.
+
     fixed_pivot: (2,), in F; moving_pivot: (2,), in M, in the task's unit.
 
     Examples
@@ -54,18 +57,27 @@ class OpenLink:
             object.__setattr__(self, each.name, np.asarray(getattr(self, each.name), dtype=float))
 
     def lengths(self, task: Task) -> FloatArray:
-        """The distances (N,) of its pivots at the poses."""
-        return RR(self.fixed_pivot, self.moving_pivot, np.zeros(())).residual(task.poses)
+        """The distances (N,) of its pivots at the poses that have an angle."""
+        poses = task.poses[~task.free_angles]
+        return RR(self.fixed_pivot, self.moving_pivot, np.zeros(())).residual(poses)
 
     def at(self, task: Task) -> RR:
         """The dyad with the length of the least sum of squared residuals over the poses.
 
         That is the weighted mean of the distances; exact poses alone decide where there are some.
+        Raises InputError E158 where no pose has an angle.
         """
-        count = task.poses.shape[0]
-        share = weights_or_ones(task.weights, (count,))
+        turned = ~task.free_angles
+        if task.path is not None or not turned.any():
+            raise InputError(
+                "E158",
+                "the length of a link is not given, and points do not determine it",
+                why="they say where the body's origin is, and not where its other points are",
+                help="give the length of the link of each dyad with --length",
+            )
+        share = weights_or_ones(task.weights, turned.shape)[turned]
         if task.exact is not None and task.exact.any():
-            share = np.where(task.exact, share, 0.0)
+            share = np.where(task.exact[turned], share, 0.0)
         return RR(self.fixed_pivot, self.moving_pivot, self.lengths(task) @ share / share.sum())
 
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from burmester.diagnosis.checks import diagnose
+from burmester.errors import Advice, InputError
 from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import RR, Dyad
 from burmester.fourbar.linkage import Linkage
@@ -49,9 +50,17 @@ def judge_linkage(
     task: any number of poses.
     linkage: the linkage, or its two dyads, RR, PR or RP, or pivots alone (`OpenLink`).
 
-    Raises InputError E112 (numbers too large), E154 (two dyads that make no linkage) and E155
-    (lengths that can be assembled nowhere).
+    Raises InputError E112 (numbers too large), E154 (two dyads that make no linkage), E155
+    (lengths that can be assembled nowhere), E158 (pivots alone at points) and E159 (better ones
+    at points that the crank times).
     """
+    if improve and _is_timed(task):
+        raise InputError(
+            "E159",
+            "better linkages are not looked for where the crank times the points",
+            why="the search near a linkage keeps to points, and not to the angles of its crank",
+            help="leave --improve out, and compare with what `burmester synthesize` finds",
+        )
     with limited(options.time_limit) as watch:
         return with_time_limit(_judgement(task, linkage, options, improve), watch)
 
@@ -65,9 +74,8 @@ def _judgement(
     both, advice = dyads_at_poses(dyads, task)
     lengths = any(isinstance(each, RR) for each in dyads) and not isinstance(linkage, Linkage)
     require_linkage(both, task, assembled=lengths)
-    step(f"looking at {task.poses.shape[0]} poses")
-    diagnosis = diagnose(task)
-    problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
+    problem, findings = _problem(task, options)
+    task = problem.given
     evaluation = Evaluation(problem, target_of(problem))
     given = _found_dyads(both, evaluation)
     step("judging the linkage")
@@ -78,17 +86,33 @@ def _judgement(
         every += [
             replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(near, start=2)
         ]
-    if _is_open(problem):
+    if _is_open(problem) or task.free_angles.any():  # no pose determines its pivots
         every = [replace(each, uncertainty=None, determined=True, other_types=()) for each in every]
     linkages = at_given_poses(evaluation.with_spreads(every), problem)
     outcome = _outcome(linkages, problem, improve)
     warnings = (
         *task.notes,
         *advice,
-        *diagnosis.findings,
+        *findings,
         *linkage_advice(task, linkages, outcome.code),
     )
     return Synthesis(problem, outcome, _at_all_poses(given, task), linkages, warnings)
+
+
+def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, tuple[Advice, ...]]:
+    """The task as synthesis judges its linkages, and what is to be said of it.
+
+    The points of a path have free angles, and a tolerance where the task states none.
+    """
+    if task.path is not None:
+        from burmester.synthesis.path_generation import with_tolerance  # noqa: PLC0415  paths only
+
+        given, note = with_tolerance(task, options)
+        return SynthesisProblem.of(given, None, options), tuple(note)
+    step(f"looking at {task.poses.shape[0]} poses")
+    diagnosis = diagnose(task)
+    problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
+    return problem, tuple(diagnosis.findings)
 
 
 def _found_dyads(dyads: tuple[Dyad, Dyad], evaluation: Evaluation) -> Pair:
@@ -118,8 +142,12 @@ def _judged(given: Pair, evaluation: Evaluation) -> FoundLinkage:
     for pair in orders:
         own = LinkageBatch.of([Linkage(pair[0].dyad, pair[1].dyad)])
         batch = own.to_canonical(evaluation.target.frames)
+        none = np.zeros(1, dtype=bool)
+        if evaluation.target.path is not None:
+            rows = evaluation.target.places(batch)
+            found += evaluation.members(Candidates(batch, rows, [pair], none, own))
+            continue
         for rows in places_to_judge(batch, evaluation.target):
-            none = np.zeros(1, dtype=bool)
             found += evaluation.evaluate(Candidates(batch, rows[None], [pair], none, own))
 
     def order(each: FoundLinkage) -> tuple[bool, int, float]:
@@ -158,6 +186,11 @@ def _of_family(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage
     return sorted(usable, key=lambda each: greatest_move(given, each))[:1]
 
 
+def _is_timed(task: Task) -> bool:
+    """Whether the crank times the points of a path."""
+    return task.path is not None and task.path.crank_angles is not None
+
+
 def _is_open(problem: SynthesisProblem) -> bool:
     """Whether so few poses leave every pivot open."""
     return max(problem.missing_conditions) > 0
@@ -190,7 +223,7 @@ def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improv
             if near
             else ("; none was found near it that does")
         )
-    elif not found.usable or found.shortcomings:
+    elif (not found.usable or found.shortcomings) and not _is_timed(task):
         options.append(
             f"look for {'better ones near it' if found.usable else 'one near it that works'} "
             "with --improve"

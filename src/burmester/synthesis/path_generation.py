@@ -52,7 +52,7 @@ from burmester.verdicts.ranking import ranked
 from burmester.verdicts.standard import Standard
 from burmester.wording import count
 
-__all__ = ["near_points"]
+__all__ = ["near_points", "with_tolerance"]
 
 ASSUMED_RATIO = 2.0  # of the assumed tolerance to the worst distance of the nearest linkage
 LEAST_ASSUMED = 1e-4  # spans of the path; a smaller tolerance is not assumed
@@ -91,23 +91,14 @@ def near_points(
     whether it is closed and how the crank times it.
     """
     task = _once(task)
-    path, points = task.path or TracedPath(), task.poses.translation
-    exact = path.crank_angles is not None and len(points) == LEAST_TIMED
-    step(f"looking at {count(len(points), 'point')}")
+    path = task.path or TracedPath()
+    step(f"looking at {count(len(task.poses.angle), 'point')}")
     if not span(task) > 0:
         return _none(task, options, findings)
-    found = _timed_exactly(points, path) if exact else _nearest(task, path)
-    if path.crank_angles is None:
-        alike, wide = found, _without_tolerance(task, options)
-        if task.limits:
-            alike = _like_the_path(task, path)
-            found = _within_limits(wide, _joined([found, alike]))
-        if len(found.batch) and time_for("looking for linkages that transmit better"):
-            better = _better(wide, found, alike) if task.limits else [_transmitting(task, path)]
-            found = _joined([found, *better])
+    found = _found(task, path, options)
     if not len(found.batch):
         return _none(task, options, findings)
-    given, note = _with_tolerance(task, found, exact=exact)
+    given, note = _with_tolerance(task, found, path)
     problem = SynthesisProblem.of(given, None, options)  # the angles say nothing of a motion
     evaluation = Evaluation(problem, target_of(problem))
     judged = _judged(evaluation, found)
@@ -119,6 +110,45 @@ def near_points(
     warnings = (*findings, *note, *linkage_advice(given, linkages, outcome.code))
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
     return Synthesis(problem, outcome, dyads, linkages, warnings)
+
+
+def with_tolerance(task: Task, options: SynthesisOptions) -> tuple[Task, list[Advice]]:
+    """A path as its linkages are judged: with a tolerance, stated or assumed, and what is said.
+
+    Where none is stated, the nearest linkages are looked for, as they say what is assumed.
+    """
+    task = _once(task)
+    path = task.path or TracedPath()
+    if _stated(task, path) is None and span(task) > 0:
+        found = _found(task, path, options)
+        if len(found.batch):
+            return _with_tolerance(task, found, path)
+    position = _stated(task, path)
+    if position is None:
+        position = np.full((len(task.poses.angle), 2), LEAST_ASSUMED * span(task))
+    return replace(task, tolerances=_of_points(position)), []
+
+
+def _found(task: Task, path: TracedPath, options: SynthesisOptions) -> _Found:
+    """Linkages near the points, or through them, and such as transmit better."""
+    if _is_exact(task, path):
+        return _timed_exactly(task.poses.translation, path)
+    found = _nearest(task, path)
+    if path.crank_angles is not None:
+        return found
+    alike, wide = found, _without_tolerance(task, options)
+    if task.limits:
+        alike = _like_the_path(task, path)
+        found = _within_limits(wide, _joined([found, alike]))
+    if len(found.batch) and time_for("looking for linkages that transmit better"):
+        better = _better(wide, found, alike) if task.limits else [_transmitting(task, path)]
+        found = _joined([found, *better])
+    return found
+
+
+def _is_exact(task: Task, path: TracedPath) -> bool:
+    """Whether linkages pass the points exactly at their crank angles."""
+    return path.crank_angles is not None and len(task.poses.angle) == LEAST_TIMED
 
 
 def _once(task: Task) -> Task:
@@ -351,28 +381,35 @@ def _refined(target: Target, refined: Refined) -> _Found:
     return _Found(refined.batch[index].from_canonical(target.frames), rows)
 
 
-def _with_tolerance(task: Task, found: _Found, *, exact: bool) -> tuple[Task, list[Advice]]:
+def _with_tolerance(task: Task, found: _Found, path: TracedPath) -> tuple[Task, list[Advice]]:
     """The task with a tolerance of its points, and what is to be said where it is assumed.
 
     Its angles are those of the nearest linkage, to draw the body with; they are free.
     """
     points, number = task.poses.translation, len(task.poses.translation)
     poses = Displacement(points, found.places[0, :, 2])
-    stated = None if task.tolerances is None else task.tolerances.position
-    within, note = task.requirements.within, list[Advice]()
-    if stated is not None and (stated > 0).any():
-        position = stated
-    elif within is not None:
-        position = np.full((number, 2), within)
-    elif exact:
-        position = np.zeros((number, 2))
-    else:
+    position, note = _stated(task, path), list[Advice]()
+    if position is None:
         least = float(np.abs(found.places[..., :2] - points).max(axis=(1, 2)).min())
         assumed = max(ASSUMED_RATIO * least, LEAST_ASSUMED * span(task))
         assumed = float(f"{assumed:.2g}")
         position, note = np.full((number, 2), assumed), [_assumed(task, least, assumed)]
-    tolerances = PoseTolerances(position, np.full(number, math.inf))
-    return replace(task, poses=poses, tolerances=tolerances), note
+    return replace(task, poses=poses, tolerances=_of_points(position)), note
+
+
+def _stated(task: Task, path: TracedPath) -> FloatArray | None:
+    """The tolerances (N, 2) of x and y that a path says, or that its linkages can keep exactly."""
+    stated = None if task.tolerances is None else task.tolerances.position
+    if stated is not None and (stated > 0).any():
+        return stated
+    if task.requirements.within is not None:
+        return np.full((len(task.poses.angle), 2), task.requirements.within)
+    return np.zeros((len(task.poses.angle), 2)) if _is_exact(task, path) else None
+
+
+def _of_points(position: FloatArray) -> PoseTolerances:
+    """Tolerances of points, whose angles are free."""
+    return PoseTolerances(position, np.full(len(position), math.inf))
 
 
 def _assumed(task: Task, least: float, assumed: float) -> Advice:
@@ -481,7 +518,7 @@ def _outcome(
         )
     nearest = min(usable, key=lambda each: each.error.worst)
     if nearest.error.worst <= EXACT * span(task):
-        how = f"that pass {points}{timed}"
+        how = f"that {'passes' if len(usable) == 1 else 'pass'} {points}{timed}"
     else:
         how = (
             f"near {points}{timed}; the nearest, {nearest.id}, misses them by "
@@ -497,6 +534,8 @@ def _none(task: Task, options: SynthesisOptions, findings: Sequence[Advice]) -> 
     timed = task.path is not None and task.path.crank_angles is not None
     more = "give more than five points, which may then be missed a little"
     help = more if timed else "give the limits more room"
+    if not span(task) > 0:
+        help = "give points that lead somewhere, in the order in which they are traced"
     outcome = Outcome("R351", _why_none(task), help)
     return Synthesis(problem, outcome, warnings=tuple(findings))
 

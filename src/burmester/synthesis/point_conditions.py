@@ -56,7 +56,7 @@ class PointConditions(NamedTuple):
     def in_words(self) -> str:
         """What is asked for, and how many linkages that leaves, for those who look at a task."""
         if self.case is None:
-            return str(self)
+            return f"{self}: infinitely many four-bars, of which good ones are chosen"
         number, also = CASES[self.case], ""
         if self.case.has_cognates:
             number, also = CLASS * number, " with cognates"

@@ -123,14 +123,14 @@ class PoseTolerances:
         return np.asarray(np.isinf(self.bounds))
 
     @property
+    def gives_room(self) -> bool:
+        """Whether some component may be missed by a tolerance, and is neither exact nor free."""
+        return not bool((self.exact | self.free).all())
+
+    @property
     def exact_poses(self) -> NDArray[np.bool_]:
         """The poses (N,) that are exact in all three components."""
         return np.asarray(self.exact.all(axis=1))
-
-    @property
-    def has_room(self) -> bool:
-        """Whether a component may be missed by something: not all are exact or free."""
-        return not bool((self.exact | self.free).all())
 
     @property
     def conditions(self) -> int:

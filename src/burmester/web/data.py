@@ -161,7 +161,9 @@ def _linkage(
             "worst": worst,
             "angle": angle,
             "rms": digits.position_error(synthesis, found.error.rms),
-            "rms_angle": digits.angle_error(float(np.sqrt((found.error.angle**2).mean()))),
+            "rms_angle": "free"
+            if synthesis.task.angles_are_free
+            else digits.angle_error(float(np.sqrt((found.error.angle**2).mean()))),
             "transmission": notation.least_angle(found.driven.least_over_range),
             "quality": quality_words.facts(found, task),
             "turns_fully": found.driven.turns_fully,
@@ -224,13 +226,15 @@ def _pose_errors(
             shares = (f"{x} | {y}", turn)
         row["said"] = {
             "position": digits.position_error(synthesis, float(error.position[pose])),
-            "turned": digits.angle_error(float(error.angle[pose])),
+            "turned": "free"
+            if synthesis.task.free_angles[pose]
+            else digits.angle_error(float(error.angle[pose])),
             "transmission": f"{math.degrees(transmission[pose]):.1f}°"
             if math.isfinite(transmission[pose])
             else "-",
         }
         for key, share in zip(("position", "turned"), shares, strict=True):
-            if share is not None:
+            if share is not None and share != row["said"][key]:
                 row["said"][key] += f" ({share})"
         rows.append(row)
     return rows

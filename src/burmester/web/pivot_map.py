@@ -27,11 +27,11 @@ MOST_EXACT = 0.5  # share of pivots with no error above rounding, beyond which n
 def pivot_map(synthesis: Synthesis, scene: float) -> dict[str, Any] | None:
     """log10 of the least rms error of a link, over a grid of fixed pivots (row by row, from below).
 
-    scene: the size of the drawing, in the task's unit.  None for fewer than four poses, or where
-    most pivots meet all poses.
+    scene: the size of the drawing, in the task's unit.  None for fewer than four poses, where most
+    pivots meet all poses, and for points, which leave every pivot open.
     """
     task = synthesis.task
-    if task.poses.shape[0] < FEWEST_POSES:
+    if task.poses.shape[0] < FEWEST_POSES or task.free_angles.any():
         return None
     at = task.poses.translation
     low, high = at.min(axis=0), at.max(axis=0)

@@ -36,7 +36,9 @@ from burmester.io.reading.tables.csv_cells import (
 )
 from burmester.io.reading.tables.wrong_numbers import not_a_number
 from burmester.numerics.arrays import FloatArray
+from burmester.printable import printable
 from burmester.tasks.traced_path import TracedPath
+from burmester.wording import listed
 
 __all__ = ["read_path_table"]
 
@@ -53,6 +55,7 @@ class _Columns(NamedTuple):
     separator: str
     length_unit: str | None
     crank_unit: str
+    names: tuple[str, ...]
 
 
 def read_path_table(source: Source, *, closed: bool = False) -> PoseTable | None:
@@ -111,7 +114,7 @@ def read_path_table(source: Source, *, closed: bool = False) -> PoseTable | None
         locate_row=functools.partial(_locate, source, starts),
         notes=(*source.notes, *notes),
         path=TracedPath(closed or repeats, crank),
-        read_as="points of a path",
+        read_as=f"points of a path; columns {listed(columns.names)}",
     )
 
 
@@ -137,7 +140,8 @@ def _columns(line: str) -> _Columns | None:
             if wanted and not beside and units["x"] == units["y"]:
                 roles: tuple[str, ...] = ("x", "y", "weight", "crank")
                 chosen = {role: indices[role] for role in roles if role in indices}
-                return _Columns(chosen, len(names), separator, units["x"], crank_unit)
+                told = tuple(printable(names[at].strip()) for at in sorted(chosen.values()))
+                return _Columns(chosen, len(names), separator, units["x"], crank_unit, told)
     return None
 
 

@@ -1,0 +1,337 @@
+"""The places at which a linkage traces points, in their order: how the body turns does not count.
+
+On each circuit the points are laid along the curve of the body's origin, forwards or backwards, at
+most once around, so that the sum of squared distances is least (a shortest path over samples).
+Each then goes down to the nearest place of its own stretch of the curve, and on to one inside its
+tolerance where that is beside it.  A way that keeps clear of
+one driver's dead points is taken where it is nearly as near as the nearest of all.  That no other
+way is nearer is not proved.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.box_places import Boxes
+from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.nearest_places import places_at, sampled
+from burmester.fourbar.transmission import Transmission
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, even_numbers
+from burmester.numerics.weights import weights_or_ones
+
+__all__ = ["places_along"]
+
+SAMPLES: Final = 160  # of each circuit, at least
+MOST_LAID: Final = 60  # points that are laid by the shortest path; others go between these
+ANCHORS: Final = 4  # places on a closed circuit at which the first point may be
+CLEAR_RATIO: Final = 2.0  # a way clear of dead points may miss the points by so much more
+ROUNDING: Final = 1e-9  # lengths, root mean square; ways that miss by less miss by nothing
+ROUNDS, TRIED = 15, 9  # of narrowing brackets: to a quarter in each round
+BESIDE: Final = 2.0  # distances of a point from the curve; a place in its box is looked for so far
+WAYS_AT_ONCE: Final = 128  # bounds the memory
+
+
+class _Samples(NamedTuple):
+    """Samples (n, s) of circuits (n,), each of the linkage `row` (n,).
+
+    share: fractions of the circuit; curve: the body's origin there; sine: (2, n, s), of the
+    transmission angle by either driver.
+    """
+
+    circuits: Circuits
+    row: NDArray[np.intp]
+    closed: NDArray[np.bool_]
+    share: FloatArray
+    curve: ComplexArray
+    sine: FloatArray
+
+    def share_at(self, circuit: int, position: NDArray[np.intp]) -> FloatArray:
+        """The fractions at positions, numbers of samples that go on beyond whole turns."""
+        turns, sample = np.divmod(position, self.share.shape[1])
+        return np.asarray(self.share[circuit, sample] + turns)
+
+
+class _Stretch(NamedTuple):
+    """A stretch of a circuit: `size` samples from number `first`; all of a closed one goes round.
+
+    clear: whether one of the drivers passes no dead point on it.
+    """
+
+    circuit: int
+    first: int
+    size: int
+    around: bool
+    clear: bool
+
+
+class _Way(NamedTuple):
+    """Points (N,) laid along a stretch: the positions of samples near which each is."""
+
+    stretch: _Stretch
+    positions: NDArray[np.intp]
+
+
+def places_along(
+    batch: LinkageBatch,
+    points: FloatArray,
+    length: float,
+    *,
+    weights: FloatArray | None = None,
+    boxes: Boxes | None = None,
+    any_order: bool = False,
+) -> FloatArray:
+    """Rows (k, N, 3) of the places of linkages (k,) that trace points (N, 2); nan where none does.
+
+    In frames where lengths are about 1; rows are x, y, length x angle, and the angle goes on from
+    place to place by less than half a turn.  boxes: the tolerances (N,).  any_order: each point
+    where it is nearest.
+    """
+    wanted, share = complex_of(points), weights_or_ones(weights, points.shape[:1])
+    out = np.full((len(batch), len(points), 3), np.nan)
+    samples = _sampled(batch, length)
+    if not len(samples.row):
+        return out
+    ways = _free_ways(samples, wanted, share, any_order)
+    ways += _clear_ways(samples, ways, wanted, share, any_order)
+    rows = _at_feet(samples, ways, wanted, length, boxes)
+    misses = np.sqrt(_squares(rows, wanted) @ share / share.sum())
+    clear = np.array([each.stretch.clear for each in ways])
+    linkage = samples.row[[each.stretch.circuit for each in ways]]
+    for k in np.unique(linkage):
+        own = np.flatnonzero(linkage == k)
+        best = own[misses[own].argmin()]
+        if len(sound := own[clear[own]]):
+            other = sound[misses[sound].argmin()]
+            if misses[other] <= max(CLEAR_RATIO * misses[best], ROUNDING):
+                best = other
+        out[k] = rows[best]
+    out[..., 2] = np.unwrap(out[..., 2], period=2 * math.pi * length, axis=-1)
+    return out
+
+
+def _squares(rows: FloatArray, wanted: ComplexArray) -> FloatArray:
+    """The squared distances (*, N) of rows (*, N, 3) from points (N,); infinite for nan."""
+    gap = np.abs(complex_of(rows[..., :2]) - wanted)
+    return np.asarray(np.nan_to_num(gap, nan=np.inf) ** 2)
+
+
+def _sampled(batch: LinkageBatch, length: float) -> _Samples:
+    circuits = Circuits.of(batch, as_given=True)
+    row, side = np.nonzero(circuits.exists)
+    own = circuits[row, side]
+    share, rows = sampled(own, length, SAMPLES)
+    sine = np.array(
+        [
+            Transmission.of(batch[row], rows, length, np.full(len(row), driver)).sine
+            for driver in (0, 1)
+        ]
+    )
+    return _Samples(own, row, own.closed, share, complex_of(rows[..., :2]), sine)
+
+
+def _free_ways(
+    samples: _Samples, wanted: ComplexArray, share: FloatArray, any_order: bool
+) -> list[_Way]:
+    """The nearest way along each whole circuit."""
+    count = samples.share.shape[1]
+    whole = [
+        _Stretch(circuit, 0, count, bool(samples.closed[circuit]), False)
+        for circuit in range(len(samples.row))
+    ]
+    ways = _laid(samples, whole, wanted, share, any_order)
+    return [_marked(samples, way) for way in ways]
+
+
+def _marked(samples: _Samples, way: _Way) -> _Way:
+    """The way, clear where all its samples are on one side of a driver's dead points."""
+    stretch, number = way.stretch, samples.share.shape[1]
+    sine = samples.sine[:, stretch.circuit, way.positions % number]
+    clear = bool(((sine > 0).all(axis=1) | (sine < 0).all(axis=1)).any())
+    return way._replace(stretch=stretch._replace(clear=clear))
+
+
+def _clear_ways(
+    samples: _Samples, free: list[_Way], wanted: ComplexArray, share: FloatArray, any_order: bool
+) -> list[_Way]:
+    """The nearest ways between dead points, on circuits whose nearest way passes some."""
+    arcs: list[_Stretch] = []
+    for way in free:
+        if not way.stretch.clear:
+            for sine in samples.sine[:, way.stretch.circuit]:
+                arcs += _arcs(way.stretch, sine > 0)
+    return _laid(samples, arcs, wanted, share, any_order) if arcs else []
+
+
+def _arcs(whole: _Stretch, positive: NDArray[np.bool_]) -> list[_Stretch]:
+    """The stretches of a circuit whose samples (s,) have one sign."""
+    count = len(positive)
+    change = np.flatnonzero(positive != np.roll(positive, 1))
+    if not whole.around:
+        change = np.union1d(change, [0])
+    if not len(change):
+        return []
+    counts = np.diff(np.append(change, change[0] + count))
+    pairs = zip(change.tolist(), counts.tolist(), strict=True)
+    return [_Stretch(whole.circuit, first, size, False, True) for first, size in pairs]
+
+
+def _laid(
+    samples: _Samples,
+    stretches: list[_Stretch],
+    wanted: ComplexArray,
+    share: FloatArray,
+    any_order: bool,
+) -> list[_Way]:
+    """The nearest way along each stretch."""
+    some = even_numbers(len(wanted), len(wanted) if any_order else MOST_LAID)
+    near, weight = wanted[some], share[some]
+    number = samples.share.shape[1]
+    which, lists, anchored = [], [], []
+    for index, each in enumerate(stretches):
+        begins = [each.first]
+        if each.around and not any_order:
+            begins = _anchors(np.abs(samples.curve[each.circuit] - near[0]))
+        for begin in begins:
+            for sense in (1, -1):
+                steps = np.minimum(np.arange(number + 1), each.size - (0 if each.around else 1))
+                start = begin if each.around or sense > 0 else each.first + each.size - 1
+                which.append(index)
+                lists.append(start + sense * steps)
+                anchored.append(each.around and not any_order)
+    order = np.array(which)
+    positions, fixed = np.array(lists), np.array(anchored)
+    circuit = np.array([stretches[index].circuit for index in which])
+    costs, chosen = np.empty(len(order)), np.empty((len(order), len(some)), dtype=np.intp)
+    for at in range(0, len(order), WAYS_AT_ONCE):
+        rows = slice(at, at + WAYS_AT_ONCE)
+        curve = samples.curve[circuit[rows, None], positions[rows] % number]
+        gap = np.nan_to_num(np.abs(curve[..., None] - near), nan=np.inf) ** 2 * weight
+        if any_order:
+            chosen[rows], costs[rows] = gap.argmin(axis=1), gap.min(axis=1).sum(axis=-1)
+        else:
+            chosen[rows], costs[rows] = _in_order(gap, fixed[rows])
+    ways = []
+    for index, each in enumerate(stretches):
+        own = np.flatnonzero(order == index)
+        best = own[costs[own].argmin()]
+        every = np.interp(np.arange(len(wanted)), some, chosen[best]).round().astype(np.intp)
+        ways.append(_Way(each, positions[best, every]))
+    return ways
+
+
+def _anchors(away: FloatArray) -> list[int]:
+    """The numbers of the samples (s,) of a closed circuit where the first point may be."""
+    away = np.nan_to_num(away, nan=np.inf)
+    low = np.flatnonzero((away <= np.roll(away, 1)) & (away <= np.roll(away, -1)))
+    return [int(each) for each in low[np.argsort(away[low], kind="stable")][:ANCHORS]]
+
+
+def _in_order(cost: FloatArray, anchored: NDArray[np.bool_]) -> tuple[NDArray[np.intp], FloatArray]:
+    """Numbers (q, m) of samples that do not fall, with the least sums (q,) of costs (q, s, m).
+
+    anchored: (q,), the first point is at the first sample.
+    """
+    number, every = cost.shape[2], np.arange(cost.shape[1])
+    total = np.where(anchored[:, None] & (every > 0), np.inf, cost[..., 0])
+    back = np.zeros((number, *total.shape), dtype=np.intp)
+    for j in range(1, number):
+        least = np.minimum.accumulate(total, axis=1)
+        back[j] = np.maximum.accumulate(np.where(total <= least, every, 0), axis=1)
+        total = least + cost[..., j]
+    out = np.empty((len(cost), number), dtype=np.intp)
+    out[:, -1] = total.argmin(axis=1)
+    rows = np.arange(len(cost))
+    for j in range(number - 1, 0, -1):
+        out[:, j - 1] = back[j, rows, out[:, j]]
+    return out, total.min(axis=1)
+
+
+class _Bracket(NamedTuple):
+    """Fractions (w, N) of circuits (w,), how far to look on both sides, and where circuits end."""
+
+    middle: FloatArray
+    reach: FloatArray
+    low: FloatArray
+    high: FloatArray
+
+
+def _at_feet(
+    samples: _Samples, ways: list[_Way], wanted: ComplexArray, length: float, boxes: Boxes | None
+) -> FloatArray:
+    """Rows (w, N, 3) of the places nearest to the points, each down from where it is laid."""
+    circuits = samples.circuits[[each.stretch.circuit for each in ways]]
+    middle, reach, speed = np.empty((3, len(ways), len(wanted)))
+    low, high = np.empty((2, len(ways), 1, 1))
+    number = samples.share.shape[1]
+    for row, way in enumerate(ways):
+        stretch, curve = way.stretch, samples.curve[way.stretch.circuit]
+        at = _downhill(samples, way, wanted)
+        middle[row] = samples.share_at(stretch.circuit, at)
+        before, after = (samples.share_at(stretch.circuit, at + step) for step in (-1, 1))
+        reach[row] = np.maximum(middle[row] - before, after - middle[row])
+        along = np.abs(curve[(at + 1) % number] - curve[(at - 1) % number])
+        speed[row] = along / (after - before)
+        ends = np.array([stretch.first, stretch.first + stretch.size - 1])
+        low[row], high[row] = samples.share_at(stretch.circuit, ends)
+        if stretch.size == number:  # a whole circuit goes on beyond the last samples
+            low[row], high[row] = (-np.inf, np.inf) if stretch.around else (0.0, 1.0)
+
+    def away(rows: FloatArray) -> FloatArray:
+        return _squares(rows, wanted)
+
+    bracket = _Bracket(middle, reach, low, high)
+    middle, rows = _narrowed(circuits, bracket, away, length)
+    if boxes is None:
+        return rows
+    out = boxes.share(rows) > 1
+    if not out.any():
+        return rows
+    reach = np.minimum(BESIDE * np.sqrt(away(rows)) / np.maximum(speed, 1e-9), 1 / 4)
+    bracket = _Bracket(middle, np.where(out, reach, 0.0), low, high)
+    _, inside = _narrowed(circuits, bracket, boxes.share, length)
+    return np.where((out & (boxes.share(inside) <= 1))[..., None], inside, rows)
+
+
+def _narrowed(
+    circuits: Circuits,
+    bracket: _Bracket,
+    measure: Callable[[FloatArray], FloatArray],
+    length: float,
+) -> tuple[FloatArray, FloatArray]:
+    """Where a measure (*, N) of rows (*, N, 3) is least: fractions (w, N), rows (w, N, 3)."""
+    middle, reach, low, high = bracket
+    best = np.empty((*middle.shape, 3))
+    for _ in range(ROUNDS):
+        tried = middle[:, None] + reach[:, None] * np.linspace(-1, 1, TRIED)[:, None]
+        tried = np.clip(tried, low, high)
+        rows = places_at(circuits, tried.reshape(len(middle), -1), length)
+        rows = rows.reshape(*tried.shape, 3)
+        at = measure(rows).argmin(axis=1)[:, None]
+        middle = np.take_along_axis(tried, at, axis=1)[:, 0]
+        best = np.take_along_axis(rows, at[..., None], axis=1)[:, 0]
+        reach = reach * 2.0 / (TRIED - 1)
+    return middle, best
+
+
+def _downhill(samples: _Samples, way: _Way, wanted: ComplexArray) -> NDArray[np.intp]:
+    """The positions (N,) to which points go down from sample to sample, within their stretch."""
+    stretch, number = way.stretch, samples.share.shape[1]
+    every = np.arange(stretch.size)
+    curve = samples.curve[stretch.circuit, (stretch.first + every) % number]
+    away = np.nan_to_num(np.abs(curve[:, None] - wanted), nan=np.inf)
+    beside = np.stack([np.roll(away, 1, axis=0), away, np.roll(away, -1, axis=0)])
+    if not stretch.around:
+        beside[0, 0] = beside[2, -1] = np.inf
+    beside[1] = np.nextafter(away, -np.inf)  # it stays where its neighbours are as near
+    go = (every[:, None] + beside.argmin(axis=0) - 1) % stretch.size
+    for _ in range(math.ceil(math.log2(max(stretch.size, 2)))):
+        go = np.take_along_axis(go, go, axis=0)
+    begin = (way.positions - stretch.first) % stretch.size
+    at = go[begin, np.arange(len(wanted))]
+    return np.asarray(stretch.first + at)
