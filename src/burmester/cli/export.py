@@ -21,7 +21,7 @@ FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
         csv, json      the coupler's places; the linkage itself
         pylinkage      a Python script
 
-Six-bars: svg (a drawing at the poses), gif, csv, json.
+Six-bars have all of these but urdf and pylinkage.
 
 Every file is read back and compared with the linkage before it gets its name.
 Lengths are in the unit of the poses."""
@@ -117,14 +117,7 @@ def export(
             chosen = export_choice(data, result, linkage)
         else:
             read = read_result(result, data)
-            if (six_bar := read.choose_six_bar(linkage)) is not None:
-                from burmester.export.six_bars import export_six_bar
-
-                [path] = export_six_bar(six_bar, name, output, Options(**options), force)
-                told = f"{six_bar.id}, a six-bar; read back and verified"
-                click.echo(f"wrote {printable(str(path))}: {told}")
-                return EXIT_FOUND
-            chosen = read.choose(linkage)
+            chosen = read.choose_six_bar(linkage) or read.choose(linkage)
         paths = run(chosen, name, output, Options(**options), force)
     for path in paths:
         click.echo(

@@ -3,9 +3,9 @@
 A format is a module of this room with `write(chosen, path, options)` and
 `check(chosen, path, options)`, or `write_<name>` and `check_<name>` where one module has several.
 Every file is read back before it gets its name; a file that does not contain the linkage is
-deleted.
+deleted.  Four-bars and six-bars go the same way.
 
-E161 no such format        E130 a library is missing
+E161 no such format        E130 a library is missing        E198 none of six-bars
 """
 
 from __future__ import annotations
@@ -21,9 +21,19 @@ from burmester.errors import InputError
 from burmester.export.options import Options
 from burmester.io.files import atomic_file
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.progress import step
+from burmester.wording import listed
 
-__all__ = ["FORMATS", "Format", "Options", "export", "format_of", "require_format"]
+__all__ = [
+    "FORMATS",
+    "SIX_BAR_FORMATS",
+    "Format",
+    "Options",
+    "export",
+    "format_of",
+    "require_format",
+]
 
 
 @final
@@ -43,6 +53,8 @@ class Format:
         The extra of `pip install "burmester[extra]"` that it needs.
     libraries : tuple of str
         The libraries of that extra that it imports.
+    six_bars : str or None
+        The module that writes it for six-bars; None where they do not have it.
     """
 
     module: str
@@ -50,6 +62,7 @@ class Format:
     suffix: str
     extra: str | None = None
     libraries: tuple[str, ...] = ()
+    six_bars: str | None = None
 
 
 FORMATS: Final[Mapping[str, Format]] = {
@@ -59,9 +72,13 @@ FORMATS: Final[Mapping[str, Format]] = {
         ".dxf",
         "export",
         ("ezdxf",),
+        "drawings.dxf",
     ),
     "svg": Format(
-        "drawings.svg", "the same drawing, 1:1, for printing and laser cutting (mm)", ".svg"
+        "drawings.svg",
+        "the same drawing, 1:1, for printing and laser cutting (mm)",
+        ".svg",
+        six_bars="drawings.svg",
     ),
     "pdf": Format(
         "drawings.pdf",
@@ -69,9 +86,15 @@ FORMATS: Final[Mapping[str, Format]] = {
         ".pdf",
         "export",
         ("matplotlib",),
+        "drawings.pdf",
     ),
     "step": Format(
-        "solids.solid", "solid parts in their places (mm)", ".step", "solid", ("build123d",)
+        "solids.solid",
+        "solid parts in their places (mm)",
+        ".step",
+        "solid",
+        ("build123d",),
+        "solids.solid",
     ),
     "stl": Format(
         "solids.solid",
@@ -79,20 +102,43 @@ FORMATS: Final[Mapping[str, Format]] = {
         ".stl",
         "solid",
         ("build123d",),
+        "solids.solid",
     ),
     "flat": Format(
-        "solids.solid", "the same; --to stl does it now (STL, mm)", ".stl", "solid", ("build123d",)
+        "solids.solid",
+        "the same; --to stl does it now (STL, mm)",
+        ".stl",
+        "solid",
+        ("build123d",),
+        "solids.solid",
     ),
-    "openscad": Format("solids.openscad", "OpenSCAD model, animated (mm)", ".scad"),
-    "mjcf": Format("models.mjcf", "MuJoCo model with a motor (m)", ".xml"),
+    "openscad": Format(
+        "solids.openscad", "OpenSCAD model, animated (mm)", ".scad", six_bars="solids.openscad"
+    ),
+    "mjcf": Format("models.mjcf", "MuJoCo model with a motor (m)", ".xml", six_bars="models.mjcf"),
     "urdf": Format("models.urdf", "robot description; its loop is open (m)", ".urdf"),
     "pylinkage": Format("pylinkage", "Python script for pylinkage", ".py"),
-    "csv": Format("tables", "table of the coupler's places along the motion", ".csv"),
-    "json": Format("tables", "the linkage as JSON", ".json"),
-    "gif": Format("films.movie", "moving picture", ".gif", "export", ("PIL", "matplotlib")),
-    "mp4": Format("films.movie", "film", ".mp4", "export", ("imageio_ffmpeg", "matplotlib")),
+    "csv": Format(
+        "tables",
+        "table of the coupler's places along the motion",
+        ".csv",
+        six_bars="six_bar_tables",
+    ),
+    "json": Format("tables", "the linkage as JSON", ".json", six_bars="six_bar_tables"),
+    "gif": Format(
+        "films.movie", "moving picture", ".gif", "export", ("PIL", "matplotlib"), "films.movie"
+    ),
+    "mp4": Format(
+        "films.movie",
+        "film",
+        ".mp4",
+        "export",
+        ("imageio_ffmpeg", "matplotlib"),
+        "films.movie",
+    ),
 }
 
+SIX_BAR_FORMATS: Final = tuple(name for name, each in FORMATS.items() if each.six_bars)
 PACKAGES: Final = {"PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}  # module: what pip calls it
 
 
@@ -135,7 +181,7 @@ def require_format(path: str | os.PathLike[str], to: str | None = None) -> str:
 
 
 def export(
-    chosen: SavedLinkage,
+    chosen: SavedLinkage | SavedSixBar,
     to: str | None,
     path: str | os.PathLike[str],
     options: Options = Options(),  # noqa: B008  frozen
@@ -145,7 +191,7 @@ def export(
 
     Parameters
     ----------
-    chosen : SavedLinkage
+    chosen : SavedLinkage or SavedSixBar
         The linkage.
     to : str or None
         A key of `FORMATS`; None leaves the choice to the suffix of `path`.
@@ -165,7 +211,7 @@ def export(
     ------
     InputError
         E130 (a library is missing), E140 and E141 (the file), E161 (no such format), E162 and E163
-        (the linkage does not suit the format).
+        (the linkage does not suit the format), E198 (a format that six-bars do not have).
     BurmesterError
         E160 where the written file does not contain the linkage.
 
@@ -182,11 +228,19 @@ def export(
     """
     name = require_format(path, to)
     form = FORMATS[name]
+    writer = form.six_bars if isinstance(chosen, SavedSixBar) else form.module
+    if writer is None:
+        raise InputError(
+            "E198",
+            f"a six-bar cannot be written as {name}: {form.what}",
+            why=f"the formats of six-bars are {listed(SIX_BAR_FORMATS)}",
+            help="give --to csv, or another of these",
+        )
     try:
         for library in form.libraries:
             step(f"loading {library}")
             import_module(library)
-        module = import_module(f"burmester.export.{form.module}")
+        module = import_module(f"burmester.export.{writer}")
     except ModuleNotFoundError as error:
         missing = (error.name or "a library").partition(".")[0]
         missing = PACKAGES.get(missing, missing)
