@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from burmester.cli.output import EXIT_FOUND
+
+if TYPE_CHECKING:
+    from burmester.io.saved import SavedLinkage
+    from burmester.io.saved_six_bars import SavedSixBar
 
 __all__ = ["export"]
 
@@ -111,13 +115,15 @@ def export(
 
     name = require_format(output, to)
     require_writable(output, force=force, source=result)
+    chosen: SavedLinkage | SavedSixBar
     with working("reading the result"):
         data = read_source(result)
         if is_function_result(data):
             chosen = export_choice(data, result, linkage)
         else:
             read = read_result(result, data)
-            chosen = read.choose_six_bar(linkage) or read.choose(linkage)
+            six_bar = read.choose_six_bar(linkage)
+            chosen = read.choose(linkage) if six_bar is None else six_bar
         paths = run(chosen, name, output, Options(**options), force)
     for path in paths:
         click.echo(

@@ -111,7 +111,7 @@ def require_film(options: Options, rate: float, *, kept: bool) -> int:
 
 
 def there_and_back(count: int) -> FloatArray:
-    """The share of the motion (count,) in each picture: there and back, with a pause at each end."""
+    """The share of the motion (count,) in each picture: there and back, with pauses."""
     share = np.arange(count) / count
     there = np.clip((1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD_SHARE) - HOLD_SHARE, 0.0, 1.0)
     return np.asarray((1 - np.cos(np.pi * there)) / 2)

@@ -1,4 +1,4 @@
-"""The pictures of a film of a four-bar: drawn once what stands still, again and again what moves."""
+"""The pictures of a film of a four-bar: what stands still is drawn once, what moves each time."""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
-"""The pictures of a film of a six-bar: once round where its driver turns fully, else there and back.
+"""The pictures of a film of a six-bar.
 
-The wanted poses stand as frames, and the path of the body's origin grows.
+It goes once round where its driver turns fully, else there and back.  The wanted poses stand as
+frames, and the path of the body's origin grows.
 """
 
 from __future__ import annotations

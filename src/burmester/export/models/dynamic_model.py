@@ -18,7 +18,7 @@ from burmester.export.models.driver_load import STANDARD_GRAVITY, DriverLoad, re
 from burmester.export.models.joints import JointMotion, require_bodies
 from burmester.export.models.mass_properties import MassProperties, require_density
 from burmester.export.options import Options
-from burmester.export.parts.features import scaled
+from burmester.export.parts.four_bar_links import scaled
 from burmester.export.parts.plate import SLOT_RUN_OUT
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference, require_equal

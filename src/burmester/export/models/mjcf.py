@@ -17,6 +17,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.models.bodies import Shape
 from burmester.export.models.driver_load import STANDARD_GRAVITY
@@ -26,7 +27,7 @@ from burmester.export.models.mjcf_kinematics import frames_at
 from burmester.export.models.servo import ARMATURE, Servo
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import PRECISION, Reference, as_rows, description, require_equal
+from burmester.export.reference import PRECISION, Reference, as_rows, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray

@@ -17,12 +17,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.export.models.joints import along_slot, directions, ground_joint
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import PRECISION, Reference, description, require_equal
+from burmester.export.reference import PRECISION, Reference, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray

@@ -4,19 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias, final
+from typing import final
 
 import numpy as np
 
+from burmester.export.parts.links import LinkPlaces
 from burmester.export.parts.outlines import convex_hull, points_on, rounded_hull
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Owner", "Pin", "Plate", "moved", "outline_points", "plate_of"]
+__all__ = ["Pin", "Plate", "moved", "outline_points", "plate_of"]
 
 SLOT_RUN_OUT = 0.5  # of a hole's diameter: slot beyond each end of the pin's travel
-
-Owner: TypeAlias = Literal["ground", "driver", "coupler", "follower"]
 
 
 @final
@@ -24,18 +23,17 @@ Owner: TypeAlias = Literal["ground", "driver", "coupler", "follower"]
 class Plate:
     """A flat part in a frame of its own, millimetres.
 
-    name: ground, ground-2 (the second one, above), driver, coupler or follower; owner: the link
-    that it is of.  The frames: of ground plates F, of the coupler M, of driver and follower the
-    fixed pivot with x towards the moving one.
+    name: that of its link; ground-2 is the second plate of the ground, above.  owner: the link that
+    it is of, in whose frame all is.
     outline: (k, 3) x, y, bulge, counter-clockwise, closed from the last to the first.
     holes: (h, 3) x, y, diameter.  slots: (s, 5) x, y of both ends' centres, width.
     marks: (m, 2), points to be marked: the body's origin.
     layer: 0 and upwards.  skeleton: (n, 2), convex; the outline is all within `radius` of it.
-    fixed, moving: the pivots of a driver or follower, in F and in M.
+    fixed, moving: of a link between ground and coupler both pivots, in F and in M.
     """
 
     name: str
-    owner: Owner
+    owner: str
     outline: FloatArray
     holes: FloatArray
     slots: FloatArray
@@ -46,16 +44,9 @@ class Plate:
     fixed: FloatArray | None = None
     moving: FloatArray | None = None
 
-    def at(self, places: Displacement) -> Displacement:
-        """Where the plate lies (F <- plate) when the coupler is at places (*,), millimetres."""
-        if self.owner == "ground":
-            return Displacement.identity(places.shape)
-        if self.owner == "coupler":
-            return places
-        assert self.fixed is not None
-        assert self.moving is not None
-        arm = places.act(self.moving) - self.fixed
-        return Displacement(self.fixed, np.arctan2(arm[..., 1], arm[..., 0]))
+    def at(self, places: LinkPlaces) -> Displacement:
+        """Where the plate lies (F <- plate) when the links are at places (*,)."""
+        return places[self.owner]
 
 
 @final
@@ -79,7 +70,7 @@ def plate_of(
     features: Sequence[FloatArray],
     *,
     name: str,
-    owner: Owner,
+    owner: str,
     layer: int,
     radius: float,
     hole: float,
