@@ -51,7 +51,7 @@ TILT = {  # roll, pitch, yaw by which the ground stands in a world with z upward
 def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
     """Write the description; raises E162 and E163."""
     model = DynamicModel.of(chosen, options)
-    reference = model.reference
+    reference = model.four_bar
     place = reference.places[options.pose - 1]
     head = [each.replace("--unit", "the option unit") for each in description(chosen, options, "m")]
     tilt = " ".join(map(number, TILT[options.up]))
@@ -125,7 +125,7 @@ def _side(
     model: DynamicModel, side: Literal[0, 1], place: Displacement, options: Options
 ) -> list[str]:
     """The link that a side has on the ground."""
-    reference, name = model.reference, ("driver", "follower")[side]
+    reference, name = model.four_bar, ("driver", "follower")[side]
     start = float(ground_joint(reference, side, place))
     fixed, line = reference.fixed[side], reference.line[side]
     if reference.kinds[side] == "PR":
@@ -148,13 +148,13 @@ class _Origin(NamedTuple):
 
 def _joint(model: DynamicModel, index: int, origin: _Origin, options: Options) -> list[str]:
     """A hinge about z, or a slide along a line; index: 0 driver, 1 coupler, 2 follower."""
-    name, line = NAMES[index], model.reference.line[0 if index < 2 else 1]
+    name, line = NAMES[index], model.four_bar.line[0 if index < 2 else 1]
     start, turning = model.joints.at_poses[options.pose - 1, index], model.joints.turning[index]
     kind, axis, speed = "revolute", "0 0 1", SPEED
     if not turning:
         assert line is not None
         kind, axis = "prismatic", f"{xy(directions(line[0])[1])} 0"
-        speed = SPEED * model.reference.span
+        speed = SPEED * model.four_bar.span
     return [
         f'  <joint name="{name}" type="{kind}">',
         f'    <parent link="{origin.parent}"/><child link="{name}"/>',
@@ -215,7 +215,7 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     The masses of the links and the limits of the joints are compared, too.
     """
     model = DynamicModel.of(chosen, options)
-    reference = model.reference
+    reference = model.four_bar
     tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     joints = {str(each.get("name")): each for each in root.findall("joint")}

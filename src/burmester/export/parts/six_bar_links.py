@@ -29,11 +29,16 @@ MOVING = tuple(name for name in SIX_BAR_PLATES if name != GROUND)
 def six_bar_links(found: FoundSixBar) -> Links:
     """The links of a six-bar, millimetres."""
     motion = np.union1d(found.along(MOTION_SAMPLES), found.drive)
-    poses = frames_of(found, found.drive)
-    at = {name: each[0] for name, each in found.joints(found.drive).items()}
+    own, origin = found.linkage, np.zeros(2)
+    ends = np.stack([own.first_crank, own.coupler_arm, own.second_crank, own.floating_link])
+    crank, arm, second, floating = np.column_stack([ends, np.zeros(4)])
     holes = {
-        name: {joint: poses[name][0].inverse().act(at[joint]) for joint in joints}
-        for name, joints in SIX_BAR_PLATES.items()
+        GROUND: {"A": own.fixed_first, "B": own.fixed_second},
+        "first-crank": {"A": origin, "C": crank},
+        "coupler": {"C": origin, "D": own.coupler_joint, "E": arm},
+        "second-crank": {"B": origin, "D": second, "G": own.crank_joint},
+        "floating-link": {"G": origin, "H": floating},
+        "body-link": {"E": own.body_joint, "H": own.link_joint},
     }
     hinges = []
     for joint in JOINTS:
@@ -47,9 +52,9 @@ def six_bar_links(found: FoundSixBar) -> Links:
         for a, b in combinations(SIX_BAR_PLATES[name], 2)
     ]
     return Links(
-        {name: [each[None] for each in own.values()] for name, own in holes.items()},
+        {name: [each[None] for each in of.values()] for name, of in holes.items()},
         tuple(hinges),
-        poses,
+        frames_of(found, found.drive),
         frames_of(found, motion),
         "body-link",
         {},
