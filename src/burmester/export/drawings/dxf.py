@@ -26,7 +26,7 @@ from burmester.export.description import (
 from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, measured_in
 from burmester.export.drawings.measured import require_dimensions
 from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
-from burmester.export.drawings.sheet import Sheet, beside, carried, notes_on, sheet_of
+from burmester.export.drawings.sheet import Sheet, beside, carried, joint_names, notes_on, sheet_of
 from burmester.export.escaping import dxf_text
 from burmester.export.options import Options
 from burmester.export.parts.holes import joints_of
@@ -136,6 +136,8 @@ def _draw(
     for plate in assembly.plates:
         drawn = moved(plate, plate.at(assembly.drawn))
         _plate(block, drawn, ("ASSEMBLY",) * 4, sheet)
+    for name, at in joint_names(assembly, sheet):
+        _text(space, name, at, sheet.letters)
     space.add_blockref("ASSEMBLY", (0, 0), dxfattribs={"layer": "ASSEMBLY"})
     for number in range(poses.shape[0]):
         place = poses[number]

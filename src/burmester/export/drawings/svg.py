@@ -25,7 +25,7 @@ from burmester.export.description import (
 from burmester.export.drawings.dimension_lines import DimensionLine
 from burmester.export.drawings.measured import Measured, require_dimensions, require_drawn
 from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
-from burmester.export.drawings.sheet import beside, carried, notes_on, sheet_of
+from burmester.export.drawings.sheet import beside, carried, joint_names, notes_on, sheet_of
 from burmester.export.escaping import xml_text
 from burmester.export.options import Options
 from burmester.export.parts.holes import joints_of
@@ -86,6 +86,7 @@ def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
         lines.append("</g>")
     lines += ["</g>", '<g id="names">']
     lines += [_text(part.label, at) for part, at in zip(sheet.parts, sheet.labels, strict=True)]
+    lines += [_text(name, at) for name, at in joint_names(assembly, sheet)]
     lines.append("</g>")
     if options.dimensions:
         lines.append('<g id="dimensions" inkscape:groupmode="layer" inkscape:label="dimensions">')

@@ -86,16 +86,16 @@ class _Workshop:
     def pins(self, arrangement: Arrangement) -> tuple[Pin, ...]:
         """The pins, as long as the layers ask for."""
         pins = []
-        for holder, at, joins, on_ground in self._links.hinges:
+        for holder, at, joins, on_ground, name in self._links.hinges:
             layers = dict(arrangement.layers)
-            names = {name: name for name in self._links.features}
+            names = {each: each for each in self._links.features}
             if on_ground is not None:
                 layers[GROUND] = arrangement.grounds[on_ground]
                 names[GROUND] = _grounds(arrangement)[layers[GROUND]]
             low, high = sorted(layers[each] for each in joins)
             x, y = at.tolist()
             joined = (names[joins[0]], names[joins[1]])
-            pins.append(Pin(names[holder], x, y, self._made.pin, low, high, joined))
+            pins.append(Pin(names[holder], x, y, self._made.pin, low, high, joined, name))
         return tuple(pins)
 
 

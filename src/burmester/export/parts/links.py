@@ -44,12 +44,14 @@ class Hinge(NamedTuple):
 
     holder: the link that holds it, at a point (2,) of its frame.  joins: both links; where one is
     the ground, it is the first.  on_ground: the number of the ground's hole or slot, if one is.
+    name: of the joint, where it has one.
     """
 
     holder: str
     at: FloatArray
     joins: tuple[str, str]
     on_ground: int | None = None
+    name: str = ""
 
 
 class Spacing(NamedTuple):

@@ -54,7 +54,7 @@ class Plate:
 class Pin:
     """A pin through layers `low` to `high`, at (x, y) of the plate of that name that holds it.
 
-    joins: the names of the plates that it joins.
+    joins: the names of the plates that it joins.  name: of the joint, where it has one.
     """
 
     plate: str
@@ -64,6 +64,7 @@ class Pin:
     low: int
     high: int
     joins: tuple[str, str]
+    name: str = ""
 
 
 def plate_of(

@@ -44,7 +44,7 @@ def six_bar_links(found: FoundSixBar) -> Links:
     for joint in JOINTS:
         one, two = (name for name, joints in SIX_BAR_PLATES.items() if joint in joints)
         on_ground = SIX_BAR_PLATES[GROUND].index(joint) if one == GROUND else None
-        hinges.append(Hinge(one, holes[one][joint], (one, two), on_ground))
+        hinges.append(Hinge(one, holes[one][joint], (one, two), on_ground, joint))
     lengths = found.lengths
     spacings = [
         Spacing(f"joints {a} and {b}", f"joints {a} and {b} are at one point", lengths[a + b])
