@@ -100,9 +100,9 @@ def test_the_files_of_a_six_bar(folder, result, capsys):
 
 def test_a_format_that_six_bars_do_not_have(folder, result):
     with pytest.raises(InputError) as refused:
-        result.export(folder / "bar.urdf")
+        result.export(folder / "bar.py")
     assert refused.value.code == "E198"
-    assert not (folder / "bar.urdf").exists()
+    assert not (folder / "bar.py").exists()
 
 
 def test_what_a_result_in_python_holds(result):

@@ -116,7 +116,9 @@ FORMATS: Final[Mapping[str, Format]] = {
         "solids.openscad", "OpenSCAD model, animated (mm)", ".scad", six_bars="solids.openscad"
     ),
     "mjcf": Format("models.mjcf", "MuJoCo model with a motor (m)", ".xml", six_bars="models.mjcf"),
-    "urdf": Format("models.urdf", "robot description; its loop is open (m)", ".urdf"),
+    "urdf": Format(
+        "models.urdf", "robot description; its loop is open (m)", ".urdf", six_bars="models.urdf"
+    ),
     "pylinkage": Format("pylinkage", "Python script for pylinkage", ".py"),
     "csv": Format(
         "tables",

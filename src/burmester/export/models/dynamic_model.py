@@ -107,12 +107,6 @@ class DynamicModel:
         )
 
     @property
-    def four_bar(self) -> Reference:
-        """The reference of a model of a four-bar."""
-        assert isinstance(self.reference, Reference)
-        return self.reference
-
-    @property
     def motor(self) -> int:
         """The number of the driver's joint."""
         return self.names.index(self.driver)

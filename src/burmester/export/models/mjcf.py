@@ -20,12 +20,12 @@ import numpy as np
 from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.models.bodies import Shape
+from burmester.export.models.body_tree import Body, Site, Tree, tree_of
 from burmester.export.models.driver_load import STANDARD_GRAVITY
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.export.models.mjcf_kinematics import frames_at
-from burmester.export.models.mjcf_tree import Body, Site, Tree, tree_of, xyz
 from burmester.export.models.servo import Servo
-from burmester.export.numbers import number, numbers_in
+from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, as_rows, require_equal
 from burmester.io.saved import SavedLinkage
@@ -68,14 +68,14 @@ def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
         f'  <compiler angle="radian" autolimits="true"{bound}/>',
         f'  <option timestep="{number(servo.time_step)}" gravity="{gravity}" '
         'integrator="implicitfast" solver="Newton" iterations="100" tolerance="0"/>',
-        f'  <statistic center="{xyz(middle)}" extent="{number(1.5 * reference.span)}"/>',
+        f'  <statistic center="{_xyz(middle)}" extent="{number(1.5 * reference.span)}"/>',
         "  <default>",  # limits, contacts and the loop as stiff as the time step lets them be
         f'    <joint solreflimit="{stiff}"/><geom solref="{stiff}"/>',
         f'    <site size="{number(SITE_SIZE * reference.span)}" rgba="0 0 0 1"/>',
         f'    <equality solref="{stiff}" solimp="0.9999 0.9999 0.001 0.5 2"/>',
         "  </default>",
         "  <worldbody>",
-        f'    <light pos="{xyz(middle, 3 * reference.span)}" dir="0 0 -1"/>',
+        f'    <light pos="{_xyz(middle, 3 * reference.span)}" dir="0 0 -1"/>',
         *_ground(model, tree.ground),
         *(f"    {line}" for each in tree.bodies for line in _body(model, each, start, servo)),
     ]
@@ -165,7 +165,6 @@ def _ground(model: DynamicModel, marks: Iterable[Site]) -> list[str]:
 
 def _body(model: DynamicModel, body: Body, start: FloatArray, servo: Servo) -> list[str]:
     """A body with all that is on it."""
-    turn = "" if body.turn is None else f' euler="0 0 {number(body.turn)}"'
     inside = [
         _joint(model, body, start, servo),
         *_solid(model, body.name),
@@ -173,7 +172,7 @@ def _body(model: DynamicModel, body: Body, start: FloatArray, servo: Servo) -> l
         *(line for each in body.children for line in _body(model, each, start, servo)),
     ]
     return [
-        f'<body name="{body.name}" pos="{xyz(body.at)}"{turn}>',
+        f'<body name="{body.name}" pos="{_xyz(body.at)}" euler="0 0 {number(body.turn)}">',
         *(f"  {each}" for each in inside),
         "</body>",
     ]
@@ -181,15 +180,18 @@ def _body(model: DynamicModel, body: Body, start: FloatArray, servo: Servo) -> l
 
 def _site(site: Site) -> str:
     name = f' name="{site.name}"' if site.name else ""
-    return f'<site{name} pos="{xyz(site.at)}"/>'
+    return f'<site{name} pos="{_xyz(site.at)}"/>'
 
 
 def _joint(model: DynamicModel, body: Body, start: FloatArray, servo: Servo) -> str:
     """The joint of a body."""
     index = model.names.index(body.name)
+    joint = f'type="hinge" axis="0 0 1" pos="{_xyz(body.axis)}"'
+    if body.slide is not None:
+        joint = f'type="slide" axis="{_xyz(body.slide)}"'
     more = f' armature="{number(servo.armature)}"' if body.name == model.driver else ""
     return (
-        f'<joint name="{body.name}" {body.joint} ref="{number(start[index])}" '
+        f'<joint name="{body.name}" {joint} ref="{number(start[index])}" '
         f'range="{number(model.low[index])} {number(model.high[index])}" '
         f'damping="{number(model.damping()[index])}"{more}/>'
     )
@@ -220,6 +222,10 @@ def _geoms(shapes: list[Shape], owner: str, more: str = "") -> list[str]:
             f'rgba="{COLOURS[owner]}"{more}/>'
         )
     return lines
+
+
+def _xyz(point: FloatArray, z: float = 0.0) -> str:
+    return f"{xy(point)} {number(z)}"
 
 
 def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
