@@ -22,10 +22,10 @@ FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
         openscad       a model with its numbers on top, animated
         mjcf, urdf     for simulation (MuJoCo; robots)
         gif, mp4       the motion
-        csv, json      the coupler's places; the linkage itself
+        csv, json      the coupler's places, or all joints; the linkage itself
         pylinkage      a Python script
 
-Six-bars have all of these but urdf and pylinkage.
+Six-bars have all of these but pylinkage.
 
 Every file is read back and compared with the linkage before it gets its name.
 Lengths are in the unit of the poses."""
