@@ -33,8 +33,9 @@ HOLES = {
     "floating-link": "GH",
     "body-link": "EH",
 }
-# One with plates of one layer beside each other, one with a second ground, one that turns fully.
-NAMES = ("turning", "second ground", "full turn")
+# One with plates of one layer beside each other, one with a second ground, one that turns fully,
+# one whose coupler is an angle.
+NAMES = ("turning", "second ground", "full turn", "angle")
 
 
 @cache
@@ -43,6 +44,7 @@ def six_bar(name):
         "turning": (task(TURNING, length_unit="mm"), 0),
         "second ground": (wandering(5), 2),
         "full turn": (wandering(6), 1),
+        "angle": (wandering(4), 0),
     }[name]
     found = synthesize_six_bars(given, SixBarOptions(chains=400, most=3)).six_bars.found
     return SavedSixBar(found[number], given)
@@ -72,6 +74,7 @@ def test_plates_are_the_links_and_never_meet(name):
     chosen = six_bar(name)
     made = assembly_of(chosen, Options())
     assert (made.plate("ground-2") is not None) == (name == "second ground")
+    assert (made.plate("coupler").corner is not None) == (name == "angle")
     at = joints_at(chosen, np.linspace(chosen.found.drive[0], chosen.found.drive[-1], 400))
     size, radius = max(dimensions(chosen.found.linkage).values()), made.dimensions.width / 2
     held = {
@@ -177,7 +180,20 @@ def test_the_model_in_openscad(tmp_path):
             assert abs(there - at[joint]).max() < 1e-7
 
 
-@pytest.mark.parametrize("name", NAMES[:2])
+def weights(made):
+    """What moving links weigh in aluminium, by the areas of polygons: kg."""
+    step, found = made.dimensions.thickness + made.dimensions.gap, {}
+    for plate in made.plates:
+        area = Polygon(outline_points(plate, 1e-5 * plate.radius)).area
+        area -= np.pi / 4 * (plate.holes[:, 2] ** 2).sum()
+        found[plate.name] = area * made.dimensions.thickness
+    for pin in made.pins:
+        height = (pin.high - pin.low) * step + made.dimensions.thickness
+        found[pin.plate] += np.pi / 4 * pin.diameter**2 * height
+    return {link: 2700e-9 * found[link] for link in HOLES if link != "ground"}
+
+
+@pytest.mark.parametrize("name", ["turning", "angle"])
 def test_a_motor_takes_the_model_through_the_poses(name, tmp_path):
     chosen = six_bar(name)
     export(chosen, "mjcf", tmp_path / "a.xml")
@@ -185,6 +201,8 @@ def test_a_motor_takes_the_model_through_the_poses(name, tmp_path):
     data = mujoco.MjData(model)
     assert model.neq == 2
     wanted, size = chosen.task.poses, chosen.found.extent / 1000
+    for link, mass in weights(assembly_of(chosen, Options())).items():
+        assert model.body(link).mass[0] == pytest.approx(mass, rel=1e-4)
 
     def missed(pose):
         body = data.site("body")

@@ -89,8 +89,7 @@ def shapes(body: BodyParts, made: Assembly) -> list[Shape]:
         low, high = _inset(plate, made)
         middle, height, width = (low + high) / 2, high - low, 2 * plate.radius * METRES
         corners = plate.skeleton * METRES
-        sides = list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
-        for one, two in sides if len(corners) > 2 else sides[: len(corners) - 1]:
+        for one, two in _sides(plate):
             way, centre = two - one, np.append((one + two) / 2, middle)
             size = (float(np.linalg.norm(way)), width, height)
             found.append(Shape("box", centre, math.atan2(way[1], way[0]), size))
@@ -103,6 +102,16 @@ def shapes(body: BodyParts, made: Assembly) -> list[Shape]:
         thick = pin.diameter * METRES
         found.append(Shape("cylinder", centre, 0.0, (thick, thick, high - low)))
     return found
+
+
+def _sides(plate: Plate) -> list[tuple[FloatArray, FloatArray]]:
+    """The sides of a plate's pieces, from corner to corner, metres."""
+    sides = list[tuple[FloatArray, FloatArray]]()
+    for piece in plate.pieces:
+        corners = piece * METRES
+        own = list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
+        sides += own if len(corners) > 2 else own[: len(corners) - 1]
+    return sides
 
 
 def rim(corners: FloatArray, made: Assembly) -> list[Shape]:

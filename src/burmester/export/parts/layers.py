@@ -1,15 +1,17 @@
 """Which layer each plate lies in, so that none is in the way of another along the motion.
 
 Of the arrangements that a linkage has the first is taken in which no two links meet in one layer,
-no pin is in a link's way, and the ground has room for its holes.
+no pin is in a link's way, and the ground has room for its holes.  Where there is none, one link of
+three corners is made an angle, so that pins have room between its arms.
 
 E163 a linkage that plates cannot hold
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,12 +33,12 @@ def arranged(links: Links, made: Dimensions) -> tuple[tuple[Plate, ...], tuple[P
     apart = distance(*links.features[GROUND]) >= made.hole * (1 + WALL)
     workshop = _Workshop(links, made)
     meetings = _Meetings(links.motion, made)
-    for each in links.arrangements:
-        if len(set(each.grounds)) == 1 and not apart:
-            continue
-        plates, pins = workshop.plates(each), workshop.pins(each)
-        if not meetings.any(plates, pins):
-            return plates, pins
+    arrangements = [each for each in links.arrangements if len(set(each.grounds)) == 2 or apart]
+    for bent in workshop.bends():
+        for each in arrangements:
+            plates, pins = workshop.plates(each, bent), workshop.pins(each)
+            if not meetings.any(plates, pins):
+                return plates, pins
     raise InputError(
         "E163",
         "this linkage cannot be made of flat plates in layers",
@@ -45,32 +47,53 @@ def arranged(links: Links, made: Dimensions) -> tuple[tuple[Plate, ...], tuple[P
     )
 
 
+class Bend(NamedTuple):
+    """A link that is an angle, and the number of its corner."""
+
+    link: str
+    corner: int
+
+
 class _Workshop:
     """Makes the plates and pins of arrangements; a plate that is made only changes its layer."""
 
     def __init__(self, links: Links, made: Dimensions) -> None:
         self._links = links
         self._made = made
-        self._plates: dict[tuple[str, tuple[int, ...]], Plate] = {}
+        self._plates: dict[tuple[str, tuple[int, ...], int | None], Plate] = {}
 
-    def plates(self, arrangement: Arrangement) -> tuple[Plate, ...]:
+    def bends(self) -> Iterator[Bend | None]:
+        """Which link is an angle, and at which corner: none at first."""
+        yield None
+        for name, features in self._links.features.items():
+            if name != GROUND:
+                for corner in range(3):
+                    bend = Bend(name, corner)
+                    plate = self._plate(name, name, tuple(range(len(features))), 0, bend)
+                    if plate.corner is not None:
+                        yield bend
+
+    def plates(self, arrangement: Arrangement, bent: Bend | None) -> tuple[Plate, ...]:
         """The plates, those of the ground first."""
         plates = []
         for name, features in self._links.features.items():
             if name != GROUND:
                 held = tuple(range(len(features)))
-                plates.append(self._plate(name, name, held, arrangement.layers[name]))
+                plates.append(self._plate(name, name, held, arrangement.layers[name], bent))
                 continue
             for layer, plate in _grounds(arrangement).items():
                 held = tuple(k for k, own in enumerate(arrangement.grounds) if own == layer)
-                plates.append(self._plate(plate, name, held, layer))
+                plates.append(self._plate(plate, name, held, layer, bent))
         return tuple(plates)
 
-    def _plate(self, name: str, owner: str, held: tuple[int, ...], layer: int) -> Plate:
+    def _plate(
+        self, name: str, owner: str, held: tuple[int, ...], layer: int, bent: Bend | None
+    ) -> Plate:
         links, made = self._links, self._made
-        if (name, held) not in self._plates:
+        corner = bent.corner if bent is not None and bent.link == name else None
+        if (name, held, corner) not in self._plates:
             fixed, moving = links.arms.get(owner, (None, None))
-            self._plates[name, held] = plate_of(
+            self._plates[name, held, corner] = plate_of(
                 [links.features[owner][k] for k in held],
                 name=name,
                 owner=owner,
@@ -80,8 +103,9 @@ class _Workshop:
                 mark=owner == links.body,
                 fixed=fixed,
                 moving=moving,
+                corner=corner,
             )
-        return replace(self._plates[name, held], layer=layer)
+        return replace(self._plates[name, held, corner], layer=layer)
 
     def pins(self, arrangement: Arrangement) -> tuple[Pin, ...]:
         """The pins, as long as the layers ask for."""
@@ -136,27 +160,34 @@ class _Meetings:
     def _plates(self, one: Plate, two: Plate) -> bool:
         key = (*_key(one), *_key(two))
         if key not in self._known:
-            first, second = self._placed(one.skeleton, one), self._placed(two.skeleton, two)
-            gap = distances(first, second)
-            self._known[key] = bool((gap < one.radius + two.radius + self._clear).any())
+            least = one.radius + two.radius + self._clear
+            self._known[key] = self._near(one, one.pieces, two, least)
         return self._known[key]
 
     def _pin(self, pin: Pin, plate: Plate, plates: Sequence[Plate]) -> bool:
         key = (pin.x, pin.y, pin.plate, *_key(plate))
         if key not in self._known:
             holder = next(each for each in plates if each.name == pin.plate)
-            at = self._placed(np.array([[pin.x, pin.y]]), holder)
-            gap = distances(at, self._placed(plate.skeleton, plate))
             least = pin.diameter / 2 + plate.radius + self._clear
-            self._known[key] = bool((gap < least).any())
+            at = (np.array([[pin.x, pin.y]]),)
+            self._known[key] = self._near(holder, at, plate, least)
         return self._known[key]
 
-    def _placed(self, points: FloatArray, plate: Plate) -> FloatArray:
-        """Points (k, 2) of a plate along the motion (n,): (n, k, 2)."""
-        places: Displacement = plate.at(self._motion)
-        return places[:, None].act(points[None])
+    def _near(self, one: Plate, shapes: Sequence[FloatArray], two: Plate, least: float) -> bool:
+        """Whether shapes of one plate ever come nearer to the pieces of another than that."""
+        here, there = one.at(self._motion), two.at(self._motion)
+        return any(
+            bool((distances(_placed(a, here), _placed(b, there)) < least).any())
+            for a in shapes
+            for b in two.pieces
+        )
 
 
-def _key(plate: Plate) -> tuple[str, int]:
-    """What tells plates apart: the ground may be one plate or two."""
-    return plate.name, len(plate.skeleton)
+def _placed(points: FloatArray, places: Displacement) -> FloatArray:
+    """Points (k, 2) at places (n,): (n, k, 2)."""
+    return places[:, None].act(points[None])
+
+
+def _key(plate: Plate) -> tuple[object, ...]:
+    """What tells plates apart: the ground may be one plate or two, a link an angle."""
+    return plate.name, len(plate.skeleton), plate.corner

@@ -47,10 +47,10 @@ COLOURS = {
     "body_link": "MediumPurple",
 }
 MODULES = """
-// A plate around points, with round holes and slots [x1, y1, x2, y2].
-module plate(points, holes, slots) {
+// A plate around pieces of points, with round holes and slots [x1, y1, x2, y2].
+module plate(pieces, holes, slots) {
   linear_extrude(thickness) difference() {
-    hull() for (p = points) translate(p) circle(d = width);
+    union() for (points = pieces) hull() for (p = points) translate(p) circle(d = width);
     for (h = holes) translate(h) circle(d = hole);
     for (s = slots) hull() {
       translate([s[0], s[1]]) circle(d = hole);
@@ -111,7 +111,7 @@ def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
             ]
         else:
             lines += [
-                f"{name}_points = {_list(plate.skeleton)};",
+                f"{name}_pieces = [{', '.join(map(_list, plate.pieces))}];",
                 f"{name}_holes = {_list(plate.holes[:, :2])};",
                 f"{name}_slots = {_list(plate.slots[:, :4])};",
             ]
@@ -144,9 +144,9 @@ def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
     for plate in assembly.plates:
         name = plate.name.replace("-", "_")
         if plate.fixed is None:
-            body = f"plate({name}_points, {name}_holes, {name}_slots);"
+            body = f"plate({name}_pieces, {name}_holes, {name}_slots);"
         else:
-            body = f"plate([[0, 0], [{name}_length, 0]], [[0, 0], [{name}_length, 0]], []);"
+            body = f"plate([[[0, 0], [{name}_length, 0]]], [[0, 0], [{name}_length, 0]], []);"
         lines.append(f"module {name}() {{ {body} }}")
     path.write_text("\n".join([*lines, "", *shown, ""]), encoding="utf-8", newline="\n")
 
