@@ -12,7 +12,7 @@ import imageio_ffmpeg
 import numpy as np
 import pytest
 from PIL import Image
-from shapely import Point, Polygon
+from shapely import LineString, MultiPoint, Point, Polygon
 
 from burmester.errors import InputError
 from burmester.export import SIX_BAR_FORMATS, Options, export
@@ -83,6 +83,16 @@ def test_plates_are_the_links_and_never_meet(name):
     }
     for plate in made.plates:
         assert set(held[plate.name]) <= set(HOLES[plate.owner])
+        points = np.concatenate([plate.holes[:, :2], plate.marks])
+        core = MultiPoint(points).convex_hull
+        if plate.corner is not None:  # two arms
+            at_corner = np.linalg.norm(points - plate.skeleton[plate.corner], axis=1).argmin()
+            ends = np.delete(points, at_corner, axis=0)
+            core = LineString([ends[0], points[at_corner], ends[1]])
+        outline = Polygon(outline_points(plate, 1e-3 * radius))
+        assert outline.is_valid
+        away = outline.symmetric_difference(core.buffer(radius, quad_segs=64, join_style="round"))
+        assert away.area < 1e-2 * radius**2
     assert sum(map(len, held.values())) == 14
     for k in range(0, 400, 21):
         shapes = {}
