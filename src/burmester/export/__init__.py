@@ -53,8 +53,6 @@ class Format:
         The extra of `pip install "burmester[extra]"` that it needs.
     libraries : tuple of str
         The libraries of that extra that it imports.
-    six_bars : str or None
-        The module that writes it for six-bars; None where they do not have it.
     """
 
     module: str
@@ -62,7 +60,6 @@ class Format:
     suffix: str
     extra: str | None = None
     libraries: tuple[str, ...] = ()
-    six_bars: str | None = None
 
 
 FORMATS: Final[Mapping[str, Format]] = {
@@ -72,13 +69,9 @@ FORMATS: Final[Mapping[str, Format]] = {
         ".dxf",
         "export",
         ("ezdxf",),
-        "drawings.dxf",
     ),
     "svg": Format(
-        "drawings.svg",
-        "the same drawing, 1:1, for printing and laser cutting (mm)",
-        ".svg",
-        six_bars="drawings.svg",
+        "drawings.svg", "the same drawing, 1:1, for printing and laser cutting (mm)", ".svg"
     ),
     "pdf": Format(
         "drawings.pdf",
@@ -86,15 +79,9 @@ FORMATS: Final[Mapping[str, Format]] = {
         ".pdf",
         "export",
         ("matplotlib",),
-        "drawings.pdf",
     ),
     "step": Format(
-        "solids.solid",
-        "solid parts in their places (mm)",
-        ".step",
-        "solid",
-        ("build123d",),
-        "solids.solid",
+        "solids.solid", "solid parts in their places (mm)", ".step", "solid", ("build123d",)
     ),
     "stl": Format(
         "solids.solid",
@@ -102,45 +89,22 @@ FORMATS: Final[Mapping[str, Format]] = {
         ".stl",
         "solid",
         ("build123d",),
-        "solids.solid",
     ),
     "flat": Format(
-        "solids.solid",
-        "the same; --to stl does it now (STL, mm)",
-        ".stl",
-        "solid",
-        ("build123d",),
-        "solids.solid",
+        "solids.solid", "the same; --to stl does it now (STL, mm)", ".stl", "solid", ("build123d",)
     ),
-    "openscad": Format(
-        "solids.openscad", "OpenSCAD model, animated (mm)", ".scad", six_bars="solids.openscad"
-    ),
-    "mjcf": Format("models.mjcf", "MuJoCo model with a motor (m)", ".xml", six_bars="models.mjcf"),
-    "urdf": Format(
-        "models.urdf", "robot description; its loop is open (m)", ".urdf", six_bars="models.urdf"
-    ),
+    "openscad": Format("solids.openscad", "OpenSCAD model, animated (mm)", ".scad"),
+    "mjcf": Format("models.mjcf", "MuJoCo model with a motor (m)", ".xml"),
+    "urdf": Format("models.urdf", "robot description; its loop is open (m)", ".urdf"),
     "pylinkage": Format("pylinkage", "Python script for pylinkage", ".py"),
-    "csv": Format(
-        "tables",
-        "table of the coupler's places along the motion",
-        ".csv",
-        six_bars="six_bar_tables",
-    ),
-    "json": Format("tables", "the linkage as JSON", ".json", six_bars="six_bar_tables"),
-    "gif": Format(
-        "films.movie", "moving picture", ".gif", "export", ("PIL", "matplotlib"), "films.movie"
-    ),
-    "mp4": Format(
-        "films.movie",
-        "film",
-        ".mp4",
-        "export",
-        ("imageio_ffmpeg", "matplotlib"),
-        "films.movie",
-    ),
+    "csv": Format("tables", "table of the coupler's places along the motion", ".csv"),
+    "json": Format("tables", "the linkage as JSON", ".json"),
+    "gif": Format("films.movie", "moving picture", ".gif", "export", ("PIL", "matplotlib")),
+    "mp4": Format("films.movie", "film", ".mp4", "export", ("imageio_ffmpeg", "matplotlib")),
 }
 
-SIX_BAR_FORMATS: Final = tuple(name for name, each in FORMATS.items() if each.six_bars)
+SIX_BAR_FORMATS: Final = tuple(name for name in FORMATS if name != "pylinkage")
+SIX_BAR_MODULES: Final = {"tables": "six_bar_tables"}  # that write other files of six-bars
 PACKAGES: Final = {"PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}  # module: what pip calls it
 
 
@@ -230,14 +194,16 @@ def export(
     """
     name = require_format(path, to)
     form = FORMATS[name]
-    writer = form.six_bars if isinstance(chosen, SavedSixBar) else form.module
-    if writer is None:
-        raise InputError(
-            "E198",
-            f"a six-bar cannot be written as {name}: {form.what}",
-            why=f"the formats of six-bars are {listed(SIX_BAR_FORMATS)}",
-            help="give --to csv, or another of these",
-        )
+    writer = form.module
+    if isinstance(chosen, SavedSixBar):
+        writer = SIX_BAR_MODULES.get(writer, writer)
+        if name not in SIX_BAR_FORMATS:
+            raise InputError(
+                "E198",
+                f"a six-bar cannot be written as {name}: {form.what}",
+                why=f"the formats of six-bars are {listed(SIX_BAR_FORMATS)}",
+                help="give --to csv, or another of these",
+            )
     try:
         for library in form.libraries:
             step(f"loading {library}")
