@@ -285,8 +285,8 @@ def marks(pictures):
 @pytest.mark.parametrize(("name", "suffix"), [("turning", "mp4"), ("full turn", "gif")])
 def test_films_show_the_driver_going_its_way(name, suffix, tmp_path):
     chosen = six_bar(name)
-    path = tmp_path / f"a.{suffix}"
-    export(chosen, None, path, Options(seconds=1.2, frames_per_second=10, width_px=240))
+    path = tmp_path / "film"  # whose name tells no format
+    export(chosen, suffix, path, Options(seconds=1.2, frames_per_second=10, width_px=240))
     if suffix == "mp4":
         program = imageio_ffmpeg.get_ffmpeg_exe()
         raw = subprocess.run(

@@ -61,6 +61,8 @@ def write_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) 
         ffmpeg_log_level="quiet",  # it would write to the user's screen; the file is checked
         # One thread and no version in it, so that the same film has the same bytes.
         output_params=[
+            "-f",  # whatever the file is called
+            "mp4",
             "-crf",
             "16",
             "-preset",
