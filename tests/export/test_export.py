@@ -109,8 +109,9 @@ def test_holes_meet_all_along_the_motion(name):
     # The places of the result are on that motion.
     for k in range(6):
         d, turn = complex_places(chosen, made.scale)
-        away = np.abs(made.motion.translation @ [1, 1j] - d[k])
-        away += made.scale * np.abs(np.exp(1j * made.motion.angle) - turn[k])
+        motion = made.motion["coupler"]
+        away = np.abs(motion.translation @ [1, 1j] - d[k])
+        away += made.scale * np.abs(np.exp(1j * motion.angle) - turn[k])
         assert away.min() <= 100 * near
 
 

@@ -1369,9 +1369,9 @@ CASES: dict[str, Case] = {
         "E196", f"{S} {SIX} 50 --type double-crank", Args(f"{S} {SIX} 50"), GOOD
     ),
     "chains of four-bars": Case("E197", f"{S} --chains 50", Args(f"{S} {SIX} 50"), GOOD),
-    "a six-bar as plates": Case(
+    "a six-bar as a script": Case(
         "E198",
-        "export six.json -o a.dxf",
+        "export six.json -o a.py",
         lambda help: Args("export six.json -o a.csv " + re.search(r"--to \w+", help)[0]),
         {"six.json": lambda: six_bars(FIVE)},
     ),

@@ -74,7 +74,7 @@ def test_the_files_of_a_six_bar(folder, result, capsys):
         words = ["--seconds", "0.3", "--pixels", "200"] if name.endswith("gif") else []
         code, out, _ = run(capsys, "export", saved, "-o", folder / name, *words)
         assert code == 0
-        assert "S1, a six-bar; read back and verified" in out
+        assert "S1, Watt I six-bar; read back and verified" in out
     with open(folder / "motion.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     bars = dimensions(best.linkage)
@@ -100,9 +100,9 @@ def test_the_files_of_a_six_bar(folder, result, capsys):
 
 def test_a_format_that_six_bars_do_not_have(folder, result):
     with pytest.raises(InputError) as refused:
-        result.export(folder / "bar.dxf")
+        result.export(folder / "bar.py")
     assert refused.value.code == "E198"
-    assert not (folder / "bar.dxf").exists()
+    assert not (folder / "bar.py").exists()
 
 
 def test_what_a_result_in_python_holds(result):

@@ -16,8 +16,7 @@ from burmester.api.synthesize import require_callable, task_of
 from burmester.api.table import plain_html
 from burmester.describe import six_bar_words
 from burmester.errors import Advice, InputError
-from burmester.export.options import Options
-from burmester.export.six_bars import export_six_bar
+from burmester.export import Options, export
 from burmester.geometry.displacement import Displacement
 from burmester.io import files
 from burmester.io.result import json_line, synthesis_data
@@ -116,14 +115,14 @@ class SixBarResult:
         force: bool = False,
         **options: Any,
     ) -> Path:
-        """Write a six-bar as svg, gif, csv or json, and read the file back.
+        """Write a six-bar for another program, and read the file back; see `burmester.export`.
 
-        options: those of `burmester.export.Options` that a drawing or a film has, such as
-        seconds=4.  Raises E140, E141, E151, E161, E162, E198.
+        options: those of `burmester.export.Options`, such as hole=4 or seconds=4.  Raises E130,
+        E140, E141, E151, E161, E162, E163, E198.
         """
         chosen = SavedSixBar(self[six_bar], self.task)
         with in_python_words():
-            [written] = export_six_bar(chosen, to, path, Options(**options), force)
+            [written] = export(chosen, to, path, Options(**options), force)
         return written
 
     def to_json(self) -> str:

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from burmester.cli.output import EXIT_FOUND
+
+if TYPE_CHECKING:
+    from burmester.io.saved import SavedLinkage
+    from burmester.io.saved_six_bars import SavedSixBar
 
 __all__ = ["export"]
 
@@ -18,10 +22,10 @@ FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
         openscad       a model with its numbers on top, animated
         mjcf, urdf     for simulation (MuJoCo; robots)
         gif, mp4       the motion
-        csv, json      the coupler's places; the linkage itself
+        csv, json      the coupler's places, or all joints; the linkage itself
         pylinkage      a Python script
 
-Six-bars: svg (a drawing at the poses), gif, csv, json.
+Six-bars have all of these but pylinkage.
 
 Every file is read back and compared with the linkage before it gets its name.
 Lengths are in the unit of the poses."""
@@ -111,20 +115,15 @@ def export(
 
     name = require_format(output, to)
     require_writable(output, force=force, source=result)
+    chosen: SavedLinkage | SavedSixBar
     with working("reading the result"):
         data = read_source(result)
         if is_function_result(data):
             chosen = export_choice(data, result, linkage)
         else:
             read = read_result(result, data)
-            if (six_bar := read.choose_six_bar(linkage)) is not None:
-                from burmester.export.six_bars import export_six_bar
-
-                [path] = export_six_bar(six_bar, name, output, Options(**options), force)
-                told = f"{six_bar.id}, a six-bar; read back and verified"
-                click.echo(f"wrote {printable(str(path))}: {told}")
-                return EXIT_FOUND
-            chosen = read.choose(linkage)
+            six_bar = read.choose_six_bar(linkage)
+            chosen = read.choose(linkage) if six_bar is None else six_bar
         paths = run(chosen, name, output, Options(**options), force)
     for path in paths:
         click.echo(

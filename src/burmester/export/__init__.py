@@ -3,9 +3,9 @@
 A format is a module of this room with `write(chosen, path, options)` and
 `check(chosen, path, options)`, or `write_<name>` and `check_<name>` where one module has several.
 Every file is read back before it gets its name; a file that does not contain the linkage is
-deleted.
+deleted.  Four-bars and six-bars go the same way.
 
-E161 no such format        E130 a library is missing
+E161 no such format        E130 a library is missing        E198 none of six-bars
 """
 
 from __future__ import annotations
@@ -21,9 +21,19 @@ from burmester.errors import InputError
 from burmester.export.options import Options
 from burmester.io.files import atomic_file
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.progress import step
+from burmester.wording import listed
 
-__all__ = ["FORMATS", "Format", "Options", "export", "format_of", "require_format"]
+__all__ = [
+    "FORMATS",
+    "SIX_BAR_FORMATS",
+    "Format",
+    "Options",
+    "export",
+    "format_of",
+    "require_format",
+]
 
 
 @final
@@ -93,6 +103,8 @@ FORMATS: Final[Mapping[str, Format]] = {
     "mp4": Format("films.movie", "film", ".mp4", "export", ("imageio_ffmpeg", "matplotlib")),
 }
 
+SIX_BAR_FORMATS: Final = tuple(name for name in FORMATS if name != "pylinkage")
+SIX_BAR_MODULES: Final = {"tables": "six_bar_tables"}  # that write other files of six-bars
 PACKAGES: Final = {"PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}  # module: what pip calls it
 
 
@@ -135,7 +147,7 @@ def require_format(path: str | os.PathLike[str], to: str | None = None) -> str:
 
 
 def export(
-    chosen: SavedLinkage,
+    chosen: SavedLinkage | SavedSixBar,
     to: str | None,
     path: str | os.PathLike[str],
     options: Options = Options(),  # noqa: B008  frozen
@@ -145,7 +157,7 @@ def export(
 
     Parameters
     ----------
-    chosen : SavedLinkage
+    chosen : SavedLinkage or SavedSixBar
         The linkage.
     to : str or None
         A key of `FORMATS`; None leaves the choice to the suffix of `path`.
@@ -165,7 +177,7 @@ def export(
     ------
     InputError
         E130 (a library is missing), E140 and E141 (the file), E161 (no such format), E162 and E163
-        (the linkage does not suit the format).
+        (the linkage does not suit the format), E198 (a format that six-bars do not have).
     BurmesterError
         E160 where the written file does not contain the linkage.
 
@@ -182,11 +194,21 @@ def export(
     """
     name = require_format(path, to)
     form = FORMATS[name]
+    writer = form.module
+    if isinstance(chosen, SavedSixBar):
+        writer = SIX_BAR_MODULES.get(writer, writer)
+        if name not in SIX_BAR_FORMATS:
+            raise InputError(
+                "E198",
+                f"a six-bar cannot be written as {name}: {form.what}",
+                why=f"the formats of six-bars are {listed(SIX_BAR_FORMATS)}",
+                help="give --to csv, or another of these",
+            )
     try:
         for library in form.libraries:
             step(f"loading {library}")
             import_module(library)
-        module = import_module(f"burmester.export.{form.module}")
+        module = import_module(f"burmester.export.{writer}")
     except ModuleNotFoundError as error:
         missing = (error.name or "a library").partition(".")[0]
         missing = PACKAGES.get(missing, missing)

@@ -10,6 +10,7 @@ from typing import final
 
 from burmester.errors import InputError
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 
 __all__ = ["MILLIMETRES", "Options", "unit_of"]
 
@@ -60,7 +61,7 @@ class Options:
     width_px: int = 800
 
 
-def unit_of(chosen: SavedLinkage, options: Options) -> str:
+def unit_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> str:
     """The unit of the linkage's lengths, a key of `MILLIMETRES`; raises E162."""
     known = ", ".join(MILLIMETRES)
     own, stated = chosen.unit, options.unit

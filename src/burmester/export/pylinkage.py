@@ -16,11 +16,12 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.export.description import description
 from burmester.export.escaping import python_docstring
 from burmester.export.models.joints import JointMotion, directions, ground_joint
 from burmester.export.numbers import number
 from burmester.export.options import Options
-from burmester.export.reference import PRECISION, Reference, description, require_equal
+from burmester.export.reference import PRECISION, Reference, require_equal
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 

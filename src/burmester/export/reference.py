@@ -12,28 +12,18 @@ from typing import final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.describe.decimals import Decimals, decimals_of_linkage
-from burmester.describe.dimensions import dimensions_of
 from burmester.errors import BurmesterError, InputError
 from burmester.export.options import MILLIMETRES, Options, unit_of
-from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
-from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.pose_error import PoseError
+from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.tolerance_boxes import poses_counted
-from burmester.tasks.length_per_radian import default_length_per_radian
-from burmester.tasks.motion_task import characteristic_length
-from burmester.wording import with_article
 
 __all__ = [
     "PRECISION",
     "Reference",
     "as_rows",
-    "description",
-    "dimension_notes",
-    "printed_decimals",
     "require_equal",
     "require_places",
 ]
@@ -175,78 +165,3 @@ def as_rows(places: Displacement) -> FloatArray:
         [places.translation, np.cos(places.angle)[..., None], np.sin(places.angle)[..., None]],
         axis=-1,
     )
-
-
-def description(chosen: SavedLinkage, options: Options, unit: str | None) -> list[str]:
-    """Sentences on what a file holds, for its head; unit: of its lengths, None for the task's."""
-    number = chosen.error.places.shape[0]
-    own = unit_of(chosen, options)
-    worst = float(chosen.error.position.max())
-    named = f" {own}" if unit is not None or chosen.unit or options.unit else ""
-    sentences = [
-        f"Linkage {chosen.id}, {with_article(chosen.type)}, for {number} poses.",
-        f"Its driver is {chosen.ids[0]} ({type(chosen.linkage.first).__name__}), and "
-        f"{chosen.ids[1]} ({type(chosen.linkage.second).__name__}) follows.",
-        f"The coupler comes within {worst:.3g}{named} of every pose.",
-    ]
-    if not chosen.usable:
-        sentences.append("It is not usable as it is: it cannot go from pose to pose in one motion.")
-    if unit is None:
-        unit_stated = chosen.unit or options.unit
-        sentences.append(
-            f"Lengths are in {unit_stated}." if unit_stated else "The task names no unit of length."
-        )
-        return sentences
-    if own == unit or chosen.unit is None:
-        sentences.append(f"Lengths are in {unit}.")
-    else:
-        sentences.append(f"Lengths are in {unit}; the task's are in {own}.")
-    if chosen.unit is None:
-        sentences.append(
-            f"The task names no unit of length: one of its units is taken for 1 {own}"
-            + (f", as --unit {own} states." if options.unit else "; --unit states another.")
-        )
-    return sentences
-
-
-def printed_decimals(chosen: SavedLinkage, options: Options) -> tuple[Linkage, Decimals]:
-    """The linkage in millimetres, and with how many decimals its dimensions keep its error."""
-    own = Reference.of(chosen, options)
-    size = characteristic_length(chosen.task) * own.scale
-    linkage = Linkage(
-        *(_scaled(each, own.scale) for each in (chosen.linkage.first, chosen.linkage.second))
-    )
-    error = PoseError.at(own.places, own.poses)
-    length = default_length_per_radian(chosen.task) * own.scale
-    free = chosen.task.free_angles
-    return linkage, decimals_of_linkage(linkage, own.poses, error, length, size, free_angles=free)
-
-
-def dimension_notes(chosen: SavedLinkage, options: Options) -> list[str]:
-    """The dimensions of both dyads in millimetres, a line each, and what a builder gets of them."""
-    linkage, decimals = printed_decimals(chosen, options)
-    rows = dimensions_of((linkage.first, linkage.second), chosen.ids, decimals)
-    notes = []
-    for name in chosen.ids:
-        parts = ", ".join(f"{row.what} {row.value}" for row in rows if row.dyad == name)
-        notes.append(f"{name}: {parts}.")
-    position, angle = decimals.error
-    if math.isfinite(position):
-        turned = math.degrees(angle)
-        notes.append(
-            f"Built to these digits, it comes within {position:.2g} mm and {turned:.2g}° of them."
-        )
-    return notes
-
-
-def _scaled(dyad: Dyad, scale: float) -> Dyad:
-    """A dyad in another unit of length, `scale` of them for one."""
-    match dyad:
-        case RR():
-            return RR(dyad.fixed_pivot * scale, dyad.moving_pivot * scale, dyad.radius * scale)
-        case PR():
-            return PR(dyad.normal_angle, dyad.offset * scale, dyad.moving_pivot * scale)
-        case RP():
-            return RP(dyad.fixed_pivot * scale, dyad.normal_angle, dyad.offset * scale)
-        case PP():
-            return dyad

@@ -15,6 +15,7 @@ from burmester.errors import InputError
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved_model import WrittenSixBar, WrittenSixBars
+from burmester.io.six_bar_data import TYPE
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.motion import poses_of
@@ -40,6 +41,21 @@ class SavedSixBar:
     def id(self) -> str:
         """Its name: S1, S2, ..."""
         return self.found.id
+
+    @property
+    def type(self) -> str:
+        """What it is, in words."""
+        return TYPE
+
+    @property
+    def unit(self) -> str | None:
+        """The unit of lengths."""
+        return self.task.length_unit
+
+    @property
+    def usable(self) -> bool:
+        """Whether it goes from pose to pose in one motion: every six-bar of a result does."""
+        return True
 
 
 def saved_six_bars(written: WrittenSixBars, task: Task) -> tuple[SavedSixBar, ...]:

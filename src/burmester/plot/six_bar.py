@@ -27,14 +27,13 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["JOINTS_ID", "limits_of", "six_bar", "six_bar_figure"]
+__all__ = ["limits_of", "six_bar", "six_bar_figure"]
 
 # The links of three joints, and the body, each with its colour; the body ends at its origin.
 PLATES = {"CDE": ORANGE, "BDG": GREEN, "EH": BLUE}
 BARS = ("AC", "GH")
 FAINT_INK = "#aab3bd"
 GROUND = 0.035  # of the size of the picture: the triangle at a pivot on the ground
-JOINTS_ID = "joints"  # of their markers, in a drawing
 STEPS = 201  # places along the path of the body's origin
 
 
@@ -82,9 +81,7 @@ def six_bar(
     for pivot in (at["A"], at["B"]):
         foot = pivot + size * np.array([[0, 0], [-0.8, -1.4], [0.8, -1.4]])
         ax.add_patch(Polygon(foot, facecolor="white", edgecolor=GREY, lw=1, zorder=3.0))
-    ax.plot(
-        *every.T, "o", ms=4.5, mfc="white", mec=BLACK, mew=1.1, ls="", zorder=3.8, gid=JOINTS_ID
-    )
+    ax.plot(*every.T, "o", ms=4.5, mfc="white", mec=BLACK, mew=1.1, ls="", zorder=3.8)
     if names:
         for name, place in at.items():
             label(ax, name, place)

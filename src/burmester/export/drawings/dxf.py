@@ -17,23 +17,25 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import BurmesterError
+from burmester.export.description import (
+    description,
+    dimension_notes,
+    length_decimals,
+    reference_of,
+)
 from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, measured_in
 from burmester.export.drawings.measured import require_dimensions
 from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
-from burmester.export.drawings.sheet import Sheet, beside, carried, notes_on, sheet_of
+from burmester.export.drawings.sheet import Sheet, beside, carried, joint_names, notes_on, sheet_of
 from burmester.export.escaping import dxf_text
 from burmester.export.options import Options
+from burmester.export.parts.holes import joints_of
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import Assembly, Plate, assembly_of, slot_outline
-from burmester.export.reference import (
-    Reference,
-    description,
-    dimension_notes,
-    printed_decimals,
-    require_equal,
-)
+from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
@@ -42,11 +44,17 @@ ezdxf: Any = import_module("ezdxf")
 
 TOLERANCE_MM = 1e-6  # largest deviation of what is read back
 MILLIMETRES_CODE = 4  # the code of millimetres in DXF
-LAYERS = {  # and their colours by the index of AutoCAD
-    "GROUND": 8,
-    "DRIVER": 1,
-    "COUPLER": 5,
-    "FOLLOWER": 3,
+LINK_COLOURS = {  # by the index of AutoCAD
+    "ground": 8,
+    "driver": 1,
+    "coupler": 5,
+    "follower": 3,
+    "first-crank": 1,
+    "second-crank": 3,
+    "floating-link": 40,
+    "body-link": 150,
+}
+LAYERS = {  # and their colours, beside those of links
     "HOLES": 7,
     "SLOTS": 7,
     "MARKS": 9,
@@ -59,19 +67,18 @@ LAYERS = {  # and their colours by the index of AutoCAD
 }
 
 
-def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
-    reference = Reference.of(chosen, options)
-    outlines = Outlines.of(chosen, reference)
+    reference = reference_of(chosen, options)
+    outlines = Outlines.of(chosen.task, reference)
     notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
     notes += notes_on(assembly)
-    _, decimals = printed_decimals(chosen, options)
     sheet = sheet_of(
         assembly,
         reference.poses,
         len(notes),
-        decimals.lengths,
+        length_decimals(chosen, options),
         options.dimensions,
         outlines=outlines,
     )
@@ -83,7 +90,9 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         document.header["$INSUNITS"] = MILLIMETRES_CODE
         document.header["$EXTMIN"] = (*sheet.low.tolist(), 0.0)
         document.header["$EXTMAX"] = (*sheet.high.tolist(), 0.0)
-        for name, colour in LAYERS.items():
+        owners = dict.fromkeys(each.owner for each in assembly.plates)
+        links = {_layer(each): LINK_COLOURS[each] for each in owners}
+        for name, colour in (links | LAYERS).items():
             document.layers.add(name, color=colour)
         add_style(document, sheet)
         _draw(document, assembly, sheet, reference.poses, notes)
@@ -94,6 +103,11 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         document.saveas(path)
     finally:
         ezdxf.options.write_fixed_meta_data_for_testing = fixed
+
+
+def _layer(link: str) -> str:
+    """The name of a link's layer."""
+    return link.upper().replace("-", "_")
 
 
 def _order_classes(document: Any) -> None:
@@ -113,7 +127,7 @@ def _draw(
 ) -> None:
     space = document.modelspace()
     for part, label in zip(sheet.parts, sheet.labels, strict=True):
-        layers = (part.plate.owner.upper(), "HOLES", "SLOTS", "MARKS")
+        layers = (_layer(part.plate.owner), "HOLES", "SLOTS", "MARKS")
         _plate(space, moved(part.plate, part.place), layers, sheet)
         _text(space, part.label, label, sheet.letters)
         for each in part.lines:
@@ -122,6 +136,8 @@ def _draw(
     for plate in assembly.plates:
         drawn = moved(plate, plate.at(assembly.drawn))
         _plate(block, drawn, ("ASSEMBLY",) * 4, sheet)
+    for name, at in joint_names(assembly, sheet):
+        _text(space, name, at, sheet.letters)
     space.add_blockref("ASSEMBLY", (0, 0), dxfattribs={"layer": "ASSEMBLY"})
     for number in range(poses.shape[0]):
         place = poses[number]
@@ -183,9 +199,9 @@ def _point(at: FloatArray) -> tuple[float, float]:
     return float(at[0]), float(at[1])
 
 
-def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read the drawing back, audit it and compare it; raises E160."""
-    reference = Reference.of(chosen, options)
+    reference = reference_of(chosen, options)
     assembly = assembly_of(chosen, options)
     poses = reference.poses
     document = ezdxf.readfile(path)
@@ -206,11 +222,12 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     require_equal("the place of the assembly", tuple(insert.dxf.insert)[:2], (0, 0), 0)
     circles = np.array([tuple(each.dxf.center)[:2] for each in block.query("CIRCLE")])
     circles = circles.reshape(-1, 2)
-    place = reference.places[options.pose - 1]
-    expected = _pivots(reference, place)
-    for name, point in expected:
-        gap = np.linalg.norm(circles - point, axis=1)
-        require_equal(f"{name} in the assembly", gap.min(initial=np.inf), 0, TOLERANCE_MM)
+    joints = joints_of(reference, assembly, options.pose)
+    expected = [(each.plates[0], each.point) for each in joints if each.point is not None]
+    for name, pivot in expected:
+        gap = np.linalg.norm(circles - pivot, axis=1)
+        what = f"a pivot of the {name} in the assembly"
+        require_equal(what, gap.min(initial=np.inf), 0, TOLERANCE_MM)
     for point in circles:
         gap = min(float(np.linalg.norm(point - each)) for _, each in expected)
         require_equal("a hole in the assembly", gap, 0, TOLERANCE_MM)
@@ -226,7 +243,7 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
         [_rows(each) for each in document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')]
         for layer in ("BODY", "KEEP_OUT")
     )
-    require_outlines(Outlines.of(chosen, reference), body, regions, TOLERANCE_MM)
+    require_outlines(Outlines.of(chosen.task, reference), body, regions, TOLERANCE_MM)
     axes = document.modelspace().query('LINE[layer=="POSES"]')
     starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
     require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE_MM)
@@ -235,24 +252,12 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     require_equal("the angles of the poses", np.abs(turned - 1), np.zeros(len(turned)), 1e-6)
 
 
-def _pivots(reference: Reference, place: Displacement) -> list[tuple[str, FloatArray]]:
-    """Every joint that has a hole, in F, with its name."""
-    pivots = []
-    for k, side in enumerate(("driver", "follower")):
-        fixed, moving = reference.fixed[k], reference.moving[k]
-        if fixed is not None:
-            pivots.append((f"the {side}'s fixed pivot", fixed))
-        if moving is not None:
-            pivots.append((f"the {side}'s moving pivot", place.act(moving)))
-    return pivots
-
-
 def _check_plates(document: Any, assembly: Assembly) -> list[tuple[Plate, Displacement]]:
     """The plates laid out, by what lies within their outlines, and where they lie."""
     space = document.modelspace()
     outlines = {
-        layer: [each for each in space.query("LWPOLYLINE") if each.dxf.layer == layer]
-        for layer in ("GROUND", "DRIVER", "COUPLER", "FOLLOWER")
+        owner: [each for each in space.query("LWPOLYLINE") if each.dxf.layer == _layer(owner)]
+        for owner in {plate.owner for plate in assembly.plates}
     }
     circles = np.array(
         [(*tuple(each.dxf.center)[:2], 2 * each.dxf.radius) for each in space.query("CIRCLE")]
@@ -264,7 +269,7 @@ def _check_plates(document: Any, assembly: Assembly) -> list[tuple[Plate, Displa
     require_equal("the number of slots", len(slots), sum(len(p.slots) for p in assembly.plates), 0)
     placed = []
     for plate in assembly.plates:
-        own = outlines[plate.owner.upper()].pop(0)
+        own = outlines[plate.owner].pop(0)
         require_equal(f"whether the outline of {plate.name} is closed", own.closed, True, 0)
         rows = _rows(own)
         placed.append((plate, carried(plate, rows)))

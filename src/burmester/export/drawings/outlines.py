@@ -15,9 +15,10 @@ import numpy as np
 
 from burmester.export.drawings.dimension_lines import LETTER_WIDTH
 from burmester.export.reference import Reference, require_equal
+from burmester.export.six_bar_reference import SixBarReference
 from burmester.geometry.inner_point import inner_point
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import Task
 
 __all__ = ["Outlines", "hatch", "name_start", "require_outlines"]
 
@@ -37,9 +38,8 @@ class Outlines:
     regions: tuple[tuple[str, FloatArray], ...]
 
     @classmethod
-    def of(cls, chosen: SavedLinkage, reference: Reference) -> Outlines:
-        """Those of a linkage's task, at the places of the linkage."""
-        task = chosen.task
+    def of(cls, task: Task, reference: Reference | SixBarReference) -> Outlines:
+        """Those of a task, at the places of its linkage."""
         corners = np.empty((0, 2)) if task.body is None else task.body.vertices * reference.scale
         around = () if task.surroundings is None else task.surroundings.keep_out
         regions = ((each.name or "", each.polygon.vertices * reference.scale) for each in around)

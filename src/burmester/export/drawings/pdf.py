@@ -22,6 +22,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Affine2D, Bbox, IdentityTransform
 
 from burmester.errors import BurmesterError
+from burmester.export.description import description, length_decimals, reference_of
 from burmester.export.drawings.pages import LETTERS, MARGIN, Page, Pages, pages_of
 from burmester.export.drawings.pdf_paths import read_pages
 from burmester.export.drawings.sheet import notes_on
@@ -31,8 +32,9 @@ from burmester.export.parts.holes import axis_away, joints_of
 from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import assembly_of
-from burmester.export.reference import Reference, description, printed_decimals, require_equal
+from burmester.export.reference import require_equal
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
@@ -54,11 +56,10 @@ STYLE: Final[dict[Any, Any]] = {  # whatever a person's own style says
 }
 
 
-def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write the pages; raises E162."""
     assembly = assembly_of(chosen, options)
-    _, decimals = printed_decimals(chosen, options)
-    pages = pages_of(assembly, decimals.lengths, options.dimensions)
+    pages = pages_of(assembly, length_decimals(chosen, options), options.dimensions)
     said = [pdf_text(each) for each in description(chosen, options, "mm")]
     head = [said[0].rstrip("."), notes_on(assembly)[0]]
     if assembly.assumed:
@@ -215,15 +216,14 @@ def _curve(outline: FloatArray) -> Curve:
     return Curve(np.array([[each.real, each.imag] for each in points]), codes)
 
 
-def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read the pages back and compare them; raises E160.
 
     Each page has its size and its ruler, each plate its outline, its slots and its dimension lines;
     and the holes of each plate, put back to where the assembly has it, are at the pivots.
     """
-    assembly, reference = assembly_of(chosen, options), Reference.of(chosen, options)
-    _, decimals = printed_decimals(chosen, options)
-    pages = pages_of(assembly, decimals.lengths, options.dimensions)
+    assembly, reference = assembly_of(chosen, options), reference_of(chosen, options)
+    pages = pages_of(assembly, length_decimals(chosen, options), options.dimensions)
     try:
         read = read_pages(path)
     except ValueError as error:

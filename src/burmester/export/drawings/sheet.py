@@ -20,7 +20,16 @@ from burmester.export.parts.stock import INCH, stock_for
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Laid", "Sheet", "beside", "carried", "laid_lengthwise", "notes_on", "sheet_of"]
+__all__ = [
+    "Laid",
+    "Sheet",
+    "beside",
+    "carried",
+    "joint_names",
+    "laid_lengthwise",
+    "notes_on",
+    "sheet_of",
+]
 
 ARC_TOLERANCE = 1e-3  # of the width: tolerance of arcs for the size of the sheet
 PLATE_SPACING = 0.7  # of the width: space between plates
@@ -98,7 +107,9 @@ def laid_lengthwise(
         box = [place.act(outline_points(plate, ARC_TOLERANCE * plate.radius))]
         box += [np.stack([each.low, each.high]) for each in lines]
         points = np.concatenate(box)
-        label = f"{plate.name}, layer {plate.layer}"
+        joints = "".join(pin.name for pin in assembly.pins if plate.name in pin.joins)
+        label = " ".join([plate.name, joints] if joints else [plate.name])
+        label += f", layer {plate.layer}"
         laid.append(Laid(plate, place, tuple(lines), points.min(axis=0), points.max(axis=0), label))
     return laid
 
@@ -190,6 +201,18 @@ def beside(pose: Displacement, sheet: Sheet) -> FloatArray:
     """Where the number (2,) of a pose begins: behind its axes."""
     behind = pose.act(np.full(2, -0.8 * sheet.letters))
     return np.asarray(behind - np.array([0.3, 0.35]) * sheet.letters)
+
+
+def joint_names(assembly: Assembly, sheet: Sheet) -> list[tuple[str, FloatArray]]:
+    """The names of joints, and where (2,) they begin in the assembly: beside their holes."""
+    names = []
+    for pin in assembly.pins:
+        plate = assembly.plate(pin.plate)
+        assert plate is not None
+        if pin.name:
+            at = plate.at(assembly.drawn).act(np.array([pin.x, pin.y]))
+            names.append((pin.name, at + assembly.dimensions.hole / 2 + 0.1 * sheet.letters))
+    return names
 
 
 def notes_on(assembly: Assembly) -> list[str]:

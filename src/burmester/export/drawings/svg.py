@@ -16,24 +16,25 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from burmester.export.description import (
+    description,
+    dimension_notes,
+    length_decimals,
+    reference_of,
+)
 from burmester.export.drawings.dimension_lines import DimensionLine
 from burmester.export.drawings.measured import Measured, require_dimensions, require_drawn
 from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
-from burmester.export.drawings.sheet import beside, carried, notes_on, sheet_of
+from burmester.export.drawings.sheet import beside, carried, joint_names, notes_on, sheet_of
 from burmester.export.escaping import xml_text
 from burmester.export.options import Options
+from burmester.export.parts.holes import joints_of
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import Plate, assembly_of, slot_outline
-from burmester.export.reference import (
-    PRECISION,
-    Reference,
-    description,
-    dimension_notes,
-    printed_decimals,
-    require_equal,
-)
+from burmester.export.reference import PRECISION, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
@@ -46,6 +47,8 @@ MAX_BULGE = 0.57  # bulge above which an arc is drawn as two
 STYLE = """
   path, circle, line { fill: none; stroke: #000; stroke-width: %s; stroke-linejoin: round }
   .driver { stroke: #c1272d } .coupler { stroke: #0057b8 } .follower { stroke: #1b7f3b }
+  .first-crank { stroke: #c1272d } .second-crank { stroke: #1b7f3b }
+  .floating-link { stroke: #b36b00 } .body-link { stroke: #6b3fa0 }
   .ground { stroke: #555 } .hole, .slot { stroke: #000 }
   .mark { stroke: #888 } .pose { stroke: #a3238e } text.pose { stroke: none; fill: #a3238e }
   .body { stroke: #00785a } .keep-out { stroke: #666 } .hatch { stroke: #999 }
@@ -56,17 +59,15 @@ STYLE = """
 """
 
 
-def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
-    reference = Reference.of(chosen, options)
-    poses, outlines = reference.poses, Outlines.of(chosen, reference)
+    reference = reference_of(chosen, options)
+    poses, outlines = reference.poses, Outlines.of(chosen.task, reference)
     notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
     notes += notes_on(assembly)
-    _, decimals = printed_decimals(chosen, options)
-    sheet = sheet_of(
-        assembly, poses, len(notes), decimals.lengths, options.dimensions, outlines=outlines
-    )
+    decimals = length_decimals(chosen, options)
+    sheet = sheet_of(assembly, poses, len(notes), decimals, options.dimensions, outlines=outlines)
     hair = min(LINE_WIDTH_MM, OF_WIDTH * assembly.dimensions.width)
     size = sheet.high - sheet.low
     box = f"{_n(sheet.low[0])} {_n(-sheet.high[1])} {_n(size[0])} {_n(size[1])}"
@@ -85,6 +86,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         lines.append("</g>")
     lines += ["</g>", '<g id="names">']
     lines += [_text(part.label, at) for part, at in zip(sheet.parts, sheet.labels, strict=True)]
+    lines += [_text(name, at) for name, at in joint_names(assembly, sheet)]
     lines.append("</g>")
     if options.dimensions:
         lines.append('<g id="dimensions" inkscape:groupmode="layer" inkscape:label="dimensions">')
@@ -213,9 +215,9 @@ def _n(value: float) -> str:
     return f"{float(value) + 0.0:.15g}"
 
 
-def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read the drawing back by its XML and compare it; raises E160."""
-    reference = Reference.of(chosen, options)
+    reference = reference_of(chosen, options)
     assembly = assembly_of(chosen, options)
     tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
@@ -223,23 +225,12 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     wide, _, _ = (root.get("width") or "").partition("mm")
     box = [float(part) for part in (root.get("viewBox") or "").split()]
     require_equal("millimetres per unit of the drawing", float(wide) / box[2], 1, 1e-12)
-    place = reference.places[options.pose - 1]
-    for k, side in enumerate(("driver", "follower")):
-        fixed, moving = reference.fixed[k], reference.moving[k]
-        expected = {"ground": [], "coupler": [], side: []}  # type: dict[str, list[FloatArray]]
-        if fixed is not None:
-            expected["ground"].append(fixed)
-        if moving is not None:
-            expected["coupler"].append(place.act(moving))
-        if fixed is not None and moving is not None:
-            expected[side] = [fixed, place.act(moving)]
-        for owner, points in expected.items():
-            own = [each for name, each in groups.items() if name and _is(name, owner)]
-            holes = np.array([each for group in own for each in _holes(group)]).reshape(-1, 3)
-            for point in points:
-                gap = np.linalg.norm(holes[:, :2] - point, axis=1)
-                what = f"a pivot of the {side} in the {owner}"
-                require_equal(what, gap.min(initial=np.inf), 0, tolerance)
+    for joint in joints_of(reference, assembly, options.pose):
+        if joint.point is not None:
+            holes = [each for name in joint.plates for each in _holes(groups[f"placed-{name}"])]
+            gap = np.linalg.norm(np.reshape(holes, (-1, 3))[:, :2] - joint.point, axis=1)
+            what = f"a pivot in the {joint.plates[0]}"
+            require_equal(what, gap.min(initial=np.inf), 0, tolerance)
     placed, read = list[tuple[Plate, Displacement]](), list[Measured]()
     for plate in assembly.plates:
         group = groups[f"part-{plate.name}"]
@@ -249,10 +240,10 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
         if options.dimensions:
             read += [_measured(each, tolerance) for each in groups[f"dimensions-{plate.name}"]]
         group = groups[f"placed-{plate.name}"]
-        _check_plate(group, plate, plate.at(place), tolerance)
+        _check_plate(group, plate, plate.at(assembly.drawn), tolerance)
     if options.dimensions:
         require_dimensions(placed, read, tolerance)
-    outlines = Outlines.of(chosen, reference)
+    outlines = Outlines.of(chosen.task, reference)
     regions = [path for each in groups["keep-out"] for path in _paths(each)]
     require_outlines(outlines, _paths(groups["body"]), regions, tolerance)
     lines = _lines(groups["poses"])
@@ -305,10 +296,6 @@ def _measured(group: ElementTree.Element, tolerance: float) -> Measured:
     require_drawn(lines, ends, diameter, tolerance)
     (text,) = (each.text or "" for each in group if each.tag.endswith("text"))
     return Measured(ends, value, text, diameter)
-
-
-def _is(name: str, owner: str) -> bool:
-    return re.fullmatch(rf"placed-{owner}(-2)?", name) is not None
 
 
 def _holes(group: ElementTree.Element) -> list[list[float]]:

@@ -6,9 +6,10 @@ E162 a film that cannot be drawn, or not in the memory there is
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Final
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,11 +30,33 @@ __all__ = [
     "TALLEST",
     "Film",
     "Picture",
+    "Scene",
     "blob",
+    "looks_of",
     "require_film",
+    "there_and_back",
 ]
 
 Picture = NDArray[np.uint8]
+
+
+class Scene(Protocol):
+    """What a film shows, picture by picture.
+
+    count: the number of pictures.
+    """
+
+    count: int
+
+    def pictures(self) -> Iterator[Picture]:
+        """The pictures (rows, columns, 3), all of one size."""
+
+    def marks(self, numbers: NDArray[np.intp]) -> tuple[tuple[int, int], FloatArray]:
+        """The width and height of pictures, and where the mark is in pictures of these numbers.
+
+        (n, 2), pixels to the right and upwards from the lower left corner.
+        """
+
 
 MARK_COLOUR: Final = "#F0E442"  # of the followed pivot; nothing else comes near this colour
 MARK_POINTS: Final = 9.0  # size of the mark, in points
@@ -87,6 +110,18 @@ def require_film(options: Options, rate: float, *, kept: bool) -> int:
     return count
 
 
+def there_and_back(count: int) -> FloatArray:
+    """The share of the motion (count,) in each picture: there and back, with pauses."""
+    share = np.arange(count) / count
+    there = np.clip((1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD_SHARE) - HOLD_SHARE, 0.0, 1.0)
+    return np.asarray((1 - np.cos(np.pi * there)) / 2)
+
+
+def looks_of(count: int) -> NDArray[np.intp]:
+    """The numbers of the pictures that are looked at again, spread over a film."""
+    return np.unique(np.linspace(0, count - 1, CHECKED_PICTURES).astype(np.intp))
+
+
 @dataclass(frozen=True)
 class Film:
     """A film that is to be drawn: its motion, picture by picture, and the size of the pictures."""
@@ -103,10 +138,7 @@ class Film:
             CouplerMotion.of(self.chosen, 2).turns_fully,
         )
         if not whole:
-            there = np.clip(
-                (1 - np.abs(2 * share - 1)) * (1 + 2 * HOLD_SHARE) - HOLD_SHARE, 0.0, 1.0
-            )
-            share = (1 - np.cos(np.pi * there)) / 2
+            share = there_and_back(self.count)
         return CouplerMotion.of(self.chosen, share, whole)
 
     @property
@@ -133,11 +165,6 @@ class Film:
         places, first = self.motion.places[number], self.linkage.first
         return places.act(first.moving_pivot) if isinstance(first, RR | PR) else places.translation
 
-    @property
-    def looks(self) -> NDArray[np.intp]:
-        """The numbers of the pictures that are looked at again, spread over the film."""
-        return np.unique(np.linspace(0, self.count - 1, CHECKED_PICTURES).astype(np.intp))
-
     def drive_text(self, number: int) -> str:
         """Where the driver is in a picture."""
         motion = self.motion
@@ -153,9 +180,13 @@ def blob(picture: Picture) -> tuple[float, float]:
     """The middle (column, row) of what has the colour of the followed pivot; nan if nothing."""
     colour = [int(MARK_COLOUR[at : at + 2], 16) for at in (1, 3, 5)]
     near = np.abs(picture.astype(np.int16) - colour).sum(axis=-1) < COLOUR_DISTANCE
-    rows, columns = np.nonzero(near)
-    if not len(rows):
+    # Beside lines a film may have pixels of any colour, but no patch of it.
+    solid = near[1:-1, 1:-1].copy()
+    for part in (near[:-2, 1:-1], near[2:, 1:-1], near[1:-1, :-2], near[1:-1, 2:]):
+        solid &= part
+    if not solid.any():
         return math.nan, math.nan
-    # Beside lines a film may have single pixels of any colour.
-    spot = np.hypot(rows - np.median(rows), columns - np.median(columns)) < MARK_POINTS * DPI / 72
+    row, column = (np.median(each) + 1 for each in np.nonzero(solid))
+    rows, columns = np.nonzero(near)
+    spot = np.hypot(rows - row, columns - column) < MARK_POINTS * DPI / 72
     return float(columns[spot].mean()), float(rows[spot].mean())

@@ -14,72 +14,42 @@ from __future__ import annotations
 import math
 import re
 import subprocess
-from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final, NamedTuple
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
-from matplotlib.artist import Artist
-from matplotlib.patches import Circle
 from numpy.typing import NDArray
 from PIL import Image
 
 from burmester import plot
 from burmester.errors import BurmesterError, InputError
-from burmester.export.films.film import (
-    DPI,
-    MARK_COLOUR,
-    MARK_POINTS,
-    TALLEST,
-    Film,
-    Picture,
-    blob,
-    require_film,
-)
-from burmester.io.saved import SavedLinkage
-from burmester.numerics.arrays import FloatArray
-from burmester.plot.plane import X_AXIS_LENGTH, span_of
-from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, plain, settle_labels, with_unit
-from burmester.progress import step
+from burmester.export.films.film import Film, Picture, Scene, blob, looks_of, require_film
+from burmester.export.films.linkage_scene import LinkageScene
+from burmester.export.films.six_bar_scene import SixBarScene
+from burmester.io.saved_six_bars import SavedSixBar
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
     from burmester.export.options import Options
+    from burmester.io.saved import SavedLinkage
 
 __all__ = ["check_gif", "check_mp4", "write_gif", "write_mp4"]
 
 
 MAX_GIF_RATE: Final = 25.0  # pictures a second; more would only make the file larger
 MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
-FITTED_PLACES: Final = 25  # places whose drawing has to fit into the picture
-MARGIN: Final = (0.62, 0.12, 0.48, 0.34)  # inches left, right, below and above the axes
-TALL, FLAT = TALLEST, 0.5  # the height of a picture at most and at least, in shares of its width
-MAX_SHOWN_POSES: Final = 60  # more of them hide the linkage, and their numbers each other
-PALETTE_SIZE: Final = 64  # colours of a GIF
 
 
-class Stage(NamedTuple):
-    """Axes whose limits stay, the background without what moves, and what lies over it."""
-
-    figure: Figure
-    ax: Axes
-    over: list[Artist]
-
-
-def write_gif(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write_gif(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write a film as an endless GIF of 25 pictures a second or fewer."""
-    film, rate = _gif(chosen, options)
-    plot.write_gif(path, _pictures(film), seconds=1 / rate, force=True)
+    scene, rate = _gif(chosen, options)
+    plot.write_gif(path, scene.pictures(), seconds=1 / rate, force=True)
 
 
-def write_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write a film as an MP4 that every player shows: H.264, yuv420p, made to begin at once."""
     ffmpeg = _ffmpeg()
-    film = _mp4(chosen, options)
-    pictures = _pictures(film)
+    pictures = _mp4(chosen, options).pictures()
     first = next(pictures)
     writer = ffmpeg.write_frames(
         str(path),
@@ -91,6 +61,8 @@ def write_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
         ffmpeg_log_level="quiet",  # it would write to the user's screen; the file is checked
         # One thread and no version in it, so that the same film has the same bytes.
         output_params=[
+            "-f",  # whatever the file is called
+            "mp4",
             "-crf",
             "16",
             "-preset",
@@ -116,9 +88,9 @@ def write_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
         writer.close()
 
 
-def check_gif(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check_gif(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read a GIF back with Pillow; raises E160 unless it shows this linkage's motion."""
-    film, rate = _gif(chosen, options)
+    scene, rate = _gif(chosen, options)
     with Image.open(path) as image:
         times, pictures = [], []
         for number in range(getattr(image, "n_frames", 1)):
@@ -129,16 +101,16 @@ def check_gif(chosen: SavedLinkage, path: Path, options: Options) -> None:
     ends = np.cumsum(times)
     if not endless:
         raise _off("it is shown once, not again and again")
-    if abs(ends[-1] - film.count / rate) > 1e-6:
-        raise _off(f"it lasts {ends[-1]:g} s, not {film.count / rate:g} s")
-    looks = film.looks
+    if abs(ends[-1] - scene.count / rate) > 1e-6:
+        raise _off(f"it lasts {ends[-1]:g} s, not {scene.count / rate:g} s")
+    looks = looks_of(scene.count)
     at = np.searchsorted(ends, (looks + 0.5) / rate)
-    _compare(film, looks, [pictures[k] for k in at])
+    _compare(scene, looks, [pictures[k] for k in at])
 
 
-def check_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read an MP4 back with ffmpeg; raises E160 unless it shows this linkage's motion."""
-    film, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
+    scene, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
     report = subprocess.run(
         [program, "-hide_banner", "-i", str(path)], capture_output=True, check=False
     ).stderr.decode(errors="replace")
@@ -148,7 +120,7 @@ def check_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
     if size is None or rate is None or "h264" not in video or "yuv420p" not in video:
         raise _off(f"it is no film that every player shows: {video.strip() or 'no picture'}")
     width, height = int(size[1]), int(size[2])
-    looks, kept, count = film.looks, list[Picture](), 0
+    looks, kept, count = looks_of(scene.count), list[Picture](), 0
     arguments = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
     with subprocess.Popen(
         [program, "-v", "error", "-i", str(path), *arguments], stdout=subprocess.PIPE
@@ -158,29 +130,32 @@ def check_mp4(chosen: SavedLinkage, path: Path, options: Options) -> None:
             if count in looks:
                 kept.append(np.frombuffer(data, dtype=np.uint8).reshape(height, width, 3))
             count += 1
-    if count != film.count or abs(float(rate[1]) - options.frames_per_second) > 0.01:
-        raise _off(f"it has {count} pictures at {rate[1]} a second, not {film.count}")
-    _compare(film, looks, kept)
+    if count != scene.count or abs(float(rate[1]) - options.frames_per_second) > 0.01:
+        raise _off(f"it has {count} pictures at {rate[1]} a second, not {scene.count}")
+    _compare(scene, looks, kept)
 
 
-def _gif(chosen: SavedLinkage, options: Options) -> tuple[Film, float]:
-    """The film, and its rate: a GIF counts in hundredths of a second."""
+def _gif(chosen: SavedLinkage | SavedSixBar, options: Options) -> tuple[Scene, float]:
+    """What is drawn, and its rate: a GIF counts in hundredths of a second."""
     most = min(MAX_GIF_RATE, options.frames_per_second)
     rate = 100 / math.ceil(100 / most - 1e-9) if most > 0 else most
-    count = require_film(options, rate, kept=True)
-    return Film(chosen, options.width_px, count), rate
+    return _scene(chosen, options, require_film(options, rate, kept=True)), rate
 
 
-def _mp4(chosen: SavedLinkage, options: Options) -> Film:
-    count = require_film(options, options.frames_per_second, kept=False)
-    return Film(chosen, options.width_px, count)
+def _mp4(chosen: SavedLinkage | SavedSixBar, options: Options) -> Scene:
+    rate = options.frames_per_second
+    return _scene(chosen, options, require_film(options, rate, kept=False))
 
 
-def _compare(film: Film, looks: NDArray[np.intp], pictures: list[Picture]) -> None:
+def _scene(chosen: SavedLinkage | SavedSixBar, options: Options, count: int) -> Scene:
+    if isinstance(chosen, SavedSixBar):
+        return SixBarScene(chosen, options.width_px, count)
+    return LinkageScene(Film(chosen, options.width_px, count))
+
+
+def _compare(scene: Scene, looks: NDArray[np.intp], pictures: list[Picture]) -> None:
     """Raise E160 unless the followed pivot is in the pictures where the linkage has it."""
-    stage = _stage(film)
-    width, height = stage.figure.canvas.get_width_height()
-    wanted = stage.ax.transData.transform(film.followed(looks))
+    (width, height), wanted = scene.marks(looks)
     for number, picture, at in zip(looks.tolist(), pictures, wanted, strict=True):
         if picture.shape != (height, width, 3):
             raise _off(f"its pictures are {picture.shape[1]} x {picture.shape[0]} pixels")
@@ -211,120 +186,3 @@ def _ffmpeg() -> Any:
             why="it cannot be imported",
             help='pip install "burmester[export]"',
         ) from None
-
-
-# Drawing ------------------------------------------------------------------------------------------
-
-
-def _pictures(film: Film) -> Iterator[Picture]:
-    """The pictures (rows, columns, 3) of a film."""
-    motion, along = film.motion, (film.motion.places,)
-    long = X_AXIS_LENGTH * span_of(film.chosen.task.poses)
-    body = np.array([[long, 0.0], [0.0, 0.0], [0.0, 0.6 * long]])
-    path = motion.places.translation
-    pivot = film.followed(np.arange(film.count))
-    with plot.house_style():
-        stage = _stage(film)
-        ax, canvas = stage.ax, stage.figure.canvas
-        under = canvas.copy_from_bbox(stage.figure.bbox)  # type: ignore[attr-defined]
-        (grown,) = ax.plot([], [], color=BLUE, lw=2.4, zorder=3.0)
-        (frame,) = ax.plot([], [], color=BLACK, lw=1.6, zorder=5.5, solid_joinstyle="round")
-        # No marker: those are drawn at whole pixels, and would tremble.
-        unit = 1 / float(ax.transData.get_matrix()[0, 0])
-        mark = Circle(
-            (0, 0), MARK_POINTS / 2 * DPI / 72 * unit, fc=MARK_COLOUR, ec=BLACK, lw=1.2, zorder=10
-        )
-        ax.add_patch(mark)
-        drive = ax.text(1.0, 1.0, "", transform=ax.transAxes, ha="right", va="bottom", fontsize=9)
-        for number in range(film.count):
-            place = motion.places[number]
-            step(f"drawing picture {number + 1} of {film.count}")
-            drawn = plot.linkage(ax, film.linkage, place, travel=along)
-            own = [*drawn.links, drawn.coupler, *drawn.ground]
-            own += [drawn.fixed_pivots, drawn.moving_pivots]
-            if film.outline is not None:
-                own += plot.body(ax, film.outline, place[None], at=0).places
-            grown.set_data(*path[: film.grown[number]].T)
-            frame.set_data(*place.act(body).T)
-            mark.set_center(tuple(pivot[number].tolist()))
-            drive.set_text(film.drive_text(number))
-            every = [*own, grown, frame, mark, drive, *stage.over]
-            canvas.restore_region(under)  # type: ignore[attr-defined]
-            for artist in sorted(every, key=lambda each: each.get_zorder()):
-                ax.draw_artist(artist)
-            yield np.asarray(canvas.buffer_rgba())[..., :3].copy()  # type: ignore[attr-defined]
-            for artist in own:
-                artist.remove()
-
-
-def _shown_poses(points: FloatArray) -> NDArray[np.intp]:
-    """The numbers of the poses that are drawn: some of very many, the outermost among them."""
-    if len(points) <= MAX_SHOWN_POSES:
-        return np.arange(len(points))
-    some = np.linspace(0, len(points) - 1, MAX_SHOWN_POSES - 4).astype(np.intp)
-    return np.unique(np.concatenate([some, points.argmin(axis=0), points.argmax(axis=0)]))
-
-
-def _background(film: Film, shown: NDArray[np.intp], ax: Axes) -> None:
-    """Draw the regions to keep out of, and the body faintly where it is at some of the poses."""
-    chosen = film.chosen
-    if chosen.task.surroundings is not None:
-        plot.keep_out(ax, chosen.task.surroundings.keep_out)
-    if film.outline is not None:
-        plot.body(ax, film.outline, chosen.error.places[shown])
-
-
-def _stage(film: Film) -> Stage:
-    """Axes that hold the whole motion, with the path, the poses and a title, drawn once."""
-    task, motion, linkage = film.chosen.task, film.motion, film.linkage
-    shown = _shown_poses(task.poses.translation)
-    with plot.house_style():
-        # First all that is ever drawn, to see how large it is.
-        trial = plot.figure(film.width / DPI, film.width / DPI, DPI)
-        ax = trial.add_subplot()
-        some = np.unique(np.linspace(0, film.count - 1, FITTED_PLACES).astype(np.intp))
-        plot.poses(ax, task.poses[shown], numbers=False)
-        for number in some:
-            plot.linkage(ax, linkage, motion.places[number], travel=(motion.places,))
-        if film.outline is not None:
-            plot.body(ax, film.outline, motion.places[some])
-        _background(film, shown, ax)
-        plot.finish(ax, film.chosen.unit, room=0.04)
-        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
-
-        beside, above = MARGIN[0] + MARGIN[1], MARGIN[2] + MARGIN[3]
-        height = (film.width / DPI - beside) * (high - low) / (right - left) + above
-        height = min(max(height * DPI, FLAT * film.width), TALL * film.width)
-        w, h = (2 * round(pixels / 2) / DPI for pixels in (film.width, height))  # even in pixels
-        figure = plot.figure(w, h, DPI)
-        ax = figure.add_axes((MARGIN[0] / w, MARGIN[2] / h, 1 - beside / w, 1 - above / h))
-        half = max((right - left) / (w - beside), (high - low) / (h - above)) / 2
-        x, y = (left + right) / 2, (low + high) / 2
-        ax.set(
-            xlim=(x - half * (w - beside), x + half * (w - beside)),
-            ylim=(y - half * (h - above), y + half * (h - above)),
-            autoscale_on=False,
-        )
-        curve = plot.coupler_curve(ax, linkage, only=motion.number)
-        for line in [each for lines in curve.circuits for each in lines]:
-            line.set(color=GREY, lw=0.9, linestyle=(0, (3, 2)))
-        for cross in curve.dead_points:
-            cross.remove()
-        _background(film, shown, ax)
-        over = list[Artist]()
-        long = X_AXIS_LENGTH * span_of(task.poses)
-        for color, reached in ((VERMILION, True), (GREY, False)):
-            numbers = shown[np.isfinite(motion.pose_shares[shown]) == reached]
-            if len(numbers):
-                names = [str(k + 1) for k in numbers]
-                wanted = plot.poses(ax, task.poses[numbers], size=long, names=names, color=color)
-                over += [wanted.x_axes, wanted.y_axes, wanted.origins, *wanted.labels]
-        ax.set_xlabel(with_unit("X", film.chosen.unit), labelpad=1)
-        ax.set_ylabel(with_unit("Y", film.chosen.unit), labelpad=1)
-        title = plain(f"{film.chosen.id}  {film.chosen.type}")
-        ax.set_title(title, loc="left", fontsize=10, pad=4)
-        settle_labels(ax)
-        for artist in over:
-            artist.set_animated(True)
-        figure.canvas.draw()
-    return Stage(figure, ax, over)

@@ -8,11 +8,13 @@ the lowest plate lies on z = 0.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import replace
 from typing import Literal, NamedTuple, final
 
 import numpy as np
 
+from burmester.export.parts.links import GROUND
 from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.plates import Assembly
 from burmester.numerics.arrays import FloatArray
@@ -54,18 +56,15 @@ class Shape(NamedTuple):
     size: tuple[float, float, float]
 
 
-def parts_of_bodies(made: Assembly, kinds: tuple[str, str]) -> dict[str, BodyParts]:
-    """The parts of ground, driver, coupler and follower; kinds: of the dyads, such as RR."""
+def parts_of_bodies(made: Assembly, names: Iterable[str]) -> dict[str, BodyParts]:
+    """The parts of bodies; one without a plate is the pin of a slider of a four-bar."""
     bodies = {
-        name: BodyParts([each for each in made.plates if each.owner == name], [])
-        for name in ("ground", "driver", "coupler", "follower")
+        name: BodyParts([each for each in made.plates if each.owner == name], []) for name in names
     }
     owners = {plate.name: plate.owner for plate in made.plates}
-    sliders = [
-        name for name, kind in zip(("driver", "follower"), kinds, strict=True) if kind != "RR"
-    ]
+    sliders = [name for name, body in bodies.items() if not body.plates]
     for pin in made.pins:
-        if {owners[each] for each in pin.joins} == {"ground", "coupler"}:
+        if {owners[each] for each in pin.joins} == {GROUND, "coupler"}:
             bodies[sliders.pop(0)].pins.append(replace(pin, x=0.0, y=0.0))
         else:
             bodies[owners[pin.plate]].pins.append(pin)
@@ -90,8 +89,7 @@ def shapes(body: BodyParts, made: Assembly) -> list[Shape]:
         low, high = _inset(plate, made)
         middle, height, width = (low + high) / 2, high - low, 2 * plate.radius * METRES
         corners = plate.skeleton * METRES
-        sides = list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
-        for one, two in sides if len(corners) > 2 else sides[: len(corners) - 1]:
+        for one, two in _sides(plate):
             way, centre = two - one, np.append((one + two) / 2, middle)
             size = (float(np.linalg.norm(way)), width, height)
             found.append(Shape("box", centre, math.atan2(way[1], way[0]), size))
@@ -106,11 +104,21 @@ def shapes(body: BodyParts, made: Assembly) -> list[Shape]:
     return found
 
 
+def _sides(plate: Plate) -> list[tuple[FloatArray, FloatArray]]:
+    """The sides of a plate's pieces, from corner to corner, metres."""
+    sides = list[tuple[FloatArray, FloatArray]]()
+    for piece in plate.pieces:
+        corners = piece * METRES
+        own = list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
+        sides += own if len(corners) > 2 else own[: len(corners) - 1]
+    return sides
+
+
 def rim(corners: FloatArray, made: Assembly) -> list[Shape]:
-    """Flat bars along the edges of the body's outline (n, 2), metres, as high as the coupler."""
-    coupler = made.plate("coupler")
-    assert coupler is not None
-    low, high = _inset(coupler, made)
+    """Flat bars along the edges of the body's outline (n, 2), metres, as high as its plate."""
+    carrier = made.plate(made.body)
+    assert carrier is not None
+    low, high = _inset(carrier, made)
     found = list[Shape]()
     for one, two in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         way, centre = two - one, np.append((one + two) / 2, (low + high) / 2)

@@ -6,18 +6,21 @@ generalized force that holds the linkage, and twice the kinetic energy its reduc
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Final, NamedTuple, final
 
 import numpy as np
 
 from burmester.errors import InputError
 from burmester.export.models.mass_properties import MassProperties
+from burmester.export.parts.six_bar_links import frames_of
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.instantaneous import velocity
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
+from burmester.sixbar.found import FoundSixBar
+from burmester.sixbar.watt import JOINTS
 
 __all__ = ["DIRECTIONS", "STANDARD_GRAVITY", "DriverLoad", "require_up"]
 
@@ -56,7 +59,53 @@ class DriverLoad(NamedTuple):
             speed, turning, angle = _side(dyad, places, v, omega)
             arm = Displacement(np.zeros(2), angle).rotate(bodies[name].centre[:2])
             moving.append((name, speed, turning, arm))
-        holding, inertia = np.zeros(places.shape), np.zeros(places.shape)
+        return cls._of(moving, bodies, up)
+
+    @classmethod
+    def of_six_bar(
+        cls, found: FoundSixBar, bodies: Mapping[str, MassProperties], up: FloatArray
+    ) -> DriverLoad:
+        """The load of a six-bar (metres) at its poses; up: (3,), a direction of F."""
+        frames, at = frames_of(found, found.drive), found.joints(found.drive)
+        a, b, c, d, e, g, h = (complex_of(at[name]) for name in JOINTS)
+        # The first loop turns as its bars say, then the second.
+        if found.driver == "first":
+            first = np.ones_like(found.drive)
+            coupler, second = _closing(first * (c - a), c - d, d - b)
+        else:
+            second = np.ones_like(found.drive)
+            coupler, first = _closing(second * (d - b), d - c, c - a)
+        end = first * (c - a) + coupler * (e - c)
+        body, floating = _closing(end - second * (g - b), e - h, h - g)
+        still = np.zeros_like(a)
+        rates = {
+            "first-crank": (still, first),
+            "coupler": (1j * first * (c - a), coupler),
+            "second-crank": (still, second),
+            "floating-link": (1j * second * (g - b), floating),
+            "body-link": (
+                1j * (end - body * (e - complex_of(frames["body-link"].translation))),
+                body,
+            ),
+        }
+        moving = [
+            (name, speed, turning, frames[name].rotate(bodies[name].centre[:2]))
+            for name, (speed, turning) in rates.items()
+        ]
+        return cls._of(moving, bodies, up)
+
+    @classmethod
+    def _of(
+        cls,
+        moving: Sequence[tuple[str, ComplexArray, FloatArray, FloatArray]],
+        bodies: Mapping[str, MassProperties],
+        up: FloatArray,
+    ) -> DriverLoad:
+        """The load where bodies move: the velocity of each one's origin, its turning, its centre.
+
+        The centres of mass (n, 2) are from the origins, in F.
+        """
+        holding, inertia = (np.zeros(moving[0][2].shape) for _ in range(2))
         for name, speed, turning, arm in moving:
             body = bodies[name]
             with np.errstate(invalid="ignore", over="ignore"):
@@ -81,6 +130,15 @@ def _side(
             return pin, 0 * places.angle, 0 * places.angle
         arm = complex_of(places.act(dyad.moving_pivot) - dyad.fixed_pivot)
         return np.zeros_like(v), (pin / arm).imag, np.angle(arm)
+
+
+def _closing(
+    end: ComplexArray, one: ComplexArray, other: ComplexArray
+) -> tuple[FloatArray, FloatArray]:
+    """The real x and y (n,) with which x one + y other is the end: how fast two bars turn."""
+    cross = (one * other.conj()).imag
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return (end * other.conj()).imag / cross, (one * end.conj()).imag / cross
 
 
 def require_up(up: str) -> FloatArray:

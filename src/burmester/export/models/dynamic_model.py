@@ -15,15 +15,24 @@ from numpy.typing import ArrayLike
 
 from burmester.export.models.bodies import INSET, METRES, Shape, parts_of_bodies, rim, shapes
 from burmester.export.models.driver_load import STANDARD_GRAVITY, DriverLoad, require_up
-from burmester.export.models.joints import JointMotion, require_bodies
+from burmester.export.models.joints import (
+    FOUR_BAR_JOINTS,
+    SIX_BAR_JOINTS,
+    JointMotion,
+    require_bodies,
+    six_bar_driver,
+)
 from burmester.export.models.mass_properties import MassProperties, require_density
 from burmester.export.options import Options
-from burmester.export.parts.features import scaled
+from burmester.export.parts.four_bar_links import scaled
+from burmester.export.parts.links import GROUND
 from burmester.export.parts.plate import SLOT_RUN_OUT
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference, require_equal
+from burmester.export.six_bar_reference import SixBarReference
 from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["DAMPING_RATE", "DynamicModel"]
@@ -36,14 +45,18 @@ MATERIALS: Final = {2700.0: "aluminium", 7850.0: "steel"}
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class DynamicModel:
-    """The bodies ground, driver, coupler and follower, each in a frame of its own.
+    """The bodies of a linkage, each in a frame of its own.
 
-    masses, shapes: by body.  outline: of what the coupler carries, only to be seen.
-    joints: at the poses and in between.  low, high: (3,), the limits of the joints driver, coupler
-    and follower.  up: (3,), in F.
+    names: of the bodies that move, and of their joints: driver, coupler and follower of a
+    four-bar, the moving links of a six-bar.  driver: which of them drives.
+    masses, shapes: by body, the ground first.  outline: of what the body carries, only to be seen.
+    joints: at the poses and in between.  low, high: (k,), the limits of the joints.  axes: (k, 2),
+    of the joints in their bodies' frames.  up: (3,), in F.
     """
 
-    reference: Reference
+    reference: Reference | SixBarReference
+    names: tuple[str, ...]
+    driver: str
     made: Assembly
     masses: Mapping[str, MassProperties]
     shapes: Mapping[str, list[Shape]]
@@ -51,22 +64,37 @@ class DynamicModel:
     joints: JointMotion
     low: FloatArray
     high: FloatArray
+    axes: FloatArray
     up: FloatArray
 
     @classmethod
-    def of(cls, chosen: SavedLinkage, options: Options) -> Self:
+    def of(cls, chosen: SavedLinkage | SavedSixBar, options: Options) -> Self:
         """The model of a linkage made of plates; raises E162 and E163."""
-        reference = Reference.of(chosen, options, "m")
-        require_bodies(chosen, reference)
+        reference: Reference | SixBarReference
+        names, driver = FOUR_BAR_JOINTS, "driver"
+        axes = np.zeros((len(names), 2))
+        if isinstance(chosen, SavedSixBar):
+            reference = SixBarReference.of(chosen, options, "m")
+            names, driver = tuple(SIX_BAR_JOINTS), six_bar_driver(chosen.found)
+            joints = JointMotion.of_six_bar(reference.found)
+            axes = np.zeros((len(names), 2))
+            axes[names.index("body-link")] = reference.found.linkage.body_joint
+        else:
+            reference = Reference.of(chosen, options, "m")
+            require_bodies(chosen, reference)
+            joints = JointMotion.of(chosen, reference)
+            if reference.moving[0] is not None:
+                axes[1] = reference.moving[0]
         up, density = require_up(options.up), require_density(options.density)
         made = assembly_of(chosen, options)
-        parts = parts_of_bodies(made, reference.kinds)
-        joints = JointMotion.of(chosen, reference)
+        parts = parts_of_bodies(made, (GROUND, *names))
         run_out = SLOT_RUN_OUT * made.dimensions.hole * METRES
         body = chosen.task.body
         margin = np.where(joints.turning, HINGE_MARGIN, run_out)
         return cls(
             reference,
+            names,
+            driver,
             made,
             {name: MassProperties.of(each, made, density) for name, each in parts.items()},
             {name: shapes(each, made) for name, each in parts.items()},
@@ -74,11 +102,20 @@ class DynamicModel:
             joints,
             joints.low - margin,
             joints.high + margin,
+            axes,
             up,
         )
 
-    def load(self, chosen: SavedLinkage) -> DriverLoad:
+    @property
+    def motor(self) -> int:
+        """The number of the driver's joint."""
+        return self.names.index(self.driver)
+
+    def load(self, chosen: SavedLinkage | SavedSixBar) -> DriverLoad:
         """What the driver bears at the poses."""
+        if isinstance(chosen, SavedSixBar):
+            assert isinstance(self.reference, SixBarReference)
+            return DriverLoad.of_six_bar(self.reference.found, self.masses, self.up)
         first, second = (
             scaled(each, self.reference.scale)
             for each in (chosen.linkage.first, chosen.linkage.second)
@@ -86,11 +123,9 @@ class DynamicModel:
         return DriverLoad.of(Linkage(first, second), self.reference.places, self.masses, self.up)
 
     def damping(self) -> FloatArray:
-        """Of the joints driver, coupler and follower (3,): N m s, or N s/m of slides."""
-        bodies = [self.masses[name] for name in ("driver", "coupler", "follower")]
-        pivot = self.reference.moving[0]
-        about = [each.about_z() for each in bodies]
-        about[1] = bodies[1].about_z(*(np.zeros(2) if pivot is None else pivot).tolist())
+        """Of the joints (k,): N m s, or N s/m of slides."""
+        bodies = [self.masses[name] for name in self.names]
+        about = [each.about_z(*axis) for each, axis in zip(bodies, self.axes.tolist(), strict=True)]
         carried = np.where(self.joints.turning, about, [each.mass for each in bodies])
         return np.asarray(DAMPING_RATE * carried)
 
@@ -103,7 +138,12 @@ class DynamicModel:
             f"with holes and slots, of {options.density:g} kg/m³"
             + (f" ({named})" if named else "")
             + f": plates {size.thickness:g} mm thick and {size.width:g} mm wide, holes of "
-            f"{size.hole:g} mm, pins of {size.pin:g} mm. The pin of a slider is a body of its own.",
+            f"{size.hole:g} mm, pins of {size.pin:g} mm."
+            + (
+                " The pin of a slider is a body of its own."
+                if isinstance(self.reference, Reference)
+                else ""
+            ),
             "The options density, thickness, width, hole, pin and gap state others.",
             "The joints' limits are the range "
             + (
@@ -125,8 +165,8 @@ class DynamicModel:
         ]
         if self.outline:
             sentences.append(
-                "The outline of the body, bars on the coupler, is only to be seen: it weighs "
-                "nothing and touches nothing."
+                f"The outline of the body, bars on the {self.made.body}, is only to be seen: it "
+                "weighs nothing and touches nothing."
             )
         return sentences
 
@@ -149,7 +189,7 @@ class DynamicModel:
 
     def require_limits(self, index: int, low: float, high: float, zero: float = 0.0) -> None:
         """Raise E160 where limits read back are others; index: of the joint; zero: its 0."""
-        name = ("driver", "coupler", "follower")[index]
+        name = self.names[index]
         own = [self.low[index] - zero, self.high[index] - zero]
         size = 1.0 if self.joints.turning[index] else self.reference.span
         require_equal(f"the limits of the joint {name}", [low, high], own, PRECISION * size)

@@ -18,13 +18,34 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.export.coupler_motion import CouplerMotion
+from burmester.export.parts.links import GROUND
+from burmester.export.parts.six_bar_links import frames_of
 from burmester.export.reference import Reference
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.sixbar.found import FoundSixBar
 
-__all__ = ["JointMotion", "along_slot", "directions", "ground_joint", "require_bodies"]
+__all__ = [
+    "FOUR_BAR_JOINTS",
+    "SIX_BAR_JOINTS",
+    "JointMotion",
+    "along_slot",
+    "directions",
+    "ground_joint",
+    "require_bodies",
+    "six_bar_driver",
+]
 
+FOUR_BAR_JOINTS: Final[tuple[str, ...]] = ("driver", "coupler", "follower")
+# The moving links of a six-bar, each with the one that it turns on.
+SIX_BAR_JOINTS: Final = {
+    "first-crank": GROUND,
+    "coupler": "first-crank",
+    "body-link": "coupler",
+    "second-crank": GROUND,
+    "floating-link": "second-crank",
+}
 LOOKS: Final = 721  # places along the motion at which the joints' range is found
 TURN: Final = 2 * np.pi
 
@@ -69,9 +90,10 @@ def along_slot(reference: Reference, side: Literal[0, 1], places: Displacement) 
 
 @final
 class JointMotion(NamedTuple):
-    """The joints driver, coupler and follower along the motion: radians, or metres of slides.
+    """The joints of a linkage along the motion: radians, or metres of slides.
 
-    at_poses: (N, 3).  low, high: (3,), the range that they go through.  turning: (3,), which are
+    Those of a four-bar are driver, coupler and follower, those of a six-bar its moving links.
+    at_poses: (N, k).  low, high: (k,), the range that they go through.  turning: (k,), which are
     hinges.  one_motion: whether one motion goes through all poses; otherwise the range is that of
     the poses alone.  turns_fully: whether the driver can make full turns.
     """
@@ -111,6 +133,29 @@ class JointMotion(NamedTuple):
         values = exact + turns
         every = np.concatenate([rows, values])
         return cls(values, every.min(axis=0), every.max(axis=0), turning, True, fully)
+
+    @classmethod
+    def of_six_bar(cls, found: FoundSixBar) -> Self:
+        """The joints of `SIX_BAR_JOINTS`, without jumps from place to place."""
+        drive = np.union1d(np.linspace(*found.drive_range, LOOKS), found.drive)
+        frames = frames_of(found, drive)
+        rows = np.unwrap(
+            np.column_stack(
+                [frames[link].angle - frames[on].angle for link, on in SIX_BAR_JOINTS.items()]
+            ),
+            axis=0,
+        )
+        driver = list(SIX_BAR_JOINTS).index(six_bar_driver(found))
+        rows[:, driver] += TURN * np.round((drive[0] - rows[0, driver]) / TURN)
+        turning = np.full(len(SIX_BAR_JOINTS), fill_value=True)
+        poses = np.searchsorted(drive, found.drive)
+        low, high = rows.min(axis=0), rows.max(axis=0)
+        return cls(rows[poses], low, high, turning, True, found.turns_fully)
+
+
+def six_bar_driver(found: FoundSixBar) -> str:
+    """The link of a six-bar that a motor drives."""
+    return f"{found.driver}-crank"
 
 
 def _coordinates(reference: Reference, places: Displacement) -> FloatArray:

@@ -11,24 +11,25 @@ E162 dimensions that cannot be made        E163 a linkage that a model of bodies
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Literal
 from xml.etree import ElementTree
 
 import numpy as np
 
+from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.models.bodies import Shape
+from burmester.export.models.body_tree import Body, Site, Tree, tree_of
 from burmester.export.models.driver_load import STANDARD_GRAVITY
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.models.joints import directions
 from burmester.export.models.mjcf_kinematics import frames_at
-from burmester.export.models.servo import ARMATURE, Servo
+from burmester.export.models.servo import Servo
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import PRECISION, Reference, as_rows, description, require_equal
-from burmester.geometry.displacement import Displacement
+from burmester.export.reference import PRECISION, as_rows, require_equal
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
@@ -39,19 +40,22 @@ COLOURS = {
     "driver": ".76 .15 .18 1",
     "coupler": "0 .34 .72 1",
     "follower": ".11 .5 .25 1",
+    "first-crank": ".76 .15 .18 1",
+    "second-crank": ".11 .5 .25 1",
+    "floating-link": ".75 .42 0 1",
+    "body-link": ".45 .25 .65 1",
     "ground": ".4 .4 .4 1",
     "body": "0 .47 .35 1",
 }
 SEEN_ONLY = ' contype="0" conaffinity="0" group="1"'
-JOINED = (("world", "driver"), ("driver", "coupler"), ("coupler", "follower"))
 
 
-def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write the model; raises E162 and E163."""
     model = DynamicModel.of(chosen, options)
     reference = model.reference
     start = model.joints.at_poses[options.pose - 1]
-    servo = Servo.of(model, chosen)
+    servo, tree = Servo.of(model, chosen), tree_of(model, options.pose - 1)
     middle = reference.places.translation.mean(axis=0)
     gravity = " ".join(number(each) for each in model.gravity())
     stiff = f"{number(2 * servo.time_step)} 1"
@@ -72,23 +76,27 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
         "  </default>",
         "  <worldbody>",
         f'    <light pos="{_xyz(middle, 3 * reference.span)}" dir="0 0 -1"/>',
-        *_ground(model),
-        *_driver(model, reference.places[options.pose - 1], start, servo),
+        *_ground(model, tree.ground),
+        *(f"    {line}" for each in tree.bodies for line in _body(model, each, start, servo)),
     ]
-    if reference.kinds[1] != "RP":
-        lines += _follower(model, start)
-    motor = "hinge, radians" if model.joints.turning[0] else "slide, metres"
+    turning = model.joints.turning[model.motor]
+    motor = "hinge, radians" if turning else "slide, metres"
+    low, high = model.low[model.motor], model.high[model.motor]
     lines += [
         "  </worldbody>",
         "  <contact>",
-        *(f'    <exclude body1="{one}" body2="{two}"/>' for one, two in JOINED),
-        '    <exclude body1="follower" body2="world"/>',
+        *(f'    <exclude body1="{one}" body2="{two}"/>' for one, two in _joined(tree)),
         "  </contact>",
-        '  <equality><connect name="loop" site1="loop_a" site2="loop_b"/></equality>',
+        "  <equality>"
+        + "".join(
+            f'<connect name="{each.name}" site1="{each.name}_a" site2="{each.name}_b"/>'
+            for each in tree.loops
+        )
+        + "</equality>",
         f"  <actuator><!-- {motor} -->",
-        f'    <position name="motor" joint="driver" kp="{number(servo.stiffness)}" '
+        f'    <position name="motor" joint="{model.driver}" kp="{number(servo.stiffness)}" '
         f'kv="{number(servo.damping)}" '
-        f'ctrlrange="{number(model.low[0])} {number(model.high[0])}"/>',
+        f'ctrlrange="{number(low)} {number(high)}"/>',
         "  </actuator>",
         "  <keyframe>",
     ]
@@ -103,7 +111,7 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
 
 def _notes(model: DynamicModel, options: Options, servo: Servo) -> list[str]:
     """What was chosen, a paragraph each, for comments."""
-    unit = "kg m²" if model.joints.turning[0] else "kg"
+    unit = "kg m²" if model.joints.turning[model.motor] else "kg"
     return [
         *model.notes(options),
         "Bodies that are joined do not collide.",
@@ -112,8 +120,8 @@ def _notes(model: DynamicModel, options: Options, servo: Servo) -> list[str]:
         "Set the motor's ctrl to the driver's place: radians, or metres of a slide. The ctrl of a "
         "key frame is a little off it, for there the motor holds the linkage against gravity.",
         f"The motor is a stand-in: a servo of {servo.frequency:.0f} radians a second, critically "
-        f"damped, whose own inertia, the armature, is {servo.armature:.3g} {unit} ({ARMATURE:.0%} "
-        "of what it moves).",
+        f"damped, whose own inertia, the armature, is {servo.armature:.3g} {unit} "
+        f"({servo.share:.0%} of what it moves).",
         f"The time step is {servo.time_step:g} s: 1 ms, or a hundredth of the time of a fall of "
         "what is smaller than 10 cm. Limits, contacts and the loop give way within two steps.",
         *(
@@ -127,6 +135,18 @@ def _notes(model: DynamicModel, options: Options, servo: Servo) -> list[str]:
     ]
 
 
+def _joined(tree: Tree) -> list[tuple[str, str]]:
+    """The bodies that a joint or a loop joins."""
+
+    def below(name: str, body: Body) -> list[tuple[str, str]]:
+        return [(name, body.name)] + [
+            pair for each in body.children for pair in below(body.name, each)
+        ]
+
+    on_joints = [pair for each in tree.bodies for pair in below("world", each)]
+    return on_joints + [each.bodies for each in tree.loops]
+
+
 def _small(model: DynamicModel) -> list[str]:
     """The moving bodies whose mass or inertia is less than MuJoCo takes."""
     return [
@@ -136,90 +156,42 @@ def _small(model: DynamicModel) -> list[str]:
     ]
 
 
-def _ground(model: DynamicModel) -> list[str]:
+def _ground(model: DynamicModel, marks: Iterable[Site]) -> list[str]:
     """The ground's plates and pins, and marks of its pivots."""
-    reference = model.reference
-    lines = [f"    {each}" for each in _geoms(model.shapes["ground"], "ground")]
-    for side, fixed in enumerate(reference.fixed):
-        if fixed is not None:
-            name = ' name="loop_b"' if side and reference.kinds[1] == "RP" else ""
-            lines.append(f'    <site{name} pos="{_xyz(fixed)}"/>')
-    return lines
-
-
-def _driver(model: DynamicModel, place: Displacement, start: FloatArray, servo: Servo) -> list[str]:
-    """The driver with the coupler on it."""
-    reference = model.reference
-    moving, line = reference.moving[0], reference.line[0]
-    at, turn, joint = _on_ground(reference, 0, start)
-    if moving is None:
-        assert line is not None
-        relative = -line[0]
-        body = np.array([-line[1], float(start[1])])
-        inner = f'type="slide" axis="{_xyz(directions(line[0])[1])}"'
-    else:
-        relative = float(start[1]) if line is None else float(place.angle)
-        body = np.array([reference.radius[0] or 0.0, 0.0]) - _turned(moving, relative)
-        inner = f'type="hinge" axis="0 0 1" pos="{_xyz(moving)}"'
-    own = f' armature="{number(servo.armature)}"'
-    lines = [
-        f'    <body name="driver" pos="{_xyz(at)}" euler="0 0 {number(turn)}">',
-        f"      {_joint(model, 0, joint, start, own)}",
-        *(f"      {each}" for each in _solid(model, "driver")),
-        f'      <body name="coupler" pos="{_xyz(body)}" euler="0 0 {number(relative)}">',
-        f"        {_joint(model, 1, inner, start)}",
-        *(f"        {each}" for each in _solid(model, "coupler")),
-        '        <site name="body" pos="0 0 0"/>',
+    return [f"    {each}" for each in _geoms(model.shapes["ground"], "ground")] + [
+        f"    {_site(each)}" for each in marks
     ]
-    if reference.kinds[1] == "RP":
-        slot = reference.line[1]
-        assert slot is not None
-        n, along = directions(slot[0])
-        slide = f'type="slide" axis="{_xyz(along)}"'
-        lines += [
-            f'        <body name="follower" pos="{_xyz(slot[1] * n + float(start[2]) * along)}">',
-            f"          {_joint(model, 2, slide, start)}",
-            *(f"          {each}" for each in _solid(model, "follower")),
-            '          <site name="loop_a" pos="0 0 0"/>',
-            "        </body>",
-        ]
-    else:
-        hand = reference.moving[1]
-        assert hand is not None
-        lines.append(f'        <site name="loop_a" pos="{_xyz(hand)}"/>')
-    return [*lines, "      </body>", "    </body>"]
 
 
-def _follower(model: DynamicModel, start: FloatArray) -> list[str]:
-    """A follower on the ground."""
-    at, turn, joint = _on_ground(model.reference, 1, start)
-    tip = np.array([model.reference.radius[1] or 0.0, 0.0])
+def _body(model: DynamicModel, body: Body, start: FloatArray, servo: Servo) -> list[str]:
+    """A body with all that is on it."""
+    inside = [
+        _joint(model, body, start, servo),
+        *_solid(model, body.name),
+        *map(_site, body.sites),
+        *(line for each in body.children for line in _body(model, each, start, servo)),
+    ]
     return [
-        f'    <body name="follower" pos="{_xyz(at)}" euler="0 0 {number(turn)}">',
-        f"      {_joint(model, 2, joint, start)}",
-        *(f"      {each}" for each in _solid(model, "follower")),
-        f'      <site name="loop_b" pos="{_xyz(tip)}"/>',
-        "    </body>",
+        f'<body name="{body.name}" pos="{_xyz(body.at)}" euler="0 0 {number(body.turn)}">',
+        *(f"  {each}" for each in inside),
+        "</body>",
     ]
 
 
-def _on_ground(
-    reference: Reference, side: Literal[0, 1], start: FloatArray
-) -> tuple[FloatArray, float, str]:
-    """Where a side's body begins, its angle, and its joint with the ground."""
-    fixed, line, value = reference.fixed[side], reference.line[side], float(start[2 * side])
-    if fixed is not None:
-        return fixed, value, 'type="hinge" axis="0 0 1"'
-    assert line is not None
-    n, along = directions(line[0])
-    return line[1] * n + value * along, 0.0, f'type="slide" axis="{_xyz(along)}"'
+def _site(site: Site) -> str:
+    name = f' name="{site.name}"' if site.name else ""
+    return f'<site{name} pos="{_xyz(site.at)}"/>'
 
 
-def _joint(model: DynamicModel, index: int, joint: str, start: FloatArray, more: str = "") -> str:
-    """The joint of a body; index: 0 driver, 1 coupler, 2 follower."""
-    name = ("driver", "coupler", "follower")[index]
+def _joint(model: DynamicModel, body: Body, start: FloatArray, servo: Servo) -> str:
+    """The joint of a body."""
+    index = model.names.index(body.name)
+    joint = f'type="hinge" axis="0 0 1" pos="{_xyz(body.axis)}"'
+    if body.slide is not None:
+        joint = f'type="slide" axis="{_xyz(body.slide)}"'
+    more = f' armature="{number(servo.armature)}"' if body.name == model.driver else ""
     return (
-        f'<joint name="{name}" {joint} ref="{number(start[index])}" '
+        f'<joint name="{body.name}" {joint} ref="{number(start[index])}" '
         f'range="{number(model.low[index])} {number(model.high[index])}" '
         f'damping="{number(model.damping()[index])}"{more}/>'
     )
@@ -234,7 +206,7 @@ def _solid(model: DynamicModel, name: str) -> list[str]:
     return [
         f'<inertial pos="{centre}" mass="{number(mass.mass)}" fullinertia="{inertia}"/>',
         *_geoms(model.shapes[name], name),
-        *(_geoms(model.outline, "body", SEEN_ONLY) if name == "coupler" else []),
+        *(_geoms(model.outline, "body", SEEN_ONLY) if name == model.made.body else []),
     ]
 
 
@@ -252,15 +224,11 @@ def _geoms(shapes: list[Shape], owner: str, more: str = "") -> list[str]:
     return lines
 
 
-def _turned(point: FloatArray, angle: float) -> FloatArray:
-    return np.asarray(Displacement(np.zeros(2), np.array(angle)).act(point))
-
-
 def _xyz(point: FloatArray, z: float = 0.0) -> str:
     return f"{xy(point)} {number(z)}"
 
 
-def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read the model's XML back, put its joints to every key frame and compare; raises E160.
 
     The bodies' masses, the joints' limits and the motor's lead are compared, too.
@@ -273,23 +241,28 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     assert world is not None
     keys = root.findall("keyframe/key")
     require_equal("the number of key frames", len(keys), len(reference.places.angle), 0)
-    servo = Servo.of(model, chosen)
+    loops = root.findall("equality/connect")
+    require_equal("the number of loops", len(loops), len(tree_of(model, 0).loops), 0)
+    servo, carrier = Servo.of(model, chosen), model.made.body
     for k, key in enumerate(keys):
-        q = dict(zip(("driver", "coupler", "follower"), numbers_in(key, "qpos"), strict=True))
+        q = dict(zip(model.names, numbers_in(key, "qpos"), strict=True))
         sites, angles = frames_at(world, q)
         place = reference.places[k]
         name = f"at pose {k + 1}"
         body = sites["body"]
-        require_equal(f"the coupler {name}", [body.real, body.imag], place.translation, tolerance)
-        gap = np.exp(1j * (angles["coupler"] - float(place.angle))) - 1
-        require_equal(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
-        require_equal(f"the loop {name}", abs(sites["loop_a"] - sites["loop_b"]), 0, tolerance)
-        lead = numbers_in(key, "ctrl")[0] - q["driver"]
-        own = servo.controls[k] - model.joints.at_poses[k, 0]
-        require_equal(f"the motor {name}", lead, own, PRECISION * (1 + abs(q["driver"])))
+        require_equal(f"the {carrier} {name}", [body.real, body.imag], place.translation, tolerance)
+        gap = np.exp(1j * (angles[carrier] - float(place.angle))) - 1
+        require_equal(f"the {carrier}'s angle {name}", abs(gap), 0, PRECISION)
+        for loop in loops:
+            apart = abs(sites[str(loop.get("site1"))] - sites[str(loop.get("site2"))])
+            require_equal(f"the loop {name}", apart, 0, tolerance)
+        drive = q[model.driver]
+        lead = numbers_in(key, "ctrl")[0] - drive
+        own = servo.controls[k] - model.joints.at_poses[k, model.motor]
+        require_equal(f"the motor {name}", lead, own, PRECISION * (1 + abs(drive)))
     hold = as_rows(reference.places[options.pose - 1])
     sites, angles = frames_at(world, {})
-    body, turn = sites["body"], angles["coupler"]
+    body, turn = sites["body"], angles[carrier]
     require_equal("where it begins", [body.real, body.imag], hold[:2], tolerance)
     require_equal("how it begins", [math.cos(turn), math.sin(turn)], hold[2:], PRECISION)
     motor, option = root.find("actuator/position"), root.find("option")
@@ -299,13 +272,13 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
     require_equal(
         "the motor's stiffness", numbers_in(motor, "kp")[0] / servo.stiffness, 1, PRECISION
     )
-    for index, name in enumerate(("driver", "coupler", "follower")):
+    for index, name in enumerate(model.names):
         link = next(each for each in world.iter("body") if each.get("name") == name)
         joint, mass = link.find("joint"), link.find("inertial")
         assert joint is not None
         assert mass is not None
         model.require_limits(index, *numbers_in(joint, "range"))
-        if name == "driver":
+        if name == model.driver:
             own = numbers_in(joint, "armature")[0] / servo.armature
             require_equal("the motor's inertia", own, 1, PRECISION)
         xx, yy, zz, xy_, xz, yz = numbers_in(mass, "fullinertia")

@@ -13,15 +13,20 @@ import numpy as np
 
 from burmester.export.models.driver_load import STANDARD_GRAVITY
 from burmester.export.models.dynamic_model import DynamicModel
+from burmester.export.six_bar_reference import SixBarReference
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["ARMATURE", "Servo"]
+__all__ = ["Servo"]
 
 LONGEST_STEP: Final = 1e-3  # seconds: time step, shorter for linkages below 10 cm
 STEP_SHARE: Final = 0.01  # of sqrt(span / g), the time of a fall: longest time step
 FREQUENCY: Final = 0.3  # radians a time step: natural frequency
 ARMATURE: Final = 0.01  # of the reduced inertia: that of the motor itself
+# The same of a six-bar: its driver is often so light beside all that it moves that the damping of
+# the servo, which a step of MuJoCo weighs against the driver alone, would shake the loops.
+SIX_BAR_ARMATURE: Final = 0.3
 
 
 @final
@@ -30,6 +35,7 @@ class Servo(NamedTuple):
 
     frequency: natural, radians a second.
     stiffness, damping, armature: newtons, metres and kilograms, or N m, radians and kg m².
+    share: of what the driver moves, the armature.
     controls: (N,), the commands at the poses, within the joint's limits; at a dead point, where no
     motor holds, they do not lead.
     """
@@ -39,19 +45,24 @@ class Servo(NamedTuple):
     stiffness: float
     damping: float
     armature: float
+    share: float
     controls: FloatArray
 
     @classmethod
-    def of(cls, model: DynamicModel, chosen: SavedLinkage) -> Servo:
+    def of(cls, model: DynamicModel, chosen: SavedLinkage | SavedSixBar) -> Servo:
         """A servo with critical damping for the median of the inertia at the poses."""
         step = min(LONGEST_STEP, STEP_SHARE * math.sqrt(model.reference.span / STANDARD_GRAVITY))
         step = float(f"{step:.1e}")
         load = model.load(chosen)
         finite = load.inertia[np.isfinite(load.inertia)]
-        inertia = float(np.median(finite)) if len(finite) else model.masses["driver"].about_z()
-        frequency, moved = FREQUENCY / step, (1 + ARMATURE) * inertia
+        inertia = float(np.median(finite)) if len(finite) else model.masses[model.driver].about_z()
+        six_bar = isinstance(model.reference, SixBarReference)
+        share = SIX_BAR_ARMATURE if six_bar else ARMATURE
+        frequency, moved = FREQUENCY / step, (1 + share) * inertia
         stiffness = moved * frequency**2
         lead = np.nan_to_num(load.holding / stiffness, nan=0.0, posinf=0.0, neginf=0.0)
-        controls = np.clip(model.joints.at_poses[:, 0] + lead, model.low[0], model.high[0])
+        motor = model.motor
+        at = model.joints.at_poses[:, motor] + lead
+        controls = np.clip(at, model.low[motor], model.high[motor])
         damping = 2 * moved * frequency
-        return cls(step, frequency, stiffness, damping, ARMATURE * inertia, controls)
+        return cls(step, frequency, stiffness, damping, share * inertia, share, controls)

@@ -1,7 +1,8 @@
-"""URDF: a tree of links in metres, the loop open, for it has no loops.
+"""URDF: a tree of links in metres, its loops open, for it has none.
 
-With all joints at 0 the linkage stands at the chosen pose, and the frames `loop_a` (on the
-coupler's side) and `loop_b` are at one place: a hinge belongs there.  `body` is the frame M.  The
+With all joints at 0 the linkage stands at the chosen pose, and the frames `loop_a` and `loop_b` (of
+a six-bar `loop_D_a` and `loop_D_b`, `loop_H_a` and `loop_H_b`) are at one place: a hinge belongs
+there.  `body` is the frame M.  The
 root `world` has z upwards, as the programs have it that read URDF; `ground` is the frame F.
 
 E160 the file does not contain the linkage
@@ -11,32 +12,29 @@ E162 dimensions that cannot be made        E163 a linkage that a model of bodies
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from pathlib import Path
-from typing import Literal, NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
 
+from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
+from burmester.export.models.body_tree import ORIGIN, Body, Site, Tree, tree_of
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.models.joints import along_slot, directions, ground_joint
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import PRECISION, Reference, description, require_equal
+from burmester.export.reference import PRECISION, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.wording import listed
 
 __all__ = ["check", "write"]
 
 EFFORT = 1000.0  # N m or newton: limit of joints, required by the format
 SPEED = 10.0  # radians, or spans of a slide, a second: limit of joints, required by the format
-ORIGIN = [0.0, 0.0]
-NAMES = ("driver", "coupler", "follower")
-HEAD = """  URDF has no closed loops, so that of this linkage is left open at one joint.  With all
-  joints at 0, as they are at pose {pose}, the links loop_a and loop_b are at one place.  Close the
-  loop there by a hinge about z, the way your program has it: a point to point constraint between
-  loop_a and loop_b."""
 TILT = {  # roll, pitch, yaw by which the ground stands in a world with z upwards
     "x": (0.0, -math.pi / 2, 0.0),
     "y": (math.pi / 2, 0.0, 0.0),
@@ -47,53 +45,65 @@ TILT = {  # roll, pitch, yaw by which the ground stands in a world with z upward
 }
 
 
-def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write the description; raises E162 and E163."""
     model = DynamicModel.of(chosen, options)
-    reference = model.reference
-    place = reference.places[options.pose - 1]
+    tree = tree_of(model, options.pose - 1)
     head = [each.replace("--unit", "the option unit") for each in description(chosen, options, "m")]
     tilt = " ".join(map(number, TILT[options.up]))
     lines = [
         '<?xml version="1.0"?>',
         f"<robot name={xml_attribute(chosen.id)}>",
         f"  <!-- {' '.join(map(xml_comment, head))} -->",
-        f"  <!--\n{HEAD.format(pose=options.pose)}\n  -->",
+        f"  <!-- {_open_loops(tree, options)} -->",
         *(f"  <!-- {xml_comment(each)} -->" for each in [*model.notes(options), *_notes(options)]),
         '  <link name="world"/>',
         *_fixed("ground", "world", tilt=tilt),
         *_link(model, "ground"),
+        *_frames(tree.ground, "ground"),
     ]
-    on = _coupler_joint(reference, 0, place)  # the coupler's own frame is where the driver holds it
-    lines += _side(model, 0, place, options)
-    angle = float(place.angle)
-    if reference.kinds[0] == "RR":
-        relative = angle - float(ground_joint(reference, 0, place))
-        origin = _Origin("driver", [reference.radius[0] or 0.0, 0.0], relative)
-    elif reference.kinds[0] == "PR":
-        origin = _Origin("driver", [0.0, 0.0], angle)
-    else:
-        line = reference.line[0]
-        assert line is not None
-        origin = _Origin("driver", [0.0, 0.0], -line[0])
-    lines += _joint(model, 1, origin, options)
-    hold = _coupler_joint(reference, 1, place)
-    lines += _link(model, "coupler", on)
-    lines += [*_fixed("body", "coupler", -on), *_frame_link("body")]
-    if reference.kinds[1] == "RP":
-        pivot = reference.fixed[1]
-        assert pivot is not None
-        lines += _joint(model, 2, _Origin("coupler", hold - on, 0.0), options)
-        lines += _link(model, "follower")
-        lines += [*_fixed("loop_a", "follower", np.zeros(2)), *_frame_link("loop_a")]
-        lines += [*_fixed("loop_b", "ground", pivot), *_frame_link("loop_b")]
-    else:
-        lines += [*_fixed("loop_a", "coupler", hold - on), *_frame_link("loop_a")]
-        lines += _side(model, 1, place, options)
-        tip = np.array([reference.radius[1] or 0.0, 0.0])
-        lines += [*_fixed("loop_b", "follower", tip), *_frame_link("loop_b")]
+    for each in tree.bodies:
+        lines += _body(model, each, "ground", ORIGIN, options)
     lines += ["</robot>", ""]
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
+
+
+def _open_loops(tree: Tree, options: Options) -> str:
+    """How the loops are closed, for a comment."""
+    pairs = listed([f"{each.name}_a and {each.name}_b" for each in tree.loops])
+    one = len(tree.loops) == 1
+    return (
+        f"URDF has no closed loops, so {'that' if one else 'those'} of this linkage "
+        f"{'is left open at one joint' if one else 'are left open at a joint each'}. With all "
+        f"joints at 0, as they are at pose {options.pose}, the links {pairs} are at one place"
+        f"{'' if one else ' each'}. Close the {'loop' if one else 'loops'} there by a hinge about "
+        "z, the way your program has it: a point to point constraint between the two."
+    )
+
+
+def _body(
+    model: DynamicModel, body: Body, parent: str, off: FloatArray, options: Options
+) -> list[str]:
+    """A link with its joint, its frames and all that is on it; off: the parent's axis.
+
+    The frame of a link in URDF is where its joint has its axis.
+    """
+    turn = Displacement(ORIGIN, np.array(body.turn))
+    lines = _joint(model, body, parent, body.at + turn.act(body.axis) - off, options)
+    lines += _link(model, body.name, body.axis)
+    lines += _frames(body.sites, body.name, body.axis)
+    for each in body.children:
+        lines += _body(model, each, body.name, body.axis, options)
+    return lines
+
+
+def _frames(sites: Iterable[Site], parent: str, off: FloatArray = ORIGIN) -> list[str]:
+    """Links without mass at the points of a body that have names."""
+    lines = []
+    for each in sites:
+        if each.name:
+            lines += [*_fixed(each.name, parent, each.at - off), f'  <link name="{each.name}"/>']
+    return lines
 
 
 def _notes(options: Options) -> list[str]:
@@ -109,55 +119,20 @@ def _notes(options: Options) -> list[str]:
     ]
 
 
-def _coupler_joint(reference: Reference, side: int, place: Displacement) -> FloatArray:
-    """Where a side holds the coupler, in M: a moving pivot, or a point of the slot."""
-    moving, fixed, line = reference.moving[side], reference.fixed[side], reference.line[side]
-    if moving is not None:
-        return moving
-    assert fixed is not None
-    assert line is not None
-    n, along = directions(line[0])
-    return np.asarray(line[1] * n + float(along_slot(reference, 1 if side else 0, place)) * along)
-
-
-def _side(
-    model: DynamicModel, side: Literal[0, 1], place: Displacement, options: Options
+def _joint(
+    model: DynamicModel, body: Body, parent: str, at: FloatArray, options: Options
 ) -> list[str]:
-    """The link that a side has on the ground."""
-    reference, name = model.reference, ("driver", "follower")[side]
-    start = float(ground_joint(reference, side, place))
-    fixed, line = reference.fixed[side], reference.line[side]
-    if reference.kinds[side] == "PR":
-        assert line is not None
-        n, along = directions(line[0])
-        origin = _Origin("ground", line[1] * n + start * along, 0.0)
-    else:
-        assert fixed is not None
-        origin = _Origin("ground", fixed, start)
-    return [*_joint(model, 2 * side, origin, options), *_link(model, name)]
-
-
-class _Origin(NamedTuple):
-    """The frame of a joint in its parent link: a point and an angle (radians)."""
-
-    parent: str
-    at: FloatArray | list[float]
-    angle: float
-
-
-def _joint(model: DynamicModel, index: int, origin: _Origin, options: Options) -> list[str]:
-    """A hinge about z, or a slide along a line; index: 0 driver, 1 coupler, 2 follower."""
-    name, line = NAMES[index], model.reference.line[0 if index < 2 else 1]
-    start, turning = model.joints.at_poses[options.pose - 1, index], model.joints.turning[index]
+    """A hinge about z, or a slide along a line, at a point of the parent's frame."""
+    index = model.names.index(body.name)
+    start = model.joints.at_poses[options.pose - 1, index]
     kind, axis, speed = "revolute", "0 0 1", SPEED
-    if not turning:
-        assert line is not None
-        kind, axis = "prismatic", f"{xy(directions(line[0])[1])} 0"
+    if body.slide is not None:
+        kind, axis = "prismatic", f"{xy(body.slide)} 0"
         speed = SPEED * model.reference.span
     return [
-        f'  <joint name="{name}" type="{kind}">',
-        f'    <parent link="{origin.parent}"/><child link="{name}"/>',
-        f'    <origin xyz="{xy(origin.at)} 0" rpy="0 0 {number(origin.angle)}"/>',
+        f'  <joint name="{body.name}" type="{kind}">',
+        f'    <parent link="{parent}"/><child link="{body.name}"/>',
+        f'    <origin xyz="{xy(at)} 0" rpy="0 0 {number(body.turn)}"/>',
         f'    <axis xyz="{axis}"/><limit lower="{number(model.low[index] - start)}" '
         f'upper="{number(model.high[index] - start)}" '
         f'effort="{number(EFFORT)}" velocity="{number(speed)}"/>',
@@ -166,9 +141,7 @@ def _joint(model: DynamicModel, index: int, origin: _Origin, options: Options) -
     ]
 
 
-def _fixed(
-    child: str, parent: str, at: FloatArray | list[float] = ORIGIN, tilt: str = "0 0 0"
-) -> list[str]:
+def _fixed(child: str, parent: str, at: FloatArray = ORIGIN, tilt: str = "0 0 0") -> list[str]:
     return [
         f'  <joint name="{child}" type="fixed">',
         f'    <parent link="{parent}"/><child link="{child}"/>',
@@ -177,11 +150,7 @@ def _fixed(
     ]
 
 
-def _frame_link(name: str) -> list[str]:
-    return [f'  <link name="{name}"/>']
-
-
-def _link(model: DynamicModel, name: str, origin: FloatArray | list[float] = ORIGIN) -> list[str]:
+def _link(model: DynamicModel, name: str, origin: FloatArray = ORIGIN) -> list[str]:
     """A link with its mass and shapes; origin: (2,), of its frame in that of the model's body."""
     mass, off = model.masses[name], np.array([*origin, 0.0])
     x, y, z = map(number, mass.centre - off)
@@ -193,7 +162,7 @@ def _link(model: DynamicModel, name: str, origin: FloatArray | list[float] = ORI
         f'iyz="{i[1][2]}" izz="{i[2][2]}"/>',
         "    </inertial>",
     ]
-    solid_shapes, seen = model.shapes[name], model.outline if name == "coupler" else []
+    solid_shapes, seen = model.shapes[name], model.outline if name == model.made.body else []
     both = ("visual", "collision")
     for shape, uses in [(each, both) for each in solid_shapes] + [
         (each, both[:1]) for each in seen
@@ -208,54 +177,37 @@ def _link(model: DynamicModel, name: str, origin: FloatArray | list[float] = ORI
     return [*lines, "  </link>"]
 
 
-def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read the XML back, put its joints to every pose and compare; raises E160.
 
     The masses of the links and the limits of the joints are compared, too.
     """
     model = DynamicModel.of(chosen, options)
-    reference = model.reference
+    reference, tree = model.reference, tree_of(model, options.pose - 1)
     tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     joints = {str(each.get("name")): each for each in root.findall("joint")}
-    start = reference.places[options.pose - 1]
-    for k in range(reference.places.shape[0]):
-        place = reference.places[k]
-        q = {}
-        for side, name in ((0, "driver"), (1, "follower")):
-            if side == 1 and reference.kinds[1] == "RP":
-                q[name] = float(along_slot(reference, 1, place) - along_slot(reference, 1, start))
-            else:
-                q[name] = float(
-                    ground_joint(reference, 1 if side else 0, place)
-                    - ground_joint(reference, 1 if side else 0, start)
-                )
-        if reference.kinds[0] == "RP":
-            q["coupler"] = float(along_slot(reference, 0, start) - along_slot(reference, 0, place))
-        else:
-            q["coupler"] = float(place.angle - start.angle)
-            q["coupler"] -= q["driver"] if reference.kinds[0] == "RR" else 0.0
-        frames = {name: _frame(name, joints, q) for name in ("body", "loop_a", "loop_b")}
-        name = f"at pose {k + 1}"
-        at, turn = frames["body"]
-        require_equal(f"the coupler {name}", [at.real, at.imag], place.translation, tolerance)
+    begin = model.joints.at_poses[options.pose - 1]
+    for k, row in enumerate(model.joints.at_poses - begin):
+        q = dict(zip(model.names, row.tolist(), strict=True))
+        name, place = f"at pose {k + 1}", reference.places[k]
+        at, turn = _frame("body", joints, q)
+        require_equal(f"the body {name}", [at.real, at.imag], place.translation, tolerance)
         gap = turn - complex(np.exp(1j * float(place.angle)))
-        require_equal(f"the coupler's angle {name}", abs(gap), 0, PRECISION)
-        require_equal(
-            f"the loop {name}", abs(frames["loop_a"][0] - frames["loop_b"][0]), 0, tolerance
-        )
+        require_equal(f"the body's angle {name}", abs(gap), 0, PRECISION)
+        for loop in tree.loops:
+            one, two = (_frame(f"{loop.name}_{end}", joints, q)[0] for end in "ab")
+            require_equal(f"the loop {name}", abs(one - two), 0, tolerance)
     stands = joints["ground"].find("origin")
     assert stands is not None
     require_equal("what is up", numbers_in(stands, "rpy"), TILT[options.up], PRECISION)
-    begin = model.joints.at_poses[options.pose - 1]
     links = {str(each.get("name")): each for each in root.findall("link")}
-    on = _coupler_joint(reference, 0, start)
-    for index, joint in enumerate(NAMES):
+    for index, joint in enumerate(model.names):
         limit = joints[joint].find("limit")
         assert limit is not None
         ends = numbers_in(limit, "lower") + numbers_in(limit, "upper")
         model.require_limits(index, ends[0], ends[1], float(begin[index]))
-    for name in ("ground", *NAMES):
+    for name in ("ground", *model.names):
         origin, mass, six = (
             links[name].find(f"inertial/{each}") for each in ("origin", "mass", "inertia")
         )
@@ -264,7 +216,8 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
         assert six is not None
         i = {key: numbers_in(six, f"i{key}")[0] for key in ("xx", "xy", "xz", "yy", "yz", "zz")}
         inertia = [[i[min(a, b) + max(a, b)] for a in "xyz"] for b in "xyz"]
-        off = [*on, 0.0] if name == "coupler" else [0.0, 0.0, 0.0]
+        axis = ORIGIN if name == "ground" else model.axes[model.names.index(name)]
+        off = [*axis, 0.0]
         (kilograms,) = numbers_in(mass, "value")
         model.require_body(name, kilograms, numbers_in(origin, "xyz"), inertia, off)
 

@@ -12,14 +12,10 @@ import math
 from dataclasses import dataclass
 from typing import final
 
-import numpy as np
-
 from burmester.errors import InputError
 from burmester.export.options import Options
-from burmester.export.parts.distances import distance
-from burmester.export.parts.features import Features
+from burmester.export.parts.links import Links, Spacing
 from burmester.export.parts.stock import INCH, Stock, nearest
-from burmester.fourbar.dyad import RR
 
 __all__ = ["PIN_CLEARANCE", "WALL", "Dimensions", "dimensions_of"]
 
@@ -46,10 +42,10 @@ class Dimensions:
 
 
 def dimensions_of(
-    features: Features, options: Options, scale: float, unit: str, stock: Stock | None
+    links: Links, options: Options, scale: float, unit: str, stock: Stock | None
 ) -> Dimensions:
     """The dimensions given or chosen, from a stock if there is one, in millimetres; raises E162."""
-    size, least, least_name = _lengths(features)
+    least = _least(links)
     given = _given(options, scale, unit)
     hole, width, thickness, gap, pin = (
         given[each] for each in ("hole", "width", "thickness", "gap", "pin")
@@ -63,11 +59,11 @@ def dimensions_of(
 
     if hole is None and pin is not None:
         hole = (stock.hole_for(pin) if stock else None) or pin / (1 - PIN_CLEARANCE)
-    most = MAX_WIDTH * least
+    most = MAX_WIDTH * least.apart
     if width is None and hole is not None:
         width = chosen("widths", hole / HOLE)
     elif width is None:
-        width = chosen("widths", min(WIDTH * size, most), most)
+        width = chosen("widths", min(WIDTH * links.size, most), most)
     if hole is None:
         hole = chosen("holes", min(HOLE * width, most), min(most, width / (1 + 2 * WALL)))
     if pin is None:
@@ -77,37 +73,21 @@ def dimensions_of(
     if gap is None:
         gap = chosen("shims", GAP * thickness)
     made = Dimensions(hole, width, thickness, gap, pin)
-    _require_room(made, least, least_name, scale, unit)
+    _require_room(made, least, scale, unit)
     return made
 
 
-def _lengths(features: Features) -> tuple[float, float, str]:
-    """The median length of the links, the shortest between two holes, and its name; raises E163."""
-    near = distance(*features.of_link("coupler"))
-    lengths = [float(dyad.radius) for dyad in features.dyads if isinstance(dyad, RR)]
-    between = {
-        f"{name} link": float(dyad.radius)
-        for name, dyad in zip(("driver's", "follower's"), features.dyads, strict=True)
-        if isinstance(dyad, RR)
-    }
-    between["two joints of the coupler"] = near
-    least_name, least = min(between.items(), key=lambda item: item[1])
-    ground = [pivots.mean(axis=0) for pivots in features.of_link("ground")]
-    lengths += [near, float(np.linalg.norm(ground[1] - ground[0]))]
-    travels = [
-        float(np.linalg.norm(each[1] - each[0])) for each in features.reach if each is not None
-    ]
-    size = float(np.median([each for each in lengths + travels if each > 0] or [1.0]))
-    if not least > MIN_DISTANCE * size:
+def _least(links: Links) -> Spacing:
+    """The two holes of a moving link that are nearest to each other; raises E163."""
+    least = min(links.spacings, key=lambda each: each.apart)
+    if not least.apart > MIN_DISTANCE * links.size:
         raise InputError(
             "E163",
             "this linkage cannot be made of plates with pins and slots",
-            why="both joints of the coupler are at one point of it: a slot runs through them"
-            if least_name.startswith("two")
-            else f"the {least_name} has no length",
+            why=least.fault,
             help="choose another linkage, or a table of its places: --to csv",
         )
-    return size, least, least_name
+    return least
 
 
 def _given(options: Options, scale: float, unit: str) -> dict[str, float | None]:
@@ -128,7 +108,7 @@ def _given(options: Options, scale: float, unit: str) -> dict[str, float | None]
     return given
 
 
-def _require_room(made: Dimensions, least: float, least_name: str, scale: float, unit: str) -> None:
+def _require_room(made: Dimensions, least: Spacing, scale: float, unit: str) -> None:
     """Raise E162 where a hole has no room in its link, beside another hole, or for its pin."""
     hole, width = made.hole, made.width
     most_hole = width / (1 + 2 * WALL)
@@ -141,13 +121,12 @@ def _require_room(made: Dimensions, least: float, least_name: str, scale: float,
             f"be {most_hole / scale:.6g} {unit} at most",
             help=f"give --hole {_down(most_hole / scale)}, or --width {_up(hole * 1.2 / scale)}",
         )
-    most_hole = least / (1 + WALL)
+    most_hole = least.apart / (1 + WALL)
     if not hole <= most_hole:
-        what = least_name if least_name.startswith("two") else f"the {least_name}'s two holes"
         raise InputError(
             "E162",
             f"holes of {hole / scale:.6g} {unit} would overlap",
-            why=f"{what} are {least / scale:.6g} {unit} apart",
+            why=f"{least.holes} are {least.apart / scale:.6g} {unit} apart",
             help=f"give --hole {_down(most_hole / scale)}",
         )
     if not made.pin <= hole:

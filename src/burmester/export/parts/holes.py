@@ -9,9 +9,12 @@ from typing import Any, Final
 
 import numpy as np
 
+from burmester.export.parts.links import GROUND
 from burmester.export.parts.plates import Assembly
 from burmester.export.reference import Reference
+from burmester.export.six_bar_reference import SIX_BAR_PLATES, SixBarReference
 from burmester.numerics.arrays import FloatArray
+from burmester.sixbar.watt import JOINTS
 
 __all__ = ["Joint", "axes_of", "axis_away", "joints_of", "rim_away"]
 
@@ -31,11 +34,18 @@ class Joint:
     line: tuple[FloatArray, float] | None = None
 
 
-def joints_of(reference: Reference, made: Assembly, pose: int) -> list[Joint]:
+def joints_of(reference: Reference | SixBarReference, made: Assembly, pose: int) -> list[Joint]:
     """Where the linkage itself, at a pose from 1, wants holes and slots of plates; millimetres."""
     place = reference.places[pose - 1]
     names = [plate.name for plate in made.plates]
-    ground = tuple(name for name in names if name.startswith("ground"))
+    ground = tuple(plate.name for plate in made.plates if plate.owner == GROUND)
+    if isinstance(reference, SixBarReference):
+        at = dict(zip(JOINTS, reference.joints[pose - 1], strict=True))
+        return [
+            Joint(ground if name == GROUND else (name,), at[each])
+            for name, own in SIX_BAR_PLATES.items()
+            for each in own
+        ]
     joints = list[Joint]()
     for side, name in enumerate(("driver", "follower")):
         fixed, moving, line = reference.fixed[side], reference.moving[side], reference.line[side]

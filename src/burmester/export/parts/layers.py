@@ -1,21 +1,25 @@
 """Which layer each plate lies in, so that none is in the way of another along the motion.
 
-Layers: 0 is the ground, each further one lies on the one before.  A link hangs on its neighbours
-by pins.  Where two links would meet in one layer, or a pin would be in a link's way, the next
-arrangement is taken; the last of them has a second ground above, so that pins are short.
+Of the arrangements that a linkage has the first is taken in which no two links meet in one layer,
+no pin is in a link's way, and the ground has room for its holes.  Where there is none, one link of
+three corners is made an angle, so that pins have room between its arms.
+
+E163 a linkage that plates cannot hold
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
+from burmester.errors import InputError
 from burmester.export.parts.dimensions import WALL, Dimensions
 from burmester.export.parts.distances import distance, distances
-from burmester.export.parts.features import Features
-from burmester.export.parts.plate import Owner, Pin, Plate, plate_of
-from burmester.fourbar.dyad import PR, RR
+from burmester.export.parts.links import GROUND, Arrangement, LinkPlaces, Links
+from burmester.export.parts.plate import Pin, Plate, plate_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
@@ -24,117 +28,166 @@ __all__ = ["arranged"]
 CLEARANCE = 0.05  # of the width: least distance between plates of one layer
 
 
-def arranged(features: Features, made: Dimensions) -> tuple[tuple[Plate, ...], tuple[Pin, ...]]:
-    """The plates in the first arrangement in which nothing meets."""
-    links = [isinstance(dyad, RR) for dyad in features.dyads]
-    apart = distance(*features.of_link("ground")) >= made.hole * (1 + WALL)
-    coupler = 2 if any(links) else 1
-    # (layer of the first link, of the second, of the ground that each hangs on)
-    tries: list[tuple[int, int, int, int]] = []
-    if all(links):
-        tries = [(1, 1, 0, 0), (1, 3, 0, 0), (1, 3, 0, 4)]
-    elif links[0]:
-        tries = [(1, 0, 0, 0), (1, 0, 0, 3)]
-    elif links[1]:
-        tries = [(0, 1, 0, 0), (0, 1, 3, 0)]
-    else:
-        tries = [(0, 0, 0, 0), (0, 0, 0, 2)]
-    for number, (one, two, under, over) in enumerate(tries):
-        plates, pins = _built(features, made, coupler, (one, two), (under, over))
-        one_ground = under == over
-        if number == len(tries) - 1:
-            break
-        if one_ground and not apart:
-            continue
-        if not _meet(plates, pins, features.motion, made):
-            break
-    return plates, pins
-
-
-def _built(
-    features: Features,
-    made: Dimensions,
-    coupler_layer: int,
-    links: tuple[int, int],
-    grounds: tuple[int, int],
-) -> tuple[tuple[Plate, ...], tuple[Pin, ...]]:
-    """The plates and pins with these layers of the links, and of the grounds they hang on."""
-    radius, hole = made.width / 2, made.hole
-    on_ground, on_coupler = features.of_link("ground"), features.of_link("coupler")
-    plates: list[Plate] = []
-    pins: list[Pin] = []
-    names = {layer: "ground" if layer == 0 else "ground-2" for layer in grounds}
-    for layer in sorted(names):
-        own = [each for each, of in zip(on_ground, grounds, strict=True) if of == layer]
-        plates.append(
-            plate_of(own, name=names[layer], owner="ground", layer=layer, radius=radius, hole=hole)
-        )
-    for k, (dyad, layer) in enumerate(zip(features.dyads, links, strict=True)):
-        name: Owner = "follower" if k else "driver"
-        ground = names[grounds[k]]
-        if isinstance(dyad, RR):
-            far = np.array([[float(dyad.radius), 0.0]])
-            plates.append(
-                plate_of(
-                    [np.zeros((1, 2)), far],
-                    name=name,
-                    owner=name,
-                    layer=layer,
-                    radius=radius,
-                    hole=hole,
-                    fixed=dyad.fixed_pivot,
-                    moving=dyad.moving_pivot,
-                )
-            )
-            x, y = dyad.fixed_pivot.tolist()
-            span = sorted((grounds[k], layer))
-            pins.append(Pin(ground, x, y, made.pin, span[0], span[1], (ground, name)))
-            x, y = dyad.moving_pivot.tolist()
-            span = sorted((coupler_layer, layer))
-            pins.append(Pin("coupler", x, y, made.pin, span[0], span[1], ("coupler", name)))
-        else:
-            span = sorted((grounds[k], coupler_layer))
-            on = "coupler" if isinstance(dyad, PR) else ground
-            x, y = (dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot).tolist()
-            pins.append(Pin(on, x, y, made.pin, span[0], span[1], (ground, "coupler")))
-    body = plate_of(
-        on_coupler,
-        name="coupler",
-        owner="coupler",
-        layer=coupler_layer,
-        radius=radius,
-        hole=hole,
-        mark=True,
+def arranged(links: Links, made: Dimensions) -> tuple[tuple[Plate, ...], tuple[Pin, ...]]:
+    """The plates in the first arrangement in which nothing meets; raises E163."""
+    apart = distance(*links.features[GROUND]) >= made.hole * (1 + WALL)
+    workshop = _Workshop(links, made)
+    meetings = _Meetings(links.motion, made)
+    arrangements = [each for each in links.arrangements if len(set(each.grounds)) == 2 or apart]
+    for bent in workshop.bends():
+        for each in arrangements:
+            plates, pins = workshop.plates(each, bent), workshop.pins(each)
+            if not meetings.any(plates, pins):
+                return plates, pins
+    raise InputError(
+        "E163",
+        "this linkage cannot be made of flat plates in layers",
+        why="in whatever layers they lie, two links, or a link and a pin, meet along the motion",
+        help="choose another linkage with --linkage, or narrower links with --width",
     )
-    plates.append(body)
-    order = ["ground", "ground-2", "driver", "coupler", "follower"]
-    return tuple(sorted(plates, key=lambda each: order.index(each.name))), tuple(pins)
 
 
-def _meet(
-    plates: Sequence[Plate], pins: Sequence[Pin], motion: Displacement, made: Dimensions
-) -> bool:
-    """Whether two plates of one layer, or a pin and a plate that it does not join, ever meet."""
-    bodies = {each.name: each.at(motion) for each in plates}
-    clear = CLEARANCE * made.width
-    for k, one in enumerate(plates):
-        for two in plates[k + 1 :]:
-            if one.layer == two.layer:
-                gap = distances(
-                    _placed(one.skeleton, bodies[one.name]), _placed(two.skeleton, bodies[two.name])
-                )
-                if (gap < one.radius + two.radius + clear).any():
-                    return True
-    for pin in pins:
-        at = _placed(np.array([[pin.x, pin.y]]), bodies[pin.plate])
-        for plate in plates:
-            if plate.name not in pin.joins and pin.low < plate.layer < pin.high:
-                gap = distances(at, _placed(plate.skeleton, bodies[plate.name]))
-                if (gap < pin.diameter / 2 + plate.radius + clear).any():
-                    return True
-    return False
+class Bend(NamedTuple):
+    """A link that is an angle, and the number of its corner."""
+
+    link: str
+    corner: int
+
+
+class _Workshop:
+    """Makes the plates and pins of arrangements; a plate that is made only changes its layer."""
+
+    def __init__(self, links: Links, made: Dimensions) -> None:
+        self._links = links
+        self._made = made
+        self._plates: dict[tuple[str, tuple[int, ...], int | None], Plate] = {}
+
+    def bends(self) -> Iterator[Bend | None]:
+        """Which link is an angle, and at which corner: none at first."""
+        yield None
+        for name, features in self._links.features.items():
+            if name != GROUND:
+                for corner in range(3):
+                    bend = Bend(name, corner)
+                    plate = self._plate(name, name, tuple(range(len(features))), 0, bend)
+                    if plate.corner is not None:
+                        yield bend
+
+    def plates(self, arrangement: Arrangement, bent: Bend | None) -> tuple[Plate, ...]:
+        """The plates, those of the ground first."""
+        plates = []
+        for name, features in self._links.features.items():
+            if name != GROUND:
+                held = tuple(range(len(features)))
+                plates.append(self._plate(name, name, held, arrangement.layers[name], bent))
+                continue
+            for layer, plate in _grounds(arrangement).items():
+                held = tuple(k for k, own in enumerate(arrangement.grounds) if own == layer)
+                plates.append(self._plate(plate, name, held, layer, bent))
+        return tuple(plates)
+
+    def _plate(
+        self, name: str, owner: str, held: tuple[int, ...], layer: int, bent: Bend | None
+    ) -> Plate:
+        links, made = self._links, self._made
+        corner = bent.corner if bent is not None and bent.link == name else None
+        if (name, held, corner) not in self._plates:
+            fixed, moving = links.arms.get(owner, (None, None))
+            self._plates[name, held, corner] = plate_of(
+                [links.features[owner][k] for k in held],
+                name=name,
+                owner=owner,
+                layer=layer,
+                radius=made.width / 2,
+                hole=made.hole,
+                mark=owner == links.body,
+                fixed=fixed,
+                moving=moving,
+                corner=corner,
+            )
+        return replace(self._plates[name, held, corner], layer=layer)
+
+    def pins(self, arrangement: Arrangement) -> tuple[Pin, ...]:
+        """The pins, as long as the layers ask for."""
+        pins = []
+        for holder, at, joins, on_ground, name in self._links.hinges:
+            layers = dict(arrangement.layers)
+            names = {each: each for each in self._links.features}
+            if on_ground is not None:
+                layers[GROUND] = arrangement.grounds[on_ground]
+                names[GROUND] = _grounds(arrangement)[layers[GROUND]]
+            low, high = sorted(layers[each] for each in joins)
+            x, y = at.tolist()
+            joined = (names[joins[0]], names[joins[1]])
+            pins.append(Pin(names[holder], x, y, self._made.pin, low, high, joined, name))
+        return tuple(pins)
+
+
+def _grounds(arrangement: Arrangement) -> dict[int, str]:
+    """The names of the ground's plates by their layers."""
+    low = min(arrangement.grounds)
+    return {
+        layer: GROUND if layer == low else f"{GROUND}-2"
+        for layer in sorted(set(arrangement.grounds))
+    }
+
+
+class _Meetings:
+    """Which plates of one layer, and which pins and plates that they do not join, ever meet.
+
+    What was asked once is kept: links do not change from arrangement to arrangement.
+    """
+
+    def __init__(self, motion: LinkPlaces, made: Dimensions) -> None:
+        self._motion = motion
+        self._clear = CLEARANCE * made.width
+        self._known: dict[tuple[object, ...], bool] = {}
+
+    def any(self, plates: Sequence[Plate], pins: Sequence[Pin]) -> bool:
+        """Whether anything meets."""
+        return any(
+            one.layer == two.layer and self._plates(one, two)
+            for k, one in enumerate(plates)
+            for two in plates[k + 1 :]
+        ) or any(
+            pin.low < plate.layer < pin.high
+            and plate.name not in pin.joins
+            and self._pin(pin, plate, plates)
+            for pin in pins
+            for plate in plates
+        )
+
+    def _plates(self, one: Plate, two: Plate) -> bool:
+        key = (*_key(one), *_key(two))
+        if key not in self._known:
+            least = one.radius + two.radius + self._clear
+            self._known[key] = self._near(one, one.pieces, two, least)
+        return self._known[key]
+
+    def _pin(self, pin: Pin, plate: Plate, plates: Sequence[Plate]) -> bool:
+        key = (pin.x, pin.y, pin.plate, *_key(plate))
+        if key not in self._known:
+            holder = next(each for each in plates if each.name == pin.plate)
+            least = pin.diameter / 2 + plate.radius + self._clear
+            at = (np.array([[pin.x, pin.y]]),)
+            self._known[key] = self._near(holder, at, plate, least)
+        return self._known[key]
+
+    def _near(self, one: Plate, shapes: Sequence[FloatArray], two: Plate, least: float) -> bool:
+        """Whether shapes of one plate ever come nearer to the pieces of another than that."""
+        here, there = one.at(self._motion), two.at(self._motion)
+        return any(
+            bool((distances(_placed(a, here), _placed(b, there)) < least).any())
+            for a in shapes
+            for b in two.pieces
+        )
 
 
 def _placed(points: FloatArray, places: Displacement) -> FloatArray:
     """Points (k, 2) at places (n,): (n, k, 2)."""
     return places[:, None].act(points[None])
+
+
+def _key(plate: Plate) -> tuple[object, ...]:
+    """What tells plates apart: the ground may be one plate or two, a link an angle."""
+    return plate.name, len(plate.skeleton), plate.corner

@@ -12,7 +12,7 @@ import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["convex_hull", "points_on", "rounded_hull", "slot_outline"]
+__all__ = ["angle_outline", "convex_hull", "points_on", "rounded_hull", "slot_outline"]
 
 
 def convex_hull(points: FloatArray) -> FloatArray:
@@ -53,6 +53,29 @@ def rounded_hull(corners: FloatArray, radius: float) -> FloatArray:
     into = np.column_stack([corners + radius * before, np.tan(turn / 4)])
     out = np.column_stack([corners + radius * normal, np.zeros(len(corners))])
     return np.stack([into, out], axis=1).reshape(-1, 3)
+
+
+def angle_outline(ends: FloatArray, radius: float) -> FloatArray:
+    """The outline (7, 3), with bulges, of all within a radius of two arms that meet at a corner.
+
+    ends: (3, 2), of one arm, the corner, of the other arm; they turn to the left, and no end is
+    within two radii of the other arm.
+    """
+    start, corner, end = ends
+    one, two = ((each / np.linalg.norm(each)) for each in (corner - start, end - corner))
+    out, on = (radius * np.array([each[1], -each[0]]) for each in (one, two))
+    turn = math.atan2(one[0] * two[1] - one[1] * two[0], float(one @ two))
+    inner = corner - (out + on) / (1 + math.cos(turn))
+    rows = [
+        (start + out, 0.0),
+        (corner + out, math.tan(turn / 4)),
+        (corner + on, 0.0),
+        (end + on, 1.0),
+        (end - on, 0.0),
+        (inner, 0.0),
+        (start - out, 1.0),
+    ]
+    return np.array([[*point.tolist(), bulge] for point, bulge in rows])
 
 
 def slot_outline(slot: FloatArray) -> FloatArray:

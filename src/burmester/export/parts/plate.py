@@ -4,19 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias, final
+from typing import final
 
 import numpy as np
 
-from burmester.export.parts.outlines import convex_hull, points_on, rounded_hull
+from burmester.export.parts.distances import distance
+from burmester.export.parts.links import LinkPlaces
+from burmester.export.parts.outlines import (
+    angle_outline,
+    convex_hull,
+    points_on,
+    rounded_hull,
+)
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Owner", "Pin", "Plate", "moved", "outline_points", "plate_of"]
+__all__ = ["Pin", "Plate", "moved", "outline_points", "plate_of"]
 
+ARMS_APART = 2.5  # radii: least distance of an arm's end from the other arm of an angle
 SLOT_RUN_OUT = 0.5  # of a hole's diameter: slot beyond each end of the pin's travel
-
-Owner: TypeAlias = Literal["ground", "driver", "coupler", "follower"]
 
 
 @final
@@ -24,18 +30,18 @@ Owner: TypeAlias = Literal["ground", "driver", "coupler", "follower"]
 class Plate:
     """A flat part in a frame of its own, millimetres.
 
-    name: ground, ground-2 (the second one, above), driver, coupler or follower; owner: the link
-    that it is of.  The frames: of ground plates F, of the coupler M, of driver and follower the
-    fixed pivot with x towards the moving one.
+    name: that of its link; ground-2 is the second plate of the ground, above.  owner: the link that
+    it is of, in whose frame all is.
     outline: (k, 3) x, y, bulge, counter-clockwise, closed from the last to the first.
     holes: (h, 3) x, y, diameter.  slots: (s, 5) x, y of both ends' centres, width.
     marks: (m, 2), points to be marked: the body's origin.
-    layer: 0 and upwards.  skeleton: (n, 2), convex; the outline is all within `radius` of it.
-    fixed, moving: the pivots of a driver or follower, in F and in M.
+    layer: 0 and upwards.  skeleton: (n, 2), convex; the outline is all within `radius` of it, or,
+    where the plate is an angle, of its two arms from the `corner`, a number of the skeleton's.
+    fixed, moving: of a link between ground and coupler both pivots, in F and in M.
     """
 
     name: str
-    owner: Owner
+    owner: str
     outline: FloatArray
     holes: FloatArray
     slots: FloatArray
@@ -45,17 +51,19 @@ class Plate:
     radius: float
     fixed: FloatArray | None = None
     moving: FloatArray | None = None
+    corner: int | None = None
 
-    def at(self, places: Displacement) -> Displacement:
-        """Where the plate lies (F <- plate) when the coupler is at places (*,), millimetres."""
-        if self.owner == "ground":
-            return Displacement.identity(places.shape)
-        if self.owner == "coupler":
-            return places
-        assert self.fixed is not None
-        assert self.moving is not None
-        arm = places.act(self.moving) - self.fixed
-        return Displacement(self.fixed, np.arctan2(arm[..., 1], arm[..., 0]))
+    @property
+    def pieces(self) -> tuple[FloatArray, ...]:
+        """Convex shapes (n, 2), or arms (2, 2): the plate is all within `radius` of them."""
+        if self.corner is None:
+            return (self.skeleton,)
+        start, corner, end = np.roll(self.skeleton, 1 - self.corner, axis=0)
+        return np.stack([start, corner]), np.stack([corner, end])
+
+    def at(self, places: LinkPlaces) -> Displacement:
+        """Where the plate lies (F <- plate) when the links are at places (*,)."""
+        return places[self.owner]
 
 
 @final
@@ -63,7 +71,7 @@ class Plate:
 class Pin:
     """A pin through layers `low` to `high`, at (x, y) of the plate of that name that holds it.
 
-    joins: the names of the plates that it joins.
+    joins: the names of the plates that it joins.  name: of the joint, where it has one.
     """
 
     plate: str
@@ -73,24 +81,27 @@ class Pin:
     low: int
     high: int
     joins: tuple[str, str]
+    name: str = ""
 
 
 def plate_of(
     features: Sequence[FloatArray],
     *,
     name: str,
-    owner: Owner,
+    owner: str,
     layer: int,
     radius: float,
     hole: float,
     mark: bool = False,
     fixed: FloatArray | None = None,
     moving: FloatArray | None = None,
+    corner: int | None = None,
 ) -> Plate:
     """A plate around features: centres (1, 2) of holes, end centres (2, 2) of slots.
 
     radius: between the features' centres and the outline.  hole: the diameter of holes and the
-    width of slots.  mark: whether the origin is marked.
+    width of slots.  mark: whether the origin is marked.  corner: of an angle, see `Plate`; a plate
+    that is not one of three corners, or too slim for it, is none.
     """
     holes = [[*each[0].tolist(), hole] for each in features if len(each) == 1]
     slots = []
@@ -104,10 +115,15 @@ def plate_of(
     ends = [np.reshape(slot[:4], (2, 2)) for slot in slots]
     points = np.concatenate([np.reshape(each[:2], (1, 2)) for each in holes] + ends + [origin])
     skeleton = convex_hull(points)
+    outline = rounded_hull(skeleton, radius)
+    if corner is not None and _has_arms(skeleton, corner, radius):
+        outline = angle_outline(np.roll(skeleton, 1 - corner, axis=0), radius)
+    else:
+        corner = None
     return Plate(
         name,
         owner,
-        rounded_hull(skeleton, radius),
+        outline,
         np.reshape(np.array(holes, dtype=np.float64), (-1, 3)),
         np.reshape(np.array(slots, dtype=np.float64), (-1, 5)),
         origin,
@@ -116,7 +132,17 @@ def plate_of(
         radius,
         fixed,
         moving,
+        corner,
     )
+
+
+def _has_arms(skeleton: FloatArray, corner: int, radius: float) -> bool:
+    """Whether there is room between two arms from a corner of a skeleton."""
+    if len(skeleton) != 3:
+        return False
+    start, at, end = np.roll(skeleton, 1 - corner, axis=0)
+    gaps = distance(start[None], np.stack([at, end])), distance(end[None], np.stack([start, at]))
+    return min(gaps) > ARMS_APART * radius
 
 
 def moved(plate: Plate, by: Displacement) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:

@@ -1,7 +1,8 @@
 """OpenSCAD (millimetres): numbers at the top, a module per link, moved by $t through the poses.
 
 The links are made from the numbers: pivots, holes, widths and thicknesses can be changed there.
-The places of the coupler are a table; its links turn towards their pivots.
+The places of the coupler are a table; its links turn towards their pivots.  Of a six-bar, all
+moving links have their places in tables.
 
 E160 the file does not contain the linkage
 """
@@ -10,18 +11,25 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from burmester.export.description import description, reference_of
 from burmester.export.escaping import line_comment
 from burmester.export.numbers import number
 from burmester.export.options import Options
-from burmester.export.parts.plates import assembly_of
-from burmester.export.reference import PRECISION, Reference, description, require_equal
+from burmester.export.parts.links import GROUND
+from burmester.export.parts.plates import Assembly, assembly_of
+from burmester.export.reference import PRECISION, require_equal
+from burmester.export.six_bar_reference import SIX_BAR_PLATES, SixBarReference
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.sixbar.watt import JOINTS
 
 __all__ = ["check", "write"]
 
@@ -33,12 +41,16 @@ COLOURS = {
     "driver": "FireBrick",
     "coupler": "SteelBlue",
     "follower": "SeaGreen",
+    "first_crank": "FireBrick",
+    "second_crank": "SeaGreen",
+    "floating_link": "Chocolate",
+    "body_link": "MediumPurple",
 }
 MODULES = """
-// A plate around points, with round holes and slots [x1, y1, x2, y2].
-module plate(points, holes, slots) {
+// A plate around pieces of points, with round holes and slots [x1, y1, x2, y2].
+module plate(pieces, holes, slots) {
   linear_extrude(thickness) difference() {
-    hull() for (p = points) translate(p) circle(d = width);
+    union() for (points = pieces) hull() for (p = points) translate(p) circle(d = width);
     for (h = holes) translate(h) circle(d = hole);
     for (s = slots) hull() {
       translate([s[0], s[1]]) circle(d = hole);
@@ -50,7 +62,7 @@ module plate(points, holes, slots) {
 // Something of the layer with that number.
 module layer(number) { translate([0, 0, number * (thickness + gap)]) children(); }
 
-// Something in the frame of the coupler, at a place [x, y, angle].
+// Something in the frame of a link, at a place [x, y, angle].
 module at_place(place) { translate([place[0], place[1], 0]) rotate(place[2]) children(); }
 
 function on_coupler(place, p) = [
@@ -69,15 +81,14 @@ module pin(low, high) {
 """
 
 
-def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write the model."""
     assembly = assembly_of(chosen, options)
     made = assembly.dimensions
-    motion = assembly.motion
-    pick = np.unique(np.linspace(0, motion.shape[0] - 1, MOTION_ROWS).round().astype(int))
     lines = [f"// {line_comment(line)}" for line in description(chosen, options, "mm")]
     lines += [
-        "// View > Animate plays the motion, with FPS 25 and Steps 100. At $t = 0 the coupler is",
+        "// View > Animate plays the motion, with FPS 25 and Steps 100. At $t = 0 the "
+        f"{assembly.body} is",
         "// at the chosen pose.",
         "",
         f"width = {number(made.width)};",
@@ -100,38 +111,54 @@ def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
             ]
         else:
             lines += [
-                f"{name}_points = {_list(plate.skeleton)};",
+                f"{name}_pieces = [{', '.join(map(_list, plate.pieces))}];",
                 f"{name}_holes = {_list(plate.holes[:, :2])};",
                 f"{name}_slots = {_list(plate.slots[:, :4])};",
             ]
         lines.append(f"{name}_layer = {plate.layer};")
-        if plate.owner == "ground":
-            place = ""
-        elif plate.owner == "coupler":
-            place = "at_place(place) "
-        else:
+        if plate.fixed is not None:
             place = f"towards({name}_fixed, on_coupler(place, {name}_moving)) "
+        else:
+            place = _at(assembly, plate.owner)
         colour = COLOURS[name]
         shown.append(f'layer({name}_layer) {place}color("{colour}") {name}();')
     for pin in assembly.pins:
         where = f"translate([{number(pin.x)}, {number(pin.y)}, 0]) pin({pin.low}, {pin.high});"
-        shown.append(f"at_place(place) {where}" if pin.plate == "coupler" else where)
-    lines += [
-        "",
-        "// x, y, angle in degrees: of the coupler at the poses, and along the motion.",
-        f"poses = {_places(assembly.places)};",
-        f"motion = {_places(motion[pick])};",
-        "place = $t == 0 ? poses[pose - 1] : motion[floor($t * len(motion))];",
-        MODULES,
-    ]
+        holder = assembly.plate(pin.plate)
+        assert holder is not None
+        shown.append(_at(assembly, holder.owner) + where)
+    pick = np.unique(np.linspace(0, assembly.motion.shape[0] - 1, MOTION_ROWS).round().astype(int))
+    for plate in assembly.plates:
+        if plate.owner == GROUND or plate.fixed is not None:
+            continue
+        own = _prefix(assembly, plate.owner)
+        lines += [
+            "",
+            f"// x, y, angle in degrees: of the {plate.owner} at the poses, and along the motion.",
+            f"{own}poses = {_places(plate.at(assembly.poses))};",
+            f"{own}motion = {_places(plate.at(assembly.motion)[pick])};",
+            f"{own}place = $t == 0 ? {own}poses[pose - 1] "
+            f": {own}motion[floor($t * len({own}motion))];",
+        ]
+    lines.append(MODULES)
     for plate in assembly.plates:
         name = plate.name.replace("-", "_")
         if plate.fixed is None:
-            body = f"plate({name}_points, {name}_holes, {name}_slots);"
+            body = f"plate({name}_pieces, {name}_holes, {name}_slots);"
         else:
-            body = f"plate([[0, 0], [{name}_length, 0]], [[0, 0], [{name}_length, 0]], []);"
+            body = f"plate([[[0, 0], [{name}_length, 0]]], [[0, 0], [{name}_length, 0]], []);"
         lines.append(f"module {name}() {{ {body} }}")
     path.write_text("\n".join([*lines, "", *shown, ""]), encoding="utf-8", newline="\n")
+
+
+def _prefix(assembly: Assembly, link: str) -> str:
+    """What the names of a link's places begin with; those of the body with nothing."""
+    return "" if link == assembly.body else f"{link.replace('-', '_')}_"
+
+
+def _at(assembly: Assembly, link: str) -> str:
+    """What puts something of a link to its place."""
+    return "" if link == GROUND else f"at_place({_prefix(assembly, link)}place) "
 
 
 def _list(values: FloatArray) -> str:
@@ -143,12 +170,15 @@ def _places(places: Displacement) -> str:
     return "[\n  " + ",\n  ".join(_list(row) for row in rows) + "\n]"
 
 
-def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read the numbers back and compare them; raises E160."""
-    reference = Reference.of(chosen, options)
+    reference = reference_of(chosen, options)
     tolerance = PRECISION * reference.span
     text = re.sub(r"//.*", "", path.read_text(encoding="utf-8"))
     values = {name: json.loads(value) for name, value in NUMBERS.findall(text)}
+    if isinstance(reference, SixBarReference):
+        _check_six_bar(reference, values, tolerance)
+        return
     rows = np.array(values["poses"])
     require_equal("the places", rows[:, :2], reference.places.translation, tolerance)
     require_equal("the angles", np.radians(rows[:, 2]), reference.places.angle, 1e-12)
@@ -179,3 +209,29 @@ def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
             ends = slots.reshape(-1, 2, 2)
             off = np.abs(ends @ [np.cos(line[0]), np.sin(line[0])] - line[1]).max(axis=1)
             require_equal(f"the slot of the {name}", off.min(initial=np.inf), 0, tolerance)
+
+
+def _check_six_bar(reference: SixBarReference, values: Mapping[str, Any], tolerance: float) -> None:
+    """Raise E160 where links do not meet at their joints, or joints at poses are elsewhere."""
+    where: dict[str, dict[str, list[FloatArray]]] = {}
+    for link, joints in SIX_BAR_PLATES.items():
+        name = link.replace("-", "_")
+        holes = np.array(values[f"{name}_holes"] + values.get(f"{name}_2_holes", []))
+        require_equal(f"the number of holes of the {link}", len(holes), len(joints), 0)
+        own = "" if link == "body-link" else f"{name}_"
+        for table in ("poses", "motion"):
+            rows = np.array(values[f"{table if link == GROUND else own + table}"])
+            places = Displacement(rows[:, :2], np.radians(rows[:, 2]))
+            if link == GROUND:
+                places = Displacement.identity(places.shape)
+            for joint, hole in zip(joints, holes, strict=True):
+                where.setdefault(joint, {}).setdefault(table, []).append(places.act(hole))
+    for joint, tables in where.items():
+        for one, two in tables.values():
+            require_equal(f"joint {joint} of two links", one, two, tolerance)
+        wanted = reference.joints[:, JOINTS.index(joint)]
+        require_equal(f"joint {joint} at the poses", tables["poses"][0], wanted, tolerance)
+    rows = np.array(values["poses"])
+    require_equal("the places", rows[:, :2], reference.places.translation, tolerance)
+    turned = np.exp(1j * (np.radians(rows[:, 2]) - reference.places.angle))
+    require_equal("the angles", np.abs(turned - 1), np.zeros(len(rows)), PRECISION)

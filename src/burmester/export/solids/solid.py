@@ -19,16 +19,18 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.errors import BurmesterError, InputError
+from burmester.export.description import reference_of
 from burmester.export.escaping import step_text
 from burmester.export.options import Options
 from burmester.export.parts.collisions import collision
 from burmester.export.parts.holes import axes_of, axis_away, joints_of, rim_away
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import PRECISION, Reference
+from burmester.export.reference import PRECISION
 from burmester.export.solids.solid_parts import Part, area_of, laid, parts_of, placed
 from burmester.export.solids.step_order import settle
 from burmester.export.solids.stl import Triangles, read_stl, shells_of, volume_of
 from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
 
 __all__ = [
     "check_flat",
@@ -51,7 +53,7 @@ FIXED_TIME: Final = (
 )
 
 
-def write_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write_step(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write the assembly at `options.pose` as STEP: named parts in colours, in their places."""
     cad, made = _cad(), assembly_of(chosen, options)
     parts = [placed(cad, part) for part in parts_of(cad, made)]
@@ -60,19 +62,19 @@ def write_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
     settle(path)
 
 
-def write_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write_stl(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write all parts as a binary STL: each a closed shell of its own, flat, or in its place."""
     cad, made = _cad(), assembly_of(chosen, options)
     parts = parts_of(cad, made)
     _write_stl(cad, parts if options.assembled else laid(parts, made), path)
 
 
-def write_flat(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write_flat(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Write all parts beside each other on z = 0, as they are printed or cut, as a binary STL."""
     write_stl(chosen, path, replace(options, assembled=False))
 
 
-def check_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check_step(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read a STEP file back; raises E160 unless its holes are at this linkage's pivots.
 
     Axes to 1e-9 of the span, volumes to 1e-9 of themselves, and no part is inside another.
@@ -86,7 +88,7 @@ def check_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
         volume = part.area * part.height
         if not abs(read[name].volume - volume) <= VOLUME_TOLERANCE * volume:
             raise _off(f"the {name} has {read[name].volume:.9g} mm³, not {volume:.9g} mm³")
-    reference, radius = Reference.of(chosen, options), made.dimensions.hole / 2
+    reference, radius = reference_of(chosen, options), made.dimensions.hole / 2
     for joint in joints_of(reference, made, options.pose):
         away = min(axis_away(joint, axes_of(read[each], radius)) for each in joint.plates)
         if not away <= PRECISION * reference.span:
@@ -96,7 +98,7 @@ def check_step(chosen: SavedLinkage, path: Path, options: Options) -> None:
         raise _off(f"the {clash[0]} and the {clash[1]} collide along the motion")
 
 
-def check_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check_stl(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read an STL back; raises E160 unless it is closed, with holes at this linkage's pivots."""
     if not options.assembled:
         check_flat(chosen, path, options)
@@ -116,13 +118,13 @@ def check_stl(chosen: SavedLinkage, path: Path, options: Options) -> None:
             and abs(np.ptp(shell[..., 2]) - made.dimensions.thickness) <= tolerance
         ]
         rims[name] = np.concatenate([np.zeros((0, 3)), *(each.reshape(-1, 3) for each in own)])
-    for joint in joints_of(Reference.of(chosen, options), made, options.pose):
+    for joint in joints_of(reference_of(chosen, options), made, options.pose):
         away = min(rim_away(joint, rims[each][:, :2], radius) for each in joint.plates)
         if not away <= tolerance:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
 
 
-def check_flat(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check_flat(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read such an STL back; raises E160 unless its shells are closed and lie apart on z = 0.
 
     Each plate is put back to where the assembly has it, and its holes are compared as there.
@@ -142,7 +144,7 @@ def check_flat(chosen: SavedLinkage, path: Path, options: Options) -> None:
         for part in laid(parts_of(cad, made), made)
         if part.name in plates
     }
-    for joint in joints_of(Reference.of(chosen, options), made, options.pose):
+    for joint in joints_of(reference_of(chosen, options), made, options.pose):
         away = min(rim_away(joint, rims[each], made.dimensions.hole / 2) for each in joint.plates)
         if not away <= 2 * tolerance:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 __all__ = ["Triangles", "read_stl", "shells_of", "volume_of"]
 
 Triangles: TypeAlias = NDArray[np.float64]
+
+SAME: Final = 1e-6  # of the greatest coordinate: distance below which two corners are one
 
 
 def read_stl(path: Path) -> Triangles:
@@ -27,9 +29,11 @@ def read_stl(path: Path) -> Triangles:
 def shells_of(triangles: Triangles) -> list[Triangles] | None:
     """The triangles (n, 3, 3) by shells, written one after the other; None unless all are closed.
 
-    In a closed shell each edge is run through once in each sense.
+    In a closed shell each edge is run through once in each sense.  Corners that are nearer than
+    `SAME` are one: near zero, numbers of 32 bits have more digits than those they were made of.
     """
-    names = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)[1].reshape(-1, 3)
+    corners = np.round(triangles.reshape(-1, 3) / (SAME * np.abs(triangles).max()))
+    names = np.unique(corners, axis=0, return_inverse=True)[1].reshape(-1, 3)
     shells, first, open_ = list[Triangles](), 0, set[tuple[int, int]]()
     for number, (a, b, c) in enumerate(names.tolist()):
         for start, end in ((a, b), (b, c), (c, a)):

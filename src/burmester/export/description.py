@@ -1,0 +1,140 @@
+"""What files say of a linkage: sentences for their heads, dimensions with the digits that carry."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+from burmester.describe import six_bar_words
+from burmester.describe.decimals import Decimals, decimals_of_linkage, figures_of
+from burmester.describe.dimensions import dimensions_of
+from burmester.export.options import Options, unit_of
+from burmester.export.reference import Reference
+from burmester.export.six_bar_reference import SixBarReference
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
+from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.pose_error import PoseError
+from burmester.io.saved import SavedLinkage
+from burmester.io.saved_six_bars import SavedSixBar
+from burmester.tasks.length_per_radian import default_length_per_radian
+from burmester.tasks.motion_task import characteristic_length
+from burmester.wording import with_article
+
+__all__ = ["description", "dimension_notes", "length_decimals", "reference_of"]
+
+FINEST: Final = 1e-7  # of a six-bar's span: what the last decimal of its lengths is worth
+
+
+def reference_of(
+    chosen: SavedLinkage | SavedSixBar, options: Options, unit: str = "mm"
+) -> Reference | SixBarReference:
+    """What a file is compared with, in a unit; raises E162, and E163 without places."""
+    if isinstance(chosen, SavedSixBar):
+        return SixBarReference.of(chosen, options, unit)
+    return Reference.of(chosen, options, unit)
+
+
+def description(
+    chosen: SavedLinkage | SavedSixBar, options: Options, unit: str | None
+) -> list[str]:
+    """Sentences on what a file holds, for its head; unit: of its lengths, None for the task's."""
+    own = unit_of(chosen, options)
+    named = f" {own}" if unit is not None or chosen.unit or options.unit else ""
+    sentences = (
+        _of_six_bar(chosen) if isinstance(chosen, SavedSixBar) else _of_four_bar(chosen, named)
+    )
+    if unit is None:
+        unit_stated = chosen.unit or options.unit
+        sentences.append(
+            f"Lengths are in {unit_stated}." if unit_stated else "The task names no unit of length."
+        )
+        return sentences
+    if own == unit or chosen.unit is None:
+        sentences.append(f"Lengths are in {unit}.")
+    else:
+        sentences.append(f"Lengths are in {unit}; the task's are in {own}.")
+    if chosen.unit is None:
+        sentences.append(
+            f"The task names no unit of length: one of its units is taken for 1 {own}"
+            + (f", as --unit {own} states." if options.unit else "; --unit states another.")
+        )
+    return sentences
+
+
+def _of_four_bar(chosen: SavedLinkage, named: str) -> list[str]:
+    """named: the unit of lengths, after a blank, or nothing."""
+    number = chosen.error.places.shape[0]
+    worst = float(chosen.error.position.max())
+    sentences = [
+        f"Linkage {chosen.id}, {with_article(chosen.type)}, for {number} poses.",
+        f"Its driver is {chosen.ids[0]} ({type(chosen.linkage.first).__name__}), and "
+        f"{chosen.ids[1]} ({type(chosen.linkage.second).__name__}) follows.",
+        f"The coupler comes within {worst:.3g}{named} of every pose.",
+    ]
+    if not chosen.usable:
+        sentences.append("It is not usable as it is: it cannot go from pose to pose in one motion.")
+    return sentences
+
+
+def _of_six_bar(chosen: SavedSixBar) -> list[str]:
+    found = chosen.found
+    return [
+        f"Linkage {chosen.id}, {with_article(chosen.type)}, for {len(found.drive)} poses.",
+        f"Its driver is the crank {six_bar_words.driver_name(found)}, at "
+        f"{', '.join(f'{math.degrees(each):.2f}°' for each in found.drive)} for the poses.",
+        "The body passes every pose.",
+    ]
+
+
+def length_decimals(chosen: SavedLinkage | SavedSixBar, options: Options) -> int:
+    """With how many decimals lengths in millimetres keep the linkage's error."""
+    if isinstance(chosen, SavedSixBar):
+        return figures_of(FINEST * SixBarReference.of(chosen, options).span)
+    return _printed_decimals(chosen, options)[1].lengths
+
+
+def _printed_decimals(chosen: SavedLinkage, options: Options) -> tuple[Linkage, Decimals]:
+    """The linkage in millimetres, and with how many decimals its dimensions keep its error."""
+    own = Reference.of(chosen, options)
+    size = characteristic_length(chosen.task) * own.scale
+    linkage = Linkage(
+        *(_scaled(each, own.scale) for each in (chosen.linkage.first, chosen.linkage.second))
+    )
+    error = PoseError.at(own.places, own.poses)
+    length = default_length_per_radian(chosen.task) * own.scale
+    free = chosen.task.free_angles
+    return linkage, decimals_of_linkage(linkage, own.poses, error, length, size, free_angles=free)
+
+
+def dimension_notes(chosen: SavedLinkage | SavedSixBar, options: Options) -> list[str]:
+    """The dimensions in millimetres, a line for each link, and what a builder gets of them."""
+    if isinstance(chosen, SavedSixBar):
+        found = SixBarReference.of(chosen, options).found
+        links = six_bar_words.joint_rows(found) + six_bar_words.length_rows(found)
+        return [f"{name}: {' '.join(each for each in own if each)}." for name, *own in links]
+    linkage, decimals = _printed_decimals(chosen, options)
+    rows = dimensions_of((linkage.first, linkage.second), chosen.ids, decimals)
+    notes = []
+    for name in chosen.ids:
+        parts = ", ".join(f"{row.what} {row.value}" for row in rows if row.dyad == name)
+        notes.append(f"{name}: {parts}.")
+    position, angle = decimals.error
+    if math.isfinite(position):
+        turned = math.degrees(angle)
+        notes.append(
+            f"Built to these digits, it comes within {position:.2g} mm and {turned:.2g}° of them."
+        )
+    return notes
+
+
+def _scaled(dyad: Dyad, scale: float) -> Dyad:
+    """A dyad in another unit of length, `scale` of them for one."""
+    match dyad:
+        case RR():
+            return RR(dyad.fixed_pivot * scale, dyad.moving_pivot * scale, dyad.radius * scale)
+        case PR():
+            return PR(dyad.normal_angle, dyad.offset * scale, dyad.moving_pivot * scale)
+        case RP():
+            return RP(dyad.fixed_pivot * scale, dyad.normal_angle, dyad.offset * scale)
+        case PP():
+            return dyad
