@@ -18,9 +18,10 @@ from cython.cimports.libc.math import INFINITY, cos, fabs, hypot, isfinite, log,
 SIZE = cython.declare(cython.int, 9)  # dimensions of a linkage
 PHASE = cython.declare(cython.int, 9)  # the number of the unknown that follows them, timed
 MOST = cython.declare(cython.int, 10)  # unknowns
-FOOT_STEPS = cython.declare(cython.int, 2)  # of Newton's towards the foot of the normal, at most
-FOOT_SETTLED = cython.declare(cython.double, 1e-5)  # radians; a step that is shorter is the last
-FOOT_TURN = cython.declare(cython.double, 0.3)  # radians; a longer step is shortened to it
+FOOT_TURN = cython.declare(cython.double, 0.3)  # radians; the most that a foot goes in one step
+# Radians to the foot; from nearer by the distance along the normal is that of the foot, in third
+# order.
+NEAR_FOOT = cython.declare(cython.double, 0.1)
 START_DAMPING = cython.declare(cython.double, 1e-2)  # in units of the squared columns
 MIN_DAMPING = cython.declare(cython.double, 1e-12)
 MAX_DAMPING = cython.declare(cython.double, 1e8)
@@ -40,11 +41,15 @@ FARTHEST = cython.declare(cython.double, 80.0)
 class Coupler:
     """The coupler point of a linkage, and what moves it, at the crank angle looked at last.
 
-    x, y; v_x, v_y: dp/dt; crank, turn: unit numbers; pull: e, the follower's; gain: k.
+    difference: b² - r²; x, y; v_x, v_y: dp/dt; crank, turn: unit numbers; pull: e, the follower's;
+    gain: k.
     """
 
     z: cython.double[9]
     side: cython.double
+    difference: cython.double
+    half_per_b: cython.double
+    per_r: cython.double
     x: cython.double
     y: cython.double
     v_x: cython.double
@@ -61,27 +66,35 @@ class Coupler:
     @cython.cfunc
     @cython.nogil
     @cython.exceptval(check=False)
+    def prepare(self) -> cython.void:
+        """Set what depends on the dimensions alone."""
+        b, r = self.z[5], self.z[6]
+        self.difference, self.half_per_b, self.per_r = b * b - r * r, 0.5 / b, 1 / r
+
+    @cython.cfunc
+    @cython.nogil
+    @cython.exceptval(check=False)
     def look(self, t: cython.double) -> cython.bint:
         """Set the place at a crank angle; whether the linkage assembles there."""
         z = self.z
-        a, b, r, c_x, c_y = z[4], z[5], z[6], z[7], z[8]
+        a, b, c_x, c_y = z[4], z[5], z[7], z[8]
         self.crank_x, self.crank_y = cos(t), sin(t)
         pin_x: cython.double = z[0] + a * self.crank_x
         pin_y: cython.double = z[1] + a * self.crank_y
         to_x: cython.double = z[2] - pin_x
         to_y: cython.double = z[3] - pin_y
         squared: cython.double = to_x * to_x + to_y * to_y
-        away: cython.double = sqrt(squared)
-        cosine: cython.double = (b * b + squared - r * r) / (2 * b * away)
+        near: cython.double = 1 / sqrt(squared)
+        cosine: cython.double = (self.difference + squared) * near * self.half_per_b
         sine: cython.double = self.side * sqrt(1 - cosine * cosine)
-        turn_x: cython.double = (to_x * cosine - to_y * sine) / away
-        turn_y: cython.double = (to_y * cosine + to_x * sine) / away
-        pull_x: cython.double = (b * turn_x - to_x) / r
-        pull_y: cython.double = (b * turn_y - to_y) / r
-        swing: cython.double = b * (pull_y * turn_x - pull_x * turn_y)
+        turn_x: cython.double = (to_x * cosine - to_y * sine) * near
+        turn_y: cython.double = (to_y * cosine + to_x * sine) * near
+        pull_x: cython.double = (b * turn_x - to_x) * self.per_r
+        pull_y: cython.double = (b * turn_y - to_y) * self.per_r
+        per_swing: cython.double = 1 / (b * (pull_y * turn_x - pull_x * turn_y))
         arm_x: cython.double = c_x * turn_x - c_y * turn_y
         arm_y: cython.double = c_x * turn_y + c_y * turn_x
-        self.gain_x, self.gain_y = -arm_y / swing, arm_x / swing
+        self.gain_x, self.gain_y = -arm_y * per_swing, arm_x * per_swing
         drive: cython.double = a * (pull_y * self.crank_x - pull_x * self.crank_y)
         self.v_x = -a * self.crank_y - self.gain_x * drive
         self.v_y = a * self.crank_x - self.gain_y * drive
@@ -134,28 +147,37 @@ class Descent:
         self.cost = 0.0
         for i in range(self.size):
             self.gradient[i] = 0.0
-            for j in range(i + 1):
+            for j in range(MOST):
                 self.normal[MOST * i + j] = 0.0
         if self.turns and not self.fullness(0) >= FULLNESS / 2:
             self.cost = INFINITY
             return
+        coupler = self.coupler
+        coupler.prepare()
         for n in range(self.points.shape[0]):
-            share: cython.double = self.points[n, 2]
             if not self.go_to(n):
                 self.cost = INFINITY
                 return
-            x: cython.double = share * (self.coupler.x - self.points[n, 0])
-            y: cython.double = share * (self.coupler.y - self.points[n, 1])
-            self.cost += x * x + y * y
+            share: cython.double = self.points[n, 2]
+            x: cython.double = share * (coupler.x - self.points[n, 0])
+            y: cython.double = share * (coupler.y - self.points[n, 1])
             if self.timing.shape[0]:
+                self.cost += x * x + y * y
                 self.add_along(x, share, 0.0)
                 self.add_along(y, 0.0, share)
-            else:
-                speed: cython.double = hypot(self.coupler.v_x, self.coupler.v_y)
-                if speed > 0:  # along the curve's unit normal
-                    u_x: cython.double = -self.coupler.v_y / speed
-                    u_y: cython.double = self.coupler.v_x / speed
-                    self.add_along(u_x * x + u_y * y, share * u_x, share * u_y)
+                continue
+            speed: cython.double = sqrt(coupler.v_x * coupler.v_x + coupler.v_y * coupler.v_y)
+            if not speed > 0:
+                self.cost += x * x + y * y
+                continue
+            u_x: cython.double = -coupler.v_y / speed
+            u_y: cython.double = coupler.v_x / speed
+            miss: cython.double = u_x * x + u_y * y
+            ahead: cython.double = u_x * y - u_y * x
+            self.cost += miss * miss
+            if fabs(ahead) > share * speed * NEAR_FOOT:
+                self.cost += ahead * ahead
+            self.add_along(miss, share * u_x, share * u_y)
         if self.cosine < 1:
             self.add_transmission()
         if self.ratio < INFINITY:
@@ -166,25 +188,19 @@ class Descent:
     @cython.cfunc
     @cython.exceptval(check=False)
     def go_to(self, n: cython.Py_ssize_t) -> cython.bint:
-        """Look at the place of a point: at its crank angle, or the foot; whether there is one."""
+        """Look at the place of a point, one step nearer to the foot; whether there is one."""
         coupler = self.coupler
-        if self.timing.shape[0]:
-            return coupler.look(self.t[n])
         if not coupler.look(self.t[n]):
             return False
-        for _ in range(FOOT_STEPS):
-            ahead: cython.double = coupler.v_x * (self.points[n, 0] - coupler.x)
-            ahead += coupler.v_y * (self.points[n, 1] - coupler.y)
-            speed: cython.double = coupler.v_x * coupler.v_x + coupler.v_y * coupler.v_y
-            if not speed > 0:
-                break
-            turn: cython.double = max(-FOOT_TURN, min(FOOT_TURN, ahead / speed))
-            if fabs(turn) < FOOT_SETTLED:
-                break
-            self.t[n] += turn
-            if not coupler.look(self.t[n]):
-                return False
-        return True
+        if self.timing.shape[0]:
+            return True
+        speed: cython.double = coupler.v_x * coupler.v_x + coupler.v_y * coupler.v_y
+        if not speed > 0:
+            return True
+        ahead: cython.double = coupler.v_x * (self.points[n, 0] - coupler.x)
+        ahead += coupler.v_y * (self.points[n, 1] - coupler.y)
+        self.t[n] += max(-FOOT_TURN, min(FOOT_TURN, ahead / speed))
+        return coupler.look(self.t[n])
 
     @cython.cfunc
     @cython.exceptval(check=False)
@@ -212,7 +228,7 @@ class Descent:
         """Add a residual whose derivatives are `row` to the normal equations."""
         for i in range(self.size):
             self.gradient[i] += miss * self.row[i]
-            for j in range(i + 1):
+            for j in range(10):  # all of them: so the compiler takes several at once
                 self.normal[MOST * i + j] += self.row[i] * self.row[j]
 
     @cython.cfunc

@@ -386,20 +386,47 @@ def _assumed(task: Task, least: float, assumed: float) -> Advice:
 
 
 def _judged(evaluation: Evaluation, found: _Found) -> list[FoundLinkage]:
-    """The linkages with errors and verdicts, in the order of `ranking`."""
+    """The linkages with errors and verdicts, in the order of `ranking`.
+
+    Those that cannot be inside the tolerances only where no other is usable: told they are not.
+    """
     step(f"judging {count(len(found.batch), 'linkage')}")
-    target, task = evaluation.target, evaluation.task
-    places = Displacement(found.places[..., :2], found.places[..., 2])
-    pairs = [_numbered(found.batch, k, task) for k in range(len(found.batch))]
+    near = _may_be_inside(evaluation.task, found)
+    judged = _members(evaluation, found, np.flatnonzero(near))
+    if not any(each.usable for each in judged):
+        judged += _members(evaluation, found, np.flatnonzero(~near))
+    judged = ranked(judged, evaluation.problem)
+    return _front(_different(judged, SAME, span(evaluation.task)))
+
+
+def _may_be_inside(task: Task, found: _Found) -> NDArray[np.bool_]:
+    """Which linkages (k,) may have places inside the tolerances of all points.
+
+    Their places are nearest to the points, and what is inside is no farther than the corners.
+    """
+    assert task.tolerances is not None
+    away = np.linalg.norm(found.places[..., :2] - task.poses.translation, axis=-1)
+    corner = np.linalg.norm(task.tolerances.position, axis=-1)
+    return np.asarray((away <= corner + EXACT * span(task)).all(axis=-1))
+
+
+def _members(
+    evaluation: Evaluation, found: _Found, index: NDArray[np.intp]
+) -> list[FoundLinkage]:
+    """Some of the linkages, judged."""
+    if not len(index):
+        return []
+    target, some = evaluation.target, take(found, index)
+    places = Displacement(some.places[..., :2], some.places[..., 2])
+    pairs = [_numbered(found.batch, k, evaluation.task) for k in index.tolist()]
     candidates = Candidates(
-        found.batch.to_canonical(target.frames),
+        some.batch.to_canonical(target.frames),
         target.rows_at(places),
         pairs,
         np.ones(len(pairs), dtype=bool),
-        found.batch,
+        some.batch,
     )
-    found_linkages = ranked(evaluation.members(candidates), evaluation.problem)
-    return _front(_different(found_linkages, SAME, span(task)))
+    return evaluation.members(candidates)
 
 
 def _numbered(batch: LinkageBatch, k: int, task: Task) -> Pair:
