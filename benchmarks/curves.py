@@ -38,7 +38,7 @@ def solved(points, closed, **settings):
     for name, value in settings.items():
         setattr(path_fit, name, value)
     start = time.perf_counter()
-    cost = path_fit.cranks_near_points(points, closed=closed).cost[0]
+    cost = path_fit.PathSearch.of(points, closed=closed).nearest().cost[0]
     seconds = time.perf_counter() - start
     for name, value in usual.items():
         setattr(path_fit, name, value)

@@ -204,9 +204,7 @@ class Descent:
 
     @cython.cfunc
     @cython.exceptval(check=False)
-    def add_along(
-        self, miss: cython.double, u_x: cython.double, u_y: cython.double
-    ) -> cython.void:
+    def add_along(self, miss: cython.double, u_x: cython.double, u_y: cython.double) -> cython.void:
         """Add a residual whose derivative by the coupler point is u."""
         at = self.coupler
         g: cython.double = u_x * at.gain_x + u_y * at.gain_y

@@ -16,12 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.curves.crank_linkages import CrankLinkages
+from burmester.curves.curve_descent import CurveFit
 from burmester.curves.order_of_feet import in_order
-from burmester.curves.path_fit import (
-    cranks_like_path,
-    linkages_near_points,
-    linkages_transmitting_well,
-)
+from burmester.curves.path_fit import PathSearch
 from burmester.curves.timed_paths import linkages_of_five_points
 from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice
@@ -97,14 +94,20 @@ def near_points(
     step(f"looking at {count(len(points), 'point')}")
     if not span(task) > 0:
         return _none(task, options, findings)
-    found = _timed_exactly(points, path) if exact else _nearest(task, path)
+    if exact:
+        found = _timed_exactly(points, path)
+    else:
+        search = PathSearch.of(
+            points, closed=path.closed, crank_angles=path.crank_angles, weights=task.weights
+        )
+        found = _nearest(task, search)
     if path.crank_angles is None:
         alike, wide = found, _without_tolerance(task, options)
         if task.limits:
-            alike = _like_the_path(task, path)
+            alike = _with_cognates(_found(search.like_path()))
             found = _within_limits(wide, _joined([found, alike]))
         if len(found.batch) and time_for("looking for linkages that transmit better"):
-            better = _better(wide, found, alike) if task.limits else [_transmitting(task, path)]
+            better = _better(wide, found, alike) if task.limits else [_transmitting(task, search)]
             found = _joined([found, *better])
     if not len(found.batch):
         return _none(task, options, findings)
@@ -145,16 +148,14 @@ def _once(task: Task) -> Task:
     )
 
 
-def _nearest(task: Task, path: TracedPath) -> _Found:
+def _nearest(task: Task, search: PathSearch) -> _Found:
     """The nearest linkages, and the cognates of them that have a crank as well."""
-    batch, places = linkages_near_points(
-        task.poses.translation,
-        closed=path.closed,
-        crank_angles=path.crank_angles,
-        weights=task.weights,
-        most=CURVES if len(task.poses.angle) <= MANY else FEW,
-    )
-    return _with_cognates(_Found(batch, places))
+    most = CURVES if len(task.poses.angle) <= MANY else FEW
+    return _with_cognates(_found(search.nearest(most)))
+
+
+def _found(fit: CurveFit) -> _Found:
+    return _Found(fit.linkages.batch(), fit.linkages.rows(fit.t))
 
 
 def _timed_exactly(points: FloatArray, path: TracedPath) -> _Found:
@@ -220,12 +221,6 @@ def _without_tolerance(task: Task, options: SynthesisOptions) -> Evaluation:
     return Evaluation(problem, target_of(problem).relaxed)
 
 
-def _like_the_path(task: Task, path: TracedPath) -> _Found:
-    """Many different linkages whose curves are like the path, hardly refined."""
-    alike = cranks_like_path(task.poses.translation, closed=path.closed)
-    return _with_cognates(_Found(alike.linkages.batch(), alike.linkages.rows(alike.t)))
-
-
 def _within_limits(wide: Evaluation, found: _Found) -> _Found:
     """Linkages near the points with their pivots and links within the limits, the nearest first.
 
@@ -253,18 +248,12 @@ def _within_limits(wide: Evaluation, found: _Found) -> _Found:
     return _refined(target, refined)
 
 
-def _transmitting(task: Task, path: TracedPath) -> _Found:
+def _transmitting(task: Task, search: PathSearch) -> _Found:
     """Linkages that transmit better and better, and are sanely built, as near as each can be."""
     asked = Standard.of(task).requirements(task.requirements)
-    batch, places = linkages_transmitting_well(
-        task.poses.translation,
-        _levels(task),
-        closed=path.closed,
-        weights=task.weights,
-        ratio=asked.link_ratio,
-        most=KEPT if len(task.poses.angle) <= MANY else 1,
-    )
-    return _with_cognates(_Found(batch, places))
+    most = KEPT if len(task.poses.angle) <= MANY else 1
+    fit = search.transmitting_well(_levels(task), ratio=asked.link_ratio, most=most)
+    return _with_cognates(_found(fit))
 
 
 def _levels(task: Task) -> list[float]:
@@ -409,9 +398,9 @@ def _in_order(task: Task, found: _Found) -> _Found:
     assert task.tolerances is not None
     own, t = CrankLinkages.of(found.batch, found.places)
     rows = own.rows(in_order(own, t, closed=path.closed))
-    rows[..., 2] += (found.places[:, :1, 2] - own.rows(t[:, :1])[..., 2])  # of the body frame M
+    rows[..., 2] += found.places[:, :1, 2] - own.rows(t[:, :1])[..., 2]  # of the body frame M
     gap = np.abs(rows[..., :2] - task.poses.translation)
-    inside = (gap <= task.tolerances.position + EXACT * span(task)).all(axis=(1, 2))
+    inside = np.all(gap <= task.tolerances.position + EXACT * span(task), axis=(1, 2))
     places = np.where(inside[:, None, None], rows, found.places)
     return found._replace(places=places)
 
@@ -427,9 +416,7 @@ def _may_be_inside(task: Task, found: _Found) -> NDArray[np.bool_]:
     return np.asarray((away <= corner + EXACT * span(task)).all(axis=-1))
 
 
-def _members(
-    evaluation: Evaluation, found: _Found, index: NDArray[np.intp]
-) -> list[FoundLinkage]:
+def _members(evaluation: Evaluation, found: _Found, index: NDArray[np.intp]) -> list[FoundLinkage]:
     """Some of the linkages, judged."""
     if not len(index):
         return []
