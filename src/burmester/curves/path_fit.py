@@ -39,7 +39,7 @@ SAME_CURVE = 2e-3  # radii of gyration; curves that are nearer at all feet are o
 SAME_SHARE = 0.3  # of the root mean square distance; the same while curves are still refined
 # For each least transmission angle: starts, rounds as above, degrees by which a start may transmit
 # worse, and margins, degrees and relative, by which the angle and the ratio are kept.
-STARTS_OF_LEVEL, ROUNDS_OF_LEVEL = 120, ((8, 40), (20, 12), (60, 8))
+STARTS_OF_LEVEL, ROUNDS_OF_LEVEL = 160, ((8, 60), (20, 20), (60, 12))
 LOWER, MARGIN, RATIO_MARGIN = 15.0, 0.2, 0.01
 KEPT = 12  # different curves that are given back
 
