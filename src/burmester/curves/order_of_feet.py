@@ -28,6 +28,7 @@ def in_order(linkages: CrankLinkages, t: FloatArray, *, closed: bool) -> FloatAr
         along = np.concatenate([[0.0], steps[k, turn[:-1]].cumsum()])
         weight = np.abs(linkages[[k]].at(t[k : k + 1, turn]).velocity[0]) ** 2
         out[k, turn] = t[k, begin] + sense[k] * _pooled(along, weight)
+        out[k, :begin] -= sense[k] * 2 * np.pi
     return out
 
 
