@@ -19,7 +19,6 @@ from burmester.curves.atlas import likenesses
 from burmester.curves.crank_linkages import CrankLinkages
 from burmester.curves.curve_descent import CurveFit, PathTarget, descend
 from burmester.curves.timed_paths import timed_starts
-from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import FloatArray, complex_of, even_numbers
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import weights_of_mean_one
@@ -29,11 +28,14 @@ __all__ = ["PathSearch"]
 
 MAX_SEARCHED_POINTS = 60  # a search takes so many, evenly chosen; the last refinement takes all
 MOST_ALIKE, FEW_STEPS = 3000, 2  # curves of the atlas laid over the path, and steps that sort them
-# Steps of a round of refinement, and number of the best linkages that go on after it.
-ROUNDS = ((8, 300), (20, 100), (100, 40))
 STARTS = 800  # curves of the atlas that are refined
+# The same of open paths, and points times starts: many curves are like an arc of few points.
+OPEN_STARTS, OPEN_WORK = 5000, 75_000
+FURTHER_STEPS = 200  # of further starts, before they join
+# Steps of a round of refinement, and the share of the starts that goes on after it.
+ROUNDS = ((8, 3 / 8), (20, 1 / 8), (100, 1 / 20))
 MORE_STEPS = 80  # with all points, where the search took some
-LAST, LAST_STEPS = 6, 400  # the best curves are refined to their end; valleys may be long
+LAST, LAST_STEPS = 12, 400  # the best curves are refined to their end; valleys may be long
 NEARLY_SETTLED = 1e-6  # relative gain of the cost below which a step before that is the last
 SAME_CURVE = 2e-3  # radii of gyration; curves that are nearer at all feet are one curve
 SAME_SHARE = 0.3  # of the root mean square distance; the same while curves are still refined
@@ -95,33 +97,35 @@ class PathSearch:
         index = even_numbers(len(every), MAX_SEARCHED_POINTS)
         some = None if timing is None else timing[index]
         part = PathTarget(every[index], share[index], closed, some)
-        linkages, t, _ = likenesses(part.points, closed, MOST_ALIKE)
+        linkages, t, _ = likenesses(part.points, closed, max(MOST_ALIKE, STARTS, OPEN_STARTS))
         whole = PathTarget(every, share, closed, timing)
         return cls(whole, part, index, size, middle, CurveFit(linkages, t, np.zeros(len(t))))
 
     def nearest(
-        self, most: int = KEPT, starts: Sequence[tuple[LinkageBatch, FloatArray]] = ()
+        self, most: int = KEPT, starts: Sequence[tuple[CrankLinkages, FloatArray]] = ()
     ) -> CurveFit:
         """Linkages whose coupler point comes near to the points, at most so many curves.
 
-        starts: further linkages to start from, with their places (k, N, 3) near the points.
+        starts: further linkages (k,) to start from, with crank angles (k, N) near the points.
         Their crank angles are those of the nearest places, or the given ones; their cost is the
         weighted sum of squared distances, in the task's unit.  The nearest come first.
         """
         whole, part = self.whole, self.part
-        fits = [self._started()]
-        for batch, rows in starts:
-            own, t = CrankLinkages.of(batch, rows)
-            smaller, none = np.full(len(own), 1 / self.size), np.zeros(len(own))
-            own = own.moved(smaller + 0j, -self.middle * smaller)
-            fits.append(CurveFit(own, t[:, self.index], none))
-        fit = fits[0] if len(fits) == 1 else concatenate(fits)
+        fits, number = [self._started()], self._starts()
+        for linkages, t in starts:
+            smaller, none = np.full(len(linkages), 1 / self.size), np.zeros(len(linkages))
+            own = linkages.moved(smaller + 0j, -self.middle * smaller)
+            begun = CurveFit(own, t[:, self.index], none)
+            # They are few, and far from the best at first: a round among the others would end them.
+            fits.append(_best(descend(begun, part, FURTHER_STEPS), len(none)))
+        fit = concatenate(fits)
         if part.timing is not None:
             fit = _timed(fit, part)
         step("refining linkages to the points of the path")
-        for number, (steps, kept) in enumerate(ROUNDS):
+        for steps, share in ROUNDS:
+            kept = math.ceil(number * share)
             fit = _best(descend(fit, part, steps, settled=NEARLY_SETTLED), kept)
-            if number:
+            if steps > ROUNDS[0][0]:
                 fit = _different(fit, part, kept, SAME_SHARE)
         if len(self.index) < len(whole.points):
             fit = _best(descend(self._at_all(fit), whole, MORE_STEPS), len(fit.cost))
@@ -167,19 +171,29 @@ class PathSearch:
                 fit = _best(descend(fit, target, steps, settled=NEARLY_SETTLED), number_kept)
             if len(fit.cost):
                 kept.append(_different(fit, part, most))
-        fits = concatenate(kept) if kept else take(start, slice(0, 0))
-        return self._in_unit(self._at_all(fits))
+        fits = self._at_all(concatenate(kept) if kept else take(start, slice(0, 0)))
+        for _ in range(FEW_STEPS):  # to the feet
+            fits = descend(fits, self.whole, 0)
+        return self._in_unit(fits)
+
+    def _starts(self) -> int:
+        """How many curves of the atlas are refined."""
+        if self.part.turns:
+            return STARTS
+        return min(max(OPEN_WORK // len(self.part.points), STARTS), OPEN_STARTS)
 
     def _started(self) -> CurveFit:
         """Curves as start values; timed ones are fitted to the curve first, a little."""
-        fit, part = take(self.alike, slice(0, STARTS)), self.part
+        fit, part = take(self.alike, slice(0, self._starts())), self.part
         if part.timing is None:
             return fit
         return _best(descend(fit, part._replace(timing=None), ROUNDS[0][0]), len(fit.cost))
 
     def _sorted(self) -> CurveFit:
         """The curves of the atlas after a few steps, the nearest first."""
-        return _best(descend(self.alike, self.part, FEW_STEPS), MOST_ALIKE)
+        return _best(
+            descend(take(self.alike, slice(0, MOST_ALIKE)), self.part, FEW_STEPS), MOST_ALIKE
+        )
 
     def _at_all(self, fit: CurveFit) -> CurveFit:
         """Fits at the part of the points, with crank angles (k, N) at all of them."""

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from burmester.curves.crank_linkages import CrankLinkages
 from burmester.curves.curve_descent import CurveFit
+from burmester.curves.nine_point_starts import nine_point_starts
 from burmester.curves.order_of_feet import in_order
 from burmester.curves.path_fit import PathSearch
 from burmester.curves.timed_paths import linkages_of_five_points
@@ -100,7 +101,11 @@ def near_points(
         search = PathSearch.of(
             points, closed=path.closed, crank_angles=path.crank_angles, weights=task.weights
         )
-        found = _nearest(task, search)
+        starts: list[tuple[CrankLinkages, FloatArray]] = []
+        asked = options.nine_point_starts and not path.closed and path.crank_angles is None
+        if asked and time_for("looking for linkages through nine of the points"):
+            starts = nine_point_starts(points)
+        found = _nearest(task, search, starts)
     if path.crank_angles is None:
         alike, wide = found, _without_tolerance(task, options)
         if task.limits:
@@ -148,10 +153,12 @@ def _once(task: Task) -> Task:
     )
 
 
-def _nearest(task: Task, search: PathSearch) -> _Found:
+def _nearest(
+    task: Task, search: PathSearch, starts: Sequence[tuple[CrankLinkages, FloatArray]]
+) -> _Found:
     """The nearest linkages, and the cognates of them that have a crank as well."""
     most = CURVES if len(task.poses.angle) <= MANY else FEW
-    return _with_cognates(_found(search.nearest(most)))
+    return _with_cognates(_found(search.nearest(most, starts)))
 
 
 def _found(fit: CurveFit) -> _Found:
