@@ -57,8 +57,9 @@ def test_no_small_change_of_an_end_is_better(kind, seed):
     start, points, side = path(seed)
     timing = start.t[0] if kind == "timed" else None
     asked = (np.radians(50), 2.5) if kind == "built" else (None, np.inf)
-    # The bound of a full turn is no place where the derivatives vanish.
-    target = PathTarget(points, np.ones(len(points)), kind == "built", timing, *asked)
+    # At the bounds of a full turn and of an unbroken way the derivatives need not vanish.
+    turns = kind == "built"
+    target = PathTarget(points, np.ones(len(points)), turns, timing, *asked, unbroken=False)
     end = descend(start, target, 3000)
     z, t = end.linkages.dimensions[0], end.t[0]
 
@@ -83,6 +84,22 @@ def test_no_small_change_of_an_end_is_better(kind, seed):
         free = descend(start, target._replace(transmission=None), 3000)
         assert end.linkages.least_transmission() > free.linkages.least_transmission()
         assert np.degrees(end.linkages.least_transmission()) > 45
+
+
+def test_an_end_assembles_between_the_points_too():
+    """Of some starts the descent would end at linkages that have to be taken apart."""
+    broken = 0
+    for seed in range(12):
+        start, points, side = path(seed)
+        part = start._replace(t=start.t[:, 2:12])
+        target = PathTarget(points[2:12] * (1 + 0.3j * np.arange(10)), np.ones(10), False)
+        for unbroken in (True, False):
+            end = descend(part, target._replace(unbroken=unbroken), 300)
+            t = np.linspace(end.t[0].min(), end.t[0].max(), 2000)
+            whole = np.isfinite(traced(dyads_of(end.linkages.dimensions[0]), side, t)).all()
+            assert whole or not unbroken
+            broken += not whole
+    assert broken > 0
 
 
 def test_cranks_keep_turning_fully_and_links_keep_to_their_bounds():

@@ -35,6 +35,7 @@ class PathTarget(NamedTuple):
     timing: (n,), crank angles but for one phase, or None.
     transmission: the least transmission angle at the feet, or over the whole turn, in radians, and
     ratio: the longest link over the shortest; what they are missed by counts much.
+    unbroken: whether linkages have to assemble between the points of an open path as well.
     """
 
     points: ComplexArray
@@ -43,6 +44,7 @@ class PathTarget(NamedTuple):
     timing: FloatArray | None = None
     transmission: float | None = None
     ratio: float = math.inf
+    unbroken: bool = True
 
 
 class CurveFit(NamedTuple):
@@ -79,6 +81,7 @@ def descend(
             points,
             timing,
             target.turns,
+            target.unbroken and not target.turns,
             cosine,
             ratio,
             steps if goes_on(at + 1, number, "linkage") else 0,

@@ -13,7 +13,18 @@ import numpy as np
 if not cython.compiled:
     raise ImportError("burmester's kernels are not compiled: install it again, by scripts/setup")
 
-from cython.cimports.libc.math import INFINITY, cos, fabs, hypot, isfinite, log, sin, sqrt
+from cython.cimports.libc.math import (
+    INFINITY,
+    atan2,
+    ceil,
+    cos,
+    fabs,
+    hypot,
+    isfinite,
+    log,
+    sin,
+    sqrt,
+)
 
 SIZE = cython.declare(cython.int, 9)  # dimensions of a linkage
 PHASE = cython.declare(cython.int, 9)  # the number of the unknown that follows them, timed
@@ -22,6 +33,7 @@ FOOT_TURN = cython.declare(cython.double, 0.3)  # radians; the most that a foot 
 # Radians to the foot; from nearer by the distance along the normal is that of the foot, in third
 # order.
 NEAR_FOOT = cython.declare(cython.double, 0.1)
+TURN = cython.declare(cython.double, 6.283185307179586)
 START_DAMPING = cython.declare(cython.double, 1e-2)  # in units of the squared columns
 MIN_DAMPING = cython.declare(cython.double, 1e-12)
 MAX_DAMPING = cython.declare(cython.double, 1e8)
@@ -108,7 +120,7 @@ class Descent:
     """A linkage on its way, and where a step from it would lead.
 
     points: (n, 3), x, y and the square root of the weight; t: (n,), the crank angles of the feet;
-    timing: (n,), the crank angles but for one phase, or (0,).  turns, cosine, ratio: see `descend`.
+    timing: (n,), the crank angles but for one phase, or (0,); turns and others: see `descend`.
     size: number of unknowns; cost: sum of squares; gradient, normal: half its derivatives, and the
     normal equations, their lower triangle.
     """
@@ -117,6 +129,7 @@ class Descent:
     points: cython.double[:, ::1]
     timing: cython.double[::1]
     turns: cython.bint
+    unbroken: cython.bint
     cosine: cython.double
     ratio: cython.double
     size: cython.int
@@ -131,11 +144,12 @@ class Descent:
         points: cython.double[:, ::1],
         timing: cython.double[::1],
         turns: cython.bint,
+        unbroken: cython.bint,
         cosine: cython.double,
         ratio: cython.double,
     ) -> None:
         self.coupler = Coupler()
-        self.points, self.timing, self.turns = points, timing, turns
+        self.points, self.timing, self.turns, self.unbroken = points, timing, turns, unbroken
         self.cosine, self.ratio = cosine, ratio
         self.size = SIZE + (timing.shape[0] > 0)
         self.t = np.empty(points.shape[0])
@@ -178,12 +192,35 @@ class Descent:
             if fabs(ahead) > share * speed * NEAR_FOOT:
                 self.cost += ahead * ahead
             self.add_along(miss, share * u_x, share * u_y)
+        if self.unbroken and not self.passes():
+            self.cost = INFINITY
+            return
         if self.cosine < 1:
             self.add_transmission()
         if self.ratio < INFINITY:
             self.add_ratio()
         if not isfinite(self.cost):
             self.cost = INFINITY
+
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def passes(self) -> cython.bint:
+        """Whether the linkage assembles all the way between the crank angles, too.
+
+        Its diagonal is shortest and longest where the crank points along the ground link.
+        """
+        z = self.coupler.z
+        ground: cython.double = hypot(z[2] - z[0], z[3] - z[1])
+        along: cython.double = atan2(z[3] - z[1], z[2] - z[0])
+        low: cython.double = self.t[0]
+        high: cython.double = self.t[0]
+        for n in range(1, self.t.shape[0]):
+            low, high = min(low, self.t[n]), max(high, self.t[n])
+        near: cython.double = along + TURN * ceil((low - along) / TURN)
+        far: cython.double = along + TURN * (ceil((low - along) / TURN - 0.5) + 0.5)
+        if near <= high and fabs(ground - z[4]) < fabs(z[5] - z[6]):
+            return False
+        return not (far <= high and ground + z[4] > z[5] + z[6])
 
     @cython.cfunc
     @cython.exceptval(check=False)
@@ -401,6 +438,7 @@ def descend(
     points: cython.double[:, ::1],
     timing: cython.double[::1],
     turns: cython.bint,
+    unbroken: cython.bint,
     cosine: cython.double,
     ratio: cython.double,
     steps: cython.int,
@@ -409,11 +447,12 @@ def descend(
     """Move linkages (k, 9) with crank angles t (k, n) towards points (n, 3), and set costs (k,).
 
     points: x, y and the square root of the weight; timing: (n,), the crank angles but for one
-    phase, or (0,); turns: whether cranks go all the way round; cosine, ratio: of the transmission
+    phase, or (0,); turns: whether cranks go all the way round; unbroken: whether linkages assemble
+    between the points too; cosine, ratio: of the transmission
     angle, and of the longest link over the shortest, at most; steps: at most; settled: relative
     gain of the cost below which a step is the last.
     """
-    way: Descent = Descent(points, timing, turns, cosine, ratio)
+    way: Descent = Descent(points, timing, turns, unbroken, cosine, ratio)
     here = cython.declare(cython.double[10])
     scale = cython.declare(cython.double[10])
     gradient = cython.declare(cython.double[10])

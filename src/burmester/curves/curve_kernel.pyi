@@ -8,6 +8,7 @@ def descend(
     points: FloatArray,
     timing: FloatArray,
     turns: bool,
+    unbroken: bool,
     cosine: float,
     ratio: float,
     steps: int,
