@@ -60,6 +60,7 @@ def descend(
 ) -> CurveFit:
     """The fits after at most so many steps; those that do not assemble keep an infinite cost.
 
+    Crank angles are those of the feet at the end.
     settled: relative gain of the cost below which a step is the last.
     Fits for which there is no time are measured as they begin.
     """

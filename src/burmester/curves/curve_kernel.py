@@ -30,9 +30,12 @@ SIZE = cython.declare(cython.int, 9)  # dimensions of a linkage
 PHASE = cython.declare(cython.int, 9)  # the number of the unknown that follows them, timed
 MOST = cython.declare(cython.int, 10)  # unknowns
 FOOT_TURN = cython.declare(cython.double, 0.3)  # radians; the most that a foot goes in one step
-# Radians to the foot; from nearer by the distance along the normal is that of the foot, in third
-# order.
-NEAR_FOOT = cython.declare(cython.double, 0.1)
+# Length along the curve to the foot of the normal, in radii of gyration of the points.  From nearer
+# the distance along the normal is that of the foot, in third order.
+NEAR_FOOT = cython.declare(cython.double, 1e-2)
+AT_FOOT = cython.declare(cython.double, 1e-10)  # the same; nearer is there
+FOOT_STEPS = cython.declare(cython.int, 3)  # of Newton's in each step of a linkage, at most
+LAST_FOOT_STEPS = cython.declare(cython.int, 20)  # of them at its end
 TURN = cython.declare(cython.double, 6.283185307179586)
 START_DAMPING = cython.declare(cython.double, 1e-2)  # in units of the squared columns
 MIN_DAMPING = cython.declare(cython.double, 1e-12)
@@ -121,8 +124,8 @@ class Descent:
 
     points: (n, 3), x, y and the square root of the weight; t: (n,), the crank angles of the feet;
     timing: (n,), the crank angles but for one phase, or (0,); turns and others: see `descend`.
-    size: number of unknowns; cost: sum of squares; gradient, normal: half its derivatives, and the
-    normal equations, their lower triangle.
+    last: whether crank angles go all the way to the feet; size: number of unknowns; cost: sum of
+    squares; gradient, normal: half its derivatives, and the normal equations, their lower triangle.
     """
 
     coupler: Coupler
@@ -132,6 +135,7 @@ class Descent:
     unbroken: cython.bint
     cosine: cython.double
     ratio: cython.double
+    last: cython.bint
     size: cython.int
     t: cython.double[::1]
     cost: cython.double
@@ -150,7 +154,7 @@ class Descent:
     ) -> None:
         self.coupler = Coupler()
         self.points, self.timing, self.turns, self.unbroken = points, timing, turns, unbroken
-        self.cosine, self.ratio = cosine, ratio
+        self.cosine, self.ratio, self.last = cosine, ratio, False
         self.size = SIZE + (timing.shape[0] > 0)
         self.t = np.empty(points.shape[0])
 
@@ -189,7 +193,7 @@ class Descent:
             miss: cython.double = u_x * x + u_y * y
             ahead: cython.double = u_x * y - u_y * x
             self.cost += miss * miss
-            if fabs(ahead) > share * speed * NEAR_FOOT:
+            if fabs(ahead) > share * NEAR_FOOT:
                 self.cost += ahead * ahead
             self.add_along(miss, share * u_x, share * u_y)
         if self.unbroken and not self.passes():
@@ -225,19 +229,23 @@ class Descent:
     @cython.cfunc
     @cython.exceptval(check=False)
     def go_to(self, n: cython.Py_ssize_t) -> cython.bint:
-        """Look at the place of a point, one step nearer to the foot; whether there is one."""
+        """Look at the place of a point, at the foot or nearer to it; whether there is one."""
         coupler = self.coupler
         if not coupler.look(self.t[n]):
             return False
         if self.timing.shape[0]:
             return True
-        speed: cython.double = coupler.v_x * coupler.v_x + coupler.v_y * coupler.v_y
-        if not speed > 0:
-            return True
-        ahead: cython.double = coupler.v_x * (self.points[n, 0] - coupler.x)
-        ahead += coupler.v_y * (self.points[n, 1] - coupler.y)
-        self.t[n] += max(-FOOT_TURN, min(FOOT_TURN, ahead / speed))
-        return coupler.look(self.t[n])
+        for number in range(LAST_FOOT_STEPS if self.last else FOOT_STEPS):
+            speed: cython.double = coupler.v_x * coupler.v_x + coupler.v_y * coupler.v_y
+            ahead: cython.double = coupler.v_x * (self.points[n, 0] - coupler.x)
+            ahead += coupler.v_y * (self.points[n, 1] - coupler.y)
+            near: cython.double = AT_FOOT if self.last or not number else NEAR_FOOT
+            if fabs(ahead) <= near * sqrt(speed):
+                break
+            self.t[n] += max(-FOOT_TURN, min(FOOT_TURN, ahead / speed))
+            if not coupler.look(self.t[n]):
+                return False
+        return True
 
     @cython.cfunc
     @cython.exceptval(check=False)
@@ -513,6 +521,15 @@ def descend(
                         way.t[n] += step[PHASE] / scale[PHASE]
                 way.bound()
                 way.measure()
-        cost[k] = best
         for i in range(SIZE):
-            dimensions[k, i] = here[i]
+            dimensions[k, i] = way.coupler.z[i] = here[i]
+        way.last = True
+        for n in range(points.shape[0]):
+            way.t[n] = t[k, n]
+        way.measure()
+        way.last = False
+        if way.cost < INFINITY:
+            best = way.cost
+            for n in range(points.shape[0]):
+                t[k, n] = way.t[n]
+        cost[k] = best

@@ -172,9 +172,7 @@ class PathSearch:
             if len(fit.cost):
                 kept.append(_different(fit, part, most))
         fits = self._at_all(concatenate(kept) if kept else take(start, slice(0, 0)))
-        for _ in range(FEW_STEPS):  # to the feet
-            fits = descend(fits, self.whole, 0)
-        return self._in_unit(fits)
+        return self._in_unit(descend(fits, self.whole, 0))  # to the feet
 
     def _starts(self) -> int:
         """How many curves of the atlas are refined."""
