@@ -33,7 +33,7 @@ FOOT_TURN = cython.declare(cython.double, 0.3)  # radians; the most that a foot 
 # Length along the curve to the foot of the normal, in radii of gyration of the points.  From nearer
 # the distance along the normal is that of the foot, in third order.
 NEAR_FOOT = cython.declare(cython.double, 1e-2)
-AT_FOOT = cython.declare(cython.double, 1e-10)  # the same; nearer is there
+AT_FOOT = cython.declare(cython.double, 1e-7)  # the same; nearer is there
 FOOT_STEPS = cython.declare(cython.int, 3)  # of Newton's in each step of a linkage, at most
 LAST_FOOT_STEPS = cython.declare(cython.int, 20)  # of them at its end
 TURN = cython.declare(cython.double, 6.283185307179586)
