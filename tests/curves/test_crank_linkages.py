@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from burmester.curves.crank_linkages import CrankLinkages, along
+from burmester.curves.crank_linkages import CrankLinkages
 from burmester.geometry.displacement import Displacement
 from tests.oracles.coupler_curves import dyads_of, random_crank, traced
 
@@ -21,16 +21,10 @@ def drawn(seed):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_points_and_derivatives(seed):
-    rng, z, side, linkages, t = drawn(seed)
+def test_points_and_their_velocities(seed):
+    _, z, side, linkages, t = drawn(seed)
     places = linkages.at(t[None])
     assert np.allclose(places.point[0], traced(dyads_of(z), side, t), atol=1e-12)
-    u = np.exp(1j * rng.uniform(0, 2 * np.pi, (1, 7)))
-    slopes = linkages.derivatives(places, u)[0]
-    for k in range(9):
-        step = STEP * np.eye(9)[k]
-        change = traced(dyads_of(z + step), side, t) - traced(dyads_of(z - step), side, t)
-        assert np.allclose(slopes[:, k], along(u[0], change / (2 * STEP)), atol=1e-5)
     change = traced(dyads_of(z), side, t + STEP) - traced(dyads_of(z), side, t - STEP)
     assert np.allclose(places.velocity[0], change / (2 * STEP), atol=1e-5)
 

@@ -1,71 +1,122 @@
-"""The compiled sums beside a path, against the witness's curve and its difference quotients."""
+"""The compiled descent: at its ends nothing that the witness measures leads further down."""
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize_scalar
 
-from burmester.curves.curve_kernel import normal_equations
-from tests.oracles.coupler_curves import dyads_of, random_crank, traced
+from burmester.curves.crank_linkages import CrankLinkages
+from burmester.curves.curve_descent import CurveFit, PathTarget, descend
+from tests.oracles.coupler_curves import dyads_of, random_crank, refined_from, traced
 
-STRIDE = 1e-5
-
-
-def sums(z, side, points, t, steps=30):
-    """Crank angles of the feet, cost, gradient and normal equations of one linkage."""
-    feet, cost = np.array(t, dtype=float)[None], np.empty(1)
-    gradient, normal = np.empty((1, 9)), np.empty((1, 9, 9))
-    normal_equations(z[None], np.array([side]), points, feet, steps, 0.3, cost, gradient, normal)
-    return feet[0], cost[0], gradient[0], normal[0]
+NOISE, STRIDE = 0.03, 1e-4
 
 
-def on_witness(z, points, t, side):
-    """The sum of weighted squared distances from the witness's curve, near crank angles."""
-    total = 0.0
-    for (x, y, share), near in zip(points, t, strict=True):
+def path(seed, count=16):
+    """A start beside a noisy curve, as a fit, its points, and which side the witness calls it."""
+    rng = np.random.default_rng(seed)
+    z, side = random_crank(rng)
+    t = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    z = z / np.sqrt(np.var(traced(dyads_of(z), side, t)))
+    curve = traced(dyads_of(z), side, t)
+    z[:4] -= np.tile([curve.mean().real, curve.mean().imag], 2)
+    points = curve - curve.mean() + NOISE * (rng.normal(size=count) + 1j * rng.normal(size=count))
+    for assembly in (1.0, -1.0):
+        one = CrankLinkages(z[None], np.array([assembly]))
+        if np.allclose(one.at(t[None]).point[0], curve - curve.mean()):
+            return CurveFit(one, t[None], np.zeros(1)), points, side
+    raise AssertionError
 
-        def gap(u, p=complex(x, y)):
-            return float(abs(traced(dyads_of(z), side, [u])[0] - p) ** 2)
 
-        bounds = (near - 0.05, near + 0.05)
-        total += (
-            share**2 * minimize_scalar(gap, bounds, method="bounded", options={"xatol": 1e-9}).fun
-        )
-    return total
+def measured(z, t, side, points, timed):
+    """The sum of squared distances by the witness: timed, or of the feet near crank angles t."""
+    if timed:
+        return (np.abs(traced(dyads_of(z), side, t) - points) ** 2).sum()
+    near = t + np.linspace(-0.02, 0.02, 41)[:, None]
+    away = np.abs(traced(dyads_of(z), side, near.ravel()).reshape(near.shape) - points) ** 2
+    k = np.clip(away.argmin(axis=0), 1, 39)
+    low, at, high = (away[k + j, np.arange(len(t))] for j in (-1, 0, 1))
+    return (at - (high - low) ** 2 / (8 * (high - 2 * at + low))).sum()  # of the parabola
+
+
+def links(z):
+    return np.array([np.hypot(z[2] - z[0], z[3] - z[1]), z[4], z[5], z[6]])
+
+
+def built(z, target):
+    """What the transmission over a whole turn and the proportions lack, by brute force."""
+    g, a, b, r = links(z)
+    away = np.sqrt(g * g + a * a - 2 * g * a * np.cos(np.linspace(0, np.pi, 181)))
+    cosine = (b * b + r * r - away**2) / (2 * b * r)
+    ends = np.maximum(np.abs(cosine[[0, -1]]) - np.cos(target.transmission), 0)
+    over = max(np.log(links(z).max() / links(z).min() / target.ratio), 0)
+    return 10 * len(target.points) * ((ends**2).sum() + over**2)
 
 
 @pytest.mark.parametrize("seed", range(2))
-def test_sums_and_their_derivatives_are_those_of_the_witness(seed):
-    rng = np.random.default_rng(seed)
-    z, side = random_crank(rng)
-    t = rng.uniform(0, 6, 5)
-    curve = traced(dyads_of(z), side, t) + 0.02 * (rng.normal(size=5) + 1j * rng.normal(size=5))
-    points = np.column_stack([curve.real, curve.imag, rng.uniform(0.5, 2, 5)])
-    cost = on_witness(z, points, t, side)
-    both = [(sums(z, sign, points, t), sign) for sign in (-1.0, 1.0)]
-    (feet, own, gradient, normal), _ = min(both, key=lambda each: abs(each[0][1] - cost))
-    assert own == pytest.approx(cost, rel=1e-6)
-    assert np.abs(feet - t).max() < 0.05
-    for k, unit in enumerate(np.eye(9)):
-        ends = [on_witness(z + sign * STRIDE * unit, points, feet, side) for sign in (1, -1)]
-        assert 2 * gradient[k] == pytest.approx((ends[0] - ends[1]) / (2 * STRIDE), abs=2e-5)
-    assert np.array_equal(normal, normal.T)
-    assert (np.linalg.eigvalsh(normal) > -1e-9).all()
+@pytest.mark.parametrize("kind", ["free", "timed", "built"])
+def test_no_small_change_of_an_end_is_better(kind, seed):
+    start, points, side = path(seed)
+    timing = start.t[0] if kind == "timed" else None
+    asked = (np.radians(50), 2.5) if kind == "built" else (None, np.inf)
+    # At the bounds of a full turn and of an unbroken way the derivatives need not vanish.
+    turns = kind == "built"
+    target = PathTarget(points, np.ones(len(points)), turns, timing, *asked, unbroken=False)
+    end = descend(start, target, 3000)
+    z, t = end.linkages.dimensions[0], end.t[0]
+
+    def cost(z, t):
+        more = built(z, target) if kind == "built" else 0.0
+        return measured(z, t, side, points, kind == "timed") + more
+
+    least = cost(z, t)
+    assert end.cost[0] == pytest.approx(least, rel=1e-5)
+    assert least < cost(start.linkages.dimensions[0], start.t[0])
+    for unit in np.eye(9):
+        for sign in (1, -1):
+            assert cost(z + sign * STRIDE * unit, t) > least * (1 - 1e-6)
+    if kind == "timed":
+        for sign in (1, -1):
+            assert cost(z, t + sign * STRIDE) > least
+    if kind == "free":
+        pairs = np.column_stack([points.real, points.imag])
+        assert least <= refined_from(start.linkages.dimensions[0], side, t, pairs) * (1 + 1e-6)
+    if kind == "built":
+        assert links(z).max() / links(z).min() < 2.6
+        free = descend(start, target._replace(transmission=None), 3000)
+        assert end.linkages.least_transmission() > free.linkages.least_transmission()
+        assert np.degrees(end.linkages.least_transmission()) > 45
 
 
-def test_of_one_point_the_normal_equations_are_its_row_twice():
-    rng = np.random.default_rng(4)
-    z, side = random_crank(rng)
-    where = traced(dyads_of(z), side, [1.0])[0] + 0.05j
-    _, cost, gradient, normal = min(
-        (sums(z, sign, np.array([[where.real, where.imag, 1.5]]), [1.0]) for sign in (-1.0, 1.0)),
-        key=lambda each: each[1],
-    )
-    assert np.allclose(normal * cost, np.outer(gradient, gradient), rtol=1e-9, atol=1e-12)
+def test_an_end_assembles_between_the_points_too():
+    """Of some starts the descent would end at linkages that have to be taken apart."""
+    broken = 0
+    for seed in range(12):
+        start, points, side = path(seed)
+        part = start._replace(t=start.t[:, 2:12])
+        target = PathTarget(points[2:12] * (1 + 0.3j * np.arange(10)), np.ones(10), False)
+        for unbroken in (True, False):
+            end = descend(part, target._replace(unbroken=unbroken), 300)
+            t = np.linspace(end.t[0].min(), end.t[0].max(), 2000)
+            whole = np.isfinite(traced(dyads_of(end.linkages.dimensions[0]), side, t)).all()
+            assert whole or not unbroken
+            broken += not whole
+    assert broken > 0
+
+
+def test_cranks_keep_turning_fully_and_links_keep_to_their_bounds():
+    start, points, _ = path(3)
+    line = np.linspace(-1.5, 1.5, len(points)) + 0.001j * points.imag
+    for turns in (True, False):
+        end = descend(start, PathTarget(line, np.ones(len(line)), turns), 500)
+        z = end.linkages.dimensions[0]
+        assert not turns or end.linkages.turns_fully(0.99e-4)[0]
+        assert (z[4:7] >= 0.01 * (1 - 1e-9)).all()
+        assert (z[4:7] <= 40 * (1 + 1e-9)).all()
+        assert np.hypot(z[[0, 2, 7]], z[[1, 3, 8]]).max() <= 80 * (1 + 1e-3)
 
 
 def test_a_linkage_that_does_not_assemble_costs_without_end():
-    z = np.array([0, 0, 10, 0, 1, 1, 1, 0.5, 0.5])
-    _, cost, gradient, normal = sums(z, 1.0, np.array([[0.0, 1.0, 1.0]]), [0.0])
-    assert cost == np.inf
-    assert not gradient.any()
-    assert not normal.any()
+    z = np.array([[0, 0, 10, 0, 1, 1, 1, 0.5, 0.5]])
+    start = CurveFit(CrankLinkages(z, np.ones(1)), np.zeros((1, 1)), np.zeros(1))
+    end = descend(start, PathTarget(np.array([1j]), np.ones(1), False), 10)
+    assert end.cost[0] == np.inf
+    assert (end.linkages.dimensions == z).all()

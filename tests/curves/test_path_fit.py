@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from burmester.curves.path_fit import cranks_near_points, linkages_near_points
+from burmester.curves.path_fit import PathSearch
 from tests.oracles.coupler_curves import (
     CABRERA,
     CABRERA_TURNS,
@@ -31,7 +31,7 @@ def path(seed, t, noise=NOISE):
 def test_closed_curves_are_met_as_from_the_linkage_that_made_them(seed):
     t = np.linspace(0, 2 * np.pi, 40, endpoint=False)
     points, z, side = path(seed, t)
-    fit = cranks_near_points(points, closed=True)
+    fit = PathSearch.of(points, closed=True).nearest()
     assert fit.cost[0] <= refined_from(z, side, t, points) * (1 + 1e-4)
     # What is told is what the linkage does.
     away = distances(dyads_of(fit.linkages.dimensions[0]), points)
@@ -43,8 +43,8 @@ def test_closed_curves_are_met_as_from_the_linkage_that_made_them(seed):
 def test_open_paths(seed):
     t = 0.7 + np.linspace(0, 2.5, 15)
     points, z, side = path(seed, t)
-    batch, rows = linkages_near_points(points)
-    best = batch.linkage(0)
+    fit = PathSearch.of(points).nearest()
+    best, rows = fit.linkages.batch().linkage(0), fit.linkages.rows(fit.t)
     away = np.hypot(*(rows[0, :, :2] - points).T)
     driven = distances((best.first, best.second), points)
     assert np.allclose(driven, away, atol=2e-3)
@@ -54,7 +54,7 @@ def test_open_paths(seed):
 def test_exact_points_of_a_curve_find_the_linkage():
     t = np.linspace(0, 2 * np.pi, 24, endpoint=False)
     points, _, _ = path(8, t, noise=0.0)
-    fit = cranks_near_points(points, closed=True)
+    fit = PathSearch.of(points, closed=True).nearest()
     assert np.sqrt(fit.cost[0] / 24) < 1e-6
     assert distances(dyads_of(fit.linkages.dimensions[0]), points).max() < 1e-5
 
@@ -62,7 +62,7 @@ def test_exact_points_of_a_curve_find_the_linkage():
 def test_many_points_are_all_counted():
     t = np.linspace(0, 2 * np.pi, 300, endpoint=False)
     points, z, side = path(4, t)
-    fit = cranks_near_points(points, closed=True)
+    fit = PathSearch.of(points, closed=True).nearest()
     assert fit.cost[0] <= refined_from(z, side, t, points) * (1 + 1e-4)
 
 
@@ -70,19 +70,19 @@ def test_heavy_points_are_nearer():
     t = np.linspace(0, 2 * np.pi, 30, endpoint=False)
     points, _, _ = path(1, t, noise=0.05)
     weights = np.where(np.arange(30) == 7, 1000.0, 1.0)
-    even, heavy = (cranks_near_points(points, closed=True, weights=w) for w in (None, weights))
+    even, heavy = (PathSearch.of(points, closed=True, weights=w).nearest() for w in (None, weights))
     one, two = (distances(dyads_of(each.linkages.dimensions[0]), points) for each in (even, heavy))
     assert two[7] < one[7] / 5
 
 
 def test_cabreras_eighteen_points():
-    timed = cranks_near_points(CABRERA, closed=True, crank_angles=CABRERA_TURNS)
+    timed = PathSearch.of(CABRERA, closed=True, crank_angles=CABRERA_TURNS).nearest()
     assert timed.cost[0] == pytest.approx(9.02888e-3, rel=1e-5)
     z = timed.linkages.dimensions[0]
     at = [traced(dyads_of(z), side, timed.t[0, 0] + CABRERA_TURNS) for side in (0, 1)]
     wanted = CABRERA[:, 0] + 1j * CABRERA[:, 1]
     assert min((np.abs(each - wanted) ** 2).sum() for each in at) == pytest.approx(timed.cost[0])
-    free = cranks_near_points(CABRERA, closed=True)
+    free = PathSearch.of(CABRERA, closed=True).nearest()
     assert free.cost[0] < 3.0709e-3
     assert (distances(dyads_of(free.linkages.dimensions[0]), CABRERA) ** 2).sum() < 3.0709e-3
 
@@ -90,7 +90,7 @@ def test_cabreras_eighteen_points():
 def test_random_starts_of_another_descent_find_nothing_better():
     t = np.linspace(0, 2 * np.pi, 16, endpoint=False)
     points, _, _ = path(6, t, noise=0.05)
-    best = cranks_near_points(points, closed=True).cost[0]
+    best = PathSearch.of(points, closed=True).nearest().cost[0]
     rng = np.random.default_rng(0)
     for _ in range(8):
         z, side = random_crank(rng)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from burmester.curves.path_fit import cranks_near_points
+from burmester.curves.path_fit import PathSearch
 from burmester.curves.timed_paths import linkages_of_five_points
 from tests.oracles.coupler_curves import dyads_of, random_crank, traced
 from tests.oracles.witness import places
@@ -69,7 +69,7 @@ def test_random_starts_find_no_other_linkage_of_five_points():
 def test_more_points_than_five_with_noise():
     rng, _, t, points = task(2, 12)
     noisy = points + 0.003 * rng.normal(size=points.shape)
-    fit = cranks_near_points(noisy, crank_angles=t)
+    fit = PathSearch.of(noisy, crank_angles=t).nearest()
     assert fit.cost[0] < 2 * 12 * 0.003**2
     at = fit.t[0]
     assert np.allclose(at - at[0], t - t[0])

@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
+from burmester.dyads.five_poses import dyads_of_five
 from burmester.errors import InputError
 from burmester.functions.exact_pairs import exact_generators
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.phase_family import best_of_phases
+from burmester.geometry.displacement import Displacement
 from burmester.synthesis.function_generation import generate_function
 from tests.oracles import function_loops
 from tests.oracles.generators import drawn
@@ -60,6 +62,25 @@ def test_brute_force_finds_no_more_than_five_pairs_have(seed):
         met += 1
         assert np.abs(every.sizes[:, 1:] - sizes).max(axis=1).min() < 1e-4
     assert met > 1
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_the_cubic_has_the_dyads_of_five_poses(seed):
+    """The input link held still, the pairs are poses of the output link; one dyad is the ground."""
+    rng = np.random.default_rng(seed)
+    _, task = task_of(seed, 5, ())
+    if seed % 2:  # pairs of no linkage in particular
+        task = FunctionTask(task.inputs, task.outputs + 0.3 * rng.normal(size=5))
+    turn = np.exp(-1j * task.inputs)
+    poses = np.stack([turn.real, turn.imag, task.outputs - task.inputs], axis=-1)
+    four = dyads_of_five(Displacement.from_poses(poses))
+    dyads = four.dyads[four.real]
+    lengths = np.stack(
+        [np.hypot(*dyads.fixed_pivot.T), dyads.radius, np.hypot(*dyads.moving_pivot.T)], axis=-1
+    )
+    lengths = lengths[np.abs(lengths - [0, 1, 0]).max(axis=-1) > 1e-6]
+    own = exact_generators(task).generators.sizes[:, 1:]
+    assert np.allclose(np.sort(own, axis=0), np.sort(lengths, axis=0), rtol=1e-6)
 
 
 def test_a_parallelogram_is_not_one_linkage():

@@ -74,6 +74,39 @@ def test_least_greatest_errors(values, x, ranges, expected):
     assert np.abs(error).max() < expected * 1.02
 
 
+@pytest.mark.parametrize(
+    ("values", "x", "ranges"),
+    [(np.log10, (1, 2), (60, 60)), (np.sin, (0, np.pi / 2), (90, 90))],
+)
+def test_scipys_minimax_finds_no_lower_level(values, x, ranges):
+    """The level and five dimensions, by sequential quadratic programs on the driven error."""
+    task = task_of(values, x, *ranges, minimax=True)
+    best = generate_function(task).usable[0]
+    g, level = best.generator, np.abs(best.errors).max()
+    at = np.array([g.input_link, g.coupler, g.output_link, g.input_phase, g.output_phase]).ravel()
+    side = float(g.side.ravel()[0])
+
+    def error(v):
+        a, r, b, p, q = v[:5]
+        to = a * np.exp(1j * (p + task.inputs)) - 1  # from the output's pivot to the input's pin
+        cosine = (b * b + np.abs(to) ** 2 - r * r) / (2 * b * np.abs(to))
+        driven = to * np.exp(-1j * side * np.arccos(np.clip(cosine, -1, 1)))
+        return np.angle(driven * np.exp(-1j * (q + task.outputs)))
+
+    assert np.allclose(error(at), best.errors[: len(task.inputs)], atol=1e-9)
+    rng, ends = np.random.default_rng(0), []
+    sides = np.array([[1.0], [-1.0]])
+    for spread in (1e-6, 0.003, 0.01, 0.03):
+        start = at * (1 + spread * rng.normal(size=5))
+        start = np.append(start, np.abs(error(start)).max() / level)
+        below = {"type": "ineq", "fun": lambda v: (v[5] - sides * error(v) / level).ravel()}
+        bounds = [(0.1, 10)] * 3 + [(-9, 9)] * 2 + [(0, None)]
+        end = minimize(lambda v: v[5], start, constraints=below, method="SLSQP", bounds=bounds)
+        ends.append(np.abs(error(end.x)).max() / level)
+    assert min(ends) > 1 - 1e-4
+    assert np.min(ends) < 1.05  # it comes near
+
+
 def test_no_local_search_finds_less_than_all_critical_points_lead_to():
     """Nelder and Mead from random linkages, on the driven error: none is below the best."""
     one, inputs, outputs = drawn(11, count=10)

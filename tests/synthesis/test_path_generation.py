@@ -10,6 +10,7 @@ from burmester.geometry.regions import Polygon
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
+from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.explanation import nearness
@@ -117,3 +118,18 @@ def test_timed_points(count):
         assert (best.error.position**2).sum() == pytest.approx(9.02888e-3, rel=1e-4)
     else:
         assert best.error.worst < 1e-9
+
+
+def test_neighbours_that_noise_exchanged_share_a_place_within_the_tolerance():
+    points = path(0, ROUND, 0.0)
+    gap = np.abs(points[10] - points[11]).max()
+    points[[10, 11]] = points[[11, 10]]
+    found = {}
+    for share in (0.8, 0.4):
+        bounds = PoseTolerances.uniform(40, share * gap, share * gap, np.inf)
+        found[share] = synthesize(task(points, closed=True, tolerances=bounds)).usable
+    assert found[0.8]
+    assert not found[0.4]  # the place between both is half the gap away
+    one = found[0.8][0].driver_first
+    turn = places(one.first, one.second, np.linspace(0, 2 * np.pi, 721))[0]
+    assert np.isfinite(turn).all()

@@ -33,6 +33,7 @@ def synthesize(
     stock_lengths: Sequence[float] = (),
     prefer: Preference = "transmission",
     time_limit: float | None = None,
+    nine_point_starts: bool = False,
     progress: Listener | None = None,
 ) -> Result:
     """Every four-bar that guides a body through or near poses, judged and ranked.
@@ -70,6 +71,9 @@ def synthesize(
     time_limit : float, optional
         Seconds after which nothing more is looked for or refined.  Where that ends something, a
         warning W221 says what.  What every answer needs may take longer.
+    nine_point_starts : bool
+        Near the points of an open path linkages are looked for from those through nine of them as
+        well, which takes some seconds more.
     progress : callable, optional
         Called with a `Progress` where something begins and at every step of it; what it raises
         ends the computation, and comes through.
@@ -109,6 +113,7 @@ def synthesize(
         stock_lengths=stock_lengths,
         prefer=prefer,
         time_limit=time_limit,
+        nine_point_starts=nine_point_starts,
     )
     require_callable(progress)
     task = task_of(poses, angle_unit, length_unit)

@@ -391,6 +391,11 @@ METHOD: tuple[Decorator, ...] = (
         show_default=True,
         help="What the recommended linkage of two to four poses is best at.",
     ),
+    _method(
+        "--nine-point-starts",
+        is_flag=True,
+        help="Open paths: look from the linkages through nine of the points as well.",
+    ),
     _method("--certify", is_flag=True, help="Prove with interval arithmetic what can be proved."),
     _method(
         "--raw",
@@ -522,6 +527,7 @@ def run_synthesis(poses: str, **given: Any) -> Synthesis:
         given["norm"],
         normalise=not given["raw"],
         certify=given["certify"],
+        nine_point_starts=given["nine_point_starts"],
         prefer=given["prefer"],
         time_limit=_time_limit(given),
         **further,
@@ -624,6 +630,7 @@ _NOT_FOR_SIX_BARS = (
     "length_per_radian",
     "prefer",
     "certify",
+    "nine_point_starts",
     "raw",
     "manufacturing_tolerance",
     "rounding_step",

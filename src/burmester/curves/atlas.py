@@ -88,10 +88,11 @@ def likenesses(points: ComplexArray, closed: bool, most: int) -> Likeness:
     plan = [(SAMPLES, 1)] if closed else [(ARC_POINTS, stride) for stride in STRIDES]
     for number, stride in plan:
         z, arc = along_path(points, closed, number)
+        spread = _spreads(atlas, number, stride, closed)
         for reverse in (False, True):
             for mirror in (False, True):
                 laid = _Laid(number, stride, reverse, mirror, closed, arc)
-                left, begin = _best_stretches(atlas, z, laid)
+                left, begin = _best_stretches(spread, z, laid)
                 found.append((left, begin, laid))
     left = np.stack([each[0] for each in found], axis=1)
     best = np.argsort(left, axis=None, kind="stable")[:most]
@@ -158,8 +159,27 @@ def along_path(points: ComplexArray, closed: bool, number: int) -> tuple[Complex
     return np.interp(wanted, length, curve), own[: len(points)]
 
 
+def _spreads(atlas: Atlas, number: int, stride: int, closed: bool) -> FloatArray:
+    """The sums of squares (k, 1 or SAMPLES) of the points of stretches about their middles.
+
+    By where they begin; no less than what rounding leaves.
+    """
+    size = atlas.points.real**2 + atlas.points.imag**2
+    if closed:
+        spread = size.sum(axis=1, keepdims=True)
+        spread = spread - np.abs(atlas.points.sum(axis=1, keepdims=True)) ** 2 / SAMPLES
+    else:
+        mask = np.zeros(SAMPLES)
+        mask[np.arange(number) * stride % SAMPLES] = 1
+        window = np.conj(np.fft.fft(mask))
+        total = np.fft.ifft(_transforms() * window)
+        squares = np.fft.irfft(np.fft.rfft(size) * window[: SAMPLES // 2 + 1], SAMPLES)
+        spread = squares - (total.real**2 + total.imag**2) / number
+    return np.asarray(np.maximum(spread, 1e-9 * size.max(axis=1, keepdims=True)))
+
+
 def _best_stretches(
-    atlas: Atlas, z: ComplexArray, laid: _Laid
+    spread: FloatArray, z: ComplexArray, laid: _Laid
 ) -> tuple[FloatArray, NDArray[np.intp]]:
     """What is left (k,) of the best stretch of each curve, and where (k,) it begins."""
     z = z[::-1] if laid.reverse else z
@@ -169,20 +189,7 @@ def _best_stretches(
     comb = np.zeros(SAMPLES, dtype=complex)
     comb[np.arange(laid.number) * laid.stride % SAMPLES] = z
     product = np.fft.ifft(_transforms() * np.conj(np.fft.fft(comb)))
-    size = atlas.points.real**2 + atlas.points.imag**2
-    if laid.closed:
-        spread = size.sum(axis=1, keepdims=True)
-        spread = spread - np.abs(atlas.points.sum(axis=1, keepdims=True)) ** 2 / SAMPLES
-    else:
-        mask = np.zeros(SAMPLES)
-        mask[np.arange(laid.number) * laid.stride % SAMPLES] = 1
-        window = np.conj(np.fft.fft(mask))
-        total = np.fft.ifft(_transforms() * window)
-        squares = np.fft.irfft(np.fft.rfft(size) * window[: SAMPLES // 2 + 1], SAMPLES)
-        spread = squares - np.abs(total) ** 2 / laid.number
-    gain = (product.real**2 + product.imag**2) / np.maximum(
-        spread, 1e-9 * size.max(axis=1, keepdims=True)
-    )
+    gain = (product.real**2 + product.imag**2) / spread
     begin = gain.argmax(axis=1)
     left = np.sqrt(np.maximum(1 - gain[np.arange(len(gain)), begin] / power, 0.0))
     return left, begin

@@ -21,7 +21,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
 from burmester.numerics.bundles import take
 
-__all__ = ["G1", "G2", "SIZE", "A", "B", "C", "CrankLinkages", "CrankPlaces", "R", "along"]
+__all__ = ["G1", "G2", "SIZE", "A", "B", "C", "CrankLinkages", "CrankPlaces", "R"]
 
 SIZE = 9  # dimensions of a crank-driven linkage and its coupler point
 G1, G2 = slice(0, 2), slice(2, 4)  # the fixed pivots, the crank's first
@@ -34,15 +34,11 @@ C = slice(
 class CrankPlaces(NamedTuple):
     """Coupler places of linkages (k,) at crank angles (k, n); nan where they do not assemble.
 
-    point: p, in F; turn: T, the coupler's direction as a unit number; crank: e^{it};
-    pull: e; gain: k; velocity: dp/dt.
+    point: p, in F; turn: T, the coupler's direction as a unit number; velocity: dp/dt.
     """
 
     point: ComplexArray
     turn: ComplexArray
-    crank: ComplexArray
-    pull: ComplexArray
-    gain: ComplexArray
     velocity: ComplexArray
 
 
@@ -97,28 +93,10 @@ class CrankLinkages:
             sine = self.assembly[:, None] * np.sqrt(1 - cosine * cosine)
             turn = to * (cosine + 1j * sine) / size
             pull = (b * turn - to) / r
-            gain = 1j * turn * (c / (b * along(pull, 1j * turn)))
+            gain = 1j * turn * (c / (b * _along(pull, 1j * turn)))
             velocity = 1j * a * crank
-            velocity = velocity - gain * along(pull, velocity)
-        return CrankPlaces(pin + c * turn, turn, crank, pull, gain, velocity)
-
-    def derivatives(self, places: CrankPlaces, direction: ComplexArray) -> FloatArray:
-        """The derivatives (k, n, 9), by the dimensions, of p along unit directions (k, n).
-
-        At crank angles that stay.
-        """
-        _, turn, crank, e, gain, _ = places
-        g = along(direction, gain)
-        out = np.empty((*g.shape, SIZE))
-        out[..., 2], out[..., 3] = g * e.real, g * e.imag
-        out[..., 0] = direction.real - out[..., 2]
-        out[..., 1] = direction.imag - out[..., 3]
-        out[..., A] = along(direction, crank) - g * along(e, crank)
-        out[..., B] = -g * along(e, turn)
-        out[..., R] = g
-        out[..., 7] = along(direction, turn)
-        out[..., 8] = along(direction, 1j * turn)
-        return out
+            velocity = velocity - gain * _along(pull, velocity)
+        return CrankPlaces(pin + c * turn, turn, velocity)
 
     def moved(self, factor: ComplexArray, shift: ComplexArray) -> CrankLinkages:
         """Turned and stretched by numbers (k,), then shifted by numbers (k,), all in F."""
@@ -194,6 +172,6 @@ class CrankLinkages:
         return z[:, 0] + 1j * z[:, 1], z[:, 2] + 1j * z[:, 3], *lengths, z[:, 7] + 1j * z[:, 8]
 
 
-def along(u: ComplexArray, v: ComplexArray) -> FloatArray:
+def _along(u: ComplexArray, v: ComplexArray) -> FloatArray:
     """The scalar product of two vectors as complex numbers."""
     return np.asarray(u.real * v.real + u.imag * v.imag)

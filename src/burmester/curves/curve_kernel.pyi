@@ -1,13 +1,16 @@
 from burmester.numerics.arrays import FloatArray
 
-def normal_equations(
+def descend(
     dimensions: FloatArray,
     assembly: FloatArray,
-    points: FloatArray,
     t: FloatArray,
-    foot_steps: int,
-    longest_turn: float,
     cost: FloatArray,
-    gradient: FloatArray,
-    normal: FloatArray,
+    points: FloatArray,
+    timing: FloatArray,
+    turns: bool,
+    unbroken: bool,
+    cosine: float,
+    ratio: float,
+    steps: int,
+    settled: float,
 ) -> None: ...

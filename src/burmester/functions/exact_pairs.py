@@ -2,8 +2,8 @@
 
 As many phases may be chosen as there are pairs beyond three.  With both phases given, three pairs
 make Freudenstein's equation linear.  With one, four pairs leave a quadratic equation in the cosine
-and sine of the other.  With none, five pairs are five poses of the output link as the input link
-sees it, and the coupler is a dyad of these: of the four, one is always the ground link itself.
+and sine of the other.  With none, the equations of five pairs are linear in the links as complex
+numbers and in the product of two of them; that it is their product leaves one cubic.
 """
 
 from __future__ import annotations
@@ -13,17 +13,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.five_poses import dyads_of_five
 from burmester.functions.freudenstein import generators_of_ratios, ratios, rows
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
-from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray
 
 __all__ = ["ExactGenerators", "exact_generators", "generators_of_phases", "other_phases"]
 
 SINGULAR = 1e-9  # singular value of unit columns; below, infinitely many ratios fit the pairs
-GROUND_LINK = 1e-5  # of the ground link: a dyad as near to it is the ground link itself
+REAL = 1e-7  # relative; a root of the cubic with less imaginary part is real
 LONGEST = 1e6  # ground links; a longer link is a slider up to rounding
 
 
@@ -113,24 +111,57 @@ def other_phases(
 
 
 def _five(task: FunctionTask) -> ExactGenerators:
-    """By the five poses of the output link in the frame of the input link."""
-    turn = np.exp(-1j * task.inputs)
-    poses = np.stack([turn.real, turn.imag, task.outputs - task.inputs], axis=-1)
-    four = dyads_of_five(Displacement.from_poses(poses))
-    dyads, real = four.dyads, four.real
-    away = np.hypot(*dyads.fixed_pivot.T) + np.hypot(*dyads.moving_pivot.T)
-    away = away + np.abs(dyads.radius - 1)
-    other = real & ~(away < GROUND_LINK)
-    fixed, moving = dyads.fixed_pivot[other], dyads.moving_pivot[other]
-    found = Generator(
-        np.hypot(*fixed.T),
-        dyads.radius[other],
-        np.hypot(*moving.T),
-        np.arctan2(fixed[:, 1], fixed[:, 0]),
-        np.arctan2(moving[:, 1], moving[:, 0]),
-        np.ones(len(fixed)),
-    )
-    return _all(task, found, 3, determined=bool(four.determined))
+    """By the cubic of five pairs.
+
+    With the links as complex numbers, A = a e^(ip) at inputs x and B = b e^(iq) at outputs y, the
+    coupler's length is the same at all pairs where
+
+        c + Re(B e^(iy)) - Re(A e^(ix)) - Re(A B* e^(i(x - y))) = 0,
+
+    five equations in seven numbers c, B, A, D, up to a factor k.  On the line of their solutions
+    k A . k B* = k . k D with a real k: the imaginary part of A B* D* is zero.
+    """
+    turns = np.exp(1j * np.stack([task.outputs, task.inputs, task.inputs - task.outputs], axis=-1))
+    columns = np.stack([turns.real, -turns.imag], axis=-1) * np.array([1.0, -1.0, -1.0])[:, None]
+    rows_of_pairs = np.column_stack([np.ones(5), columns.reshape(5, 6)])
+    _, values, rest = np.linalg.svd(rows_of_pairs)
+    line = rest[5:, 1::2] + 1j * rest[5:, 2::2]  # (2, 3): B, A, D of two points of the line
+    along, cubic = _cubic(line)
+    determined = bool(values[-1] > SINGULAR and np.abs(cubic).max() > SINGULAR)
+    share = np.roots(cubic) if determined else np.empty(0)
+    share = share.real[np.abs(share.imag) < REAL * (1 + np.abs(share))]
+    B, A, D = (along[0] + share[:, None] * along[1]).T
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        factor = (A * np.conj(B * D)).real / (D.real**2 + D.imag**2)
+        A, B = A / factor, B / factor
+        ends = 1 + B[:, None] * turns[:, 0] - A[:, None] * turns[:, 1]
+        found = Generator(
+            np.abs(A),
+            np.abs(ends).mean(axis=-1),
+            np.abs(B),
+            np.angle(A),
+            np.angle(B),
+            np.ones(len(A)),
+        )
+    return _all(task, found, 3, determined)
+
+
+def _cubic(line: ComplexArray) -> tuple[ComplexArray, FloatArray]:
+    """Points u, v (2, 3) of a line, and the imaginary part of A B* D* at u + s v as a cubic in s.
+
+    v is, of some, the point where it is greatest, so that no root is at infinity.
+    """
+    angle = np.pi * np.arange(8) / 8
+    points = np.cos(angle)[:, None] * line[0] + np.sin(angle)[:, None] * line[1]
+    value = (points[:, 1] * np.conj(points[:, 0] * points[:, 2])).imag
+    turn = angle[np.abs(value).argmax()]
+    v = np.cos(turn) * line[0] + np.sin(turn) * line[1]
+    u = -np.sin(turn) * line[0] + np.cos(turn) * line[1]
+    (b0, a0, d0), (b1, a1, d1) = np.conj(u), np.conj(v)
+    a0, a1 = np.conj(a0), np.conj(a1)
+    product = np.array([a1 * b1, a1 * b0 + a0 * b1, a0 * b0])
+    cubic = np.append(product * d1, 0) + np.append(0, product * d0)
+    return np.stack([u, v]), np.asarray(cubic.imag)
 
 
 def _all(task: FunctionTask, found: Generator, count: int, determined: bool) -> ExactGenerators:

@@ -451,8 +451,9 @@ def _at_deepest_places(
     """The candidates at their places deepest inside the boxes, and at their own if inside."""
     inside = np.flatnonzero(boxes.boxes.share(candidates.rows).max(axis=-1) <= 1)
     if once:
-        rows = target.places(candidates.batch, on_both=True)
-        rows[inside] = candidates.rows[inside]
+        rows = candidates.rows.copy()
+        outside = np.setdiff1d(np.arange(len(rows)), inside)
+        rows[outside] = target.places(candidates.batch[outside], on_both=True)
         return candidates._replace(rows=rows)
     deepest = candidates._replace(rows=target.places(candidates.batch, on_both=True))
     return concatenate([deepest, take(candidates, inside)]) if len(inside) else deepest

@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.curves.crank_linkages import CrankLinkages
-from burmester.curves.path_fit import (
-    cranks_like_path,
-    linkages_near_points,
-    linkages_transmitting_well,
-)
+from burmester.curves.curve_descent import CurveFit
+from burmester.curves.nine_point_starts import nine_point_starts
+from burmester.curves.order_of_feet import in_order
+from burmester.curves.path_fit import PathSearch
 from burmester.curves.timed_paths import linkages_of_five_points
 from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice
@@ -95,7 +94,7 @@ def near_points(
     step(f"looking at {count(len(task.poses.angle), 'point')}")
     if not span(task) > 0:
         return _none(task, options, findings)
-    found = _found(task, path, options)
+    found = _linkages(task, path, options)
     if not len(found.batch):
         return _none(task, options, findings)
     given, note = _with_tolerance(task, found, path)
@@ -120,7 +119,7 @@ def with_tolerance(task: Task, options: SynthesisOptions) -> tuple[Task, list[Ad
     task = _once(task)
     path = task.path or TracedPath()
     if _stated(task, path) is None and span(task) > 0:
-        found = _found(task, path, options)
+        found = _linkages(task, path, options)
         if len(found.batch):
             return _with_tolerance(task, found, path)
     position = _stated(task, path)
@@ -129,19 +128,27 @@ def with_tolerance(task: Task, options: SynthesisOptions) -> tuple[Task, list[Ad
     return replace(task, tolerances=_of_points(position)), []
 
 
-def _found(task: Task, path: TracedPath, options: SynthesisOptions) -> _Found:
+def _linkages(task: Task, path: TracedPath, options: SynthesisOptions) -> _Found:
     """Linkages near the points, or through them, and such as transmit better."""
+    points, timed = task.poses.translation, path.crank_angles is not None
     if _is_exact(task, path):
-        return _timed_exactly(task.poses.translation, path)
-    found = _nearest(task, path)
-    if path.crank_angles is not None:
+        return _timed_exactly(points, path)
+    search = PathSearch.of(
+        points, closed=path.closed, crank_angles=path.crank_angles, weights=task.weights
+    )
+    starts: list[tuple[CrankLinkages, FloatArray]] = []
+    asked = options.nine_point_starts and not (path.closed or timed)
+    if asked and time_for("looking for linkages through nine of the points"):
+        starts = nine_point_starts(points)
+    found = _nearest(task, search, starts)
+    if timed:
         return found
     alike, wide = found, _without_tolerance(task, options)
     if task.limits:
-        alike = _like_the_path(task, path)
+        alike = _with_cognates(_of_fit(search.like_path()))
         found = _within_limits(wide, _joined([found, alike]))
     if len(found.batch) and time_for("looking for linkages that transmit better"):
-        better = _better(wide, found, alike) if task.limits else [_transmitting(task, path)]
+        better = _better(wide, found, alike) if task.limits else [_transmitting(task, search)]
         found = _joined([found, *better])
     return found
 
@@ -174,16 +181,16 @@ def _once(task: Task) -> Task:
     )
 
 
-def _nearest(task: Task, path: TracedPath) -> _Found:
+def _nearest(
+    task: Task, search: PathSearch, starts: Sequence[tuple[CrankLinkages, FloatArray]]
+) -> _Found:
     """The nearest linkages, and the cognates of them that have a crank as well."""
-    batch, places = linkages_near_points(
-        task.poses.translation,
-        closed=path.closed,
-        crank_angles=path.crank_angles,
-        weights=task.weights,
-        most=CURVES if len(task.poses.angle) <= MANY else FEW,
-    )
-    return _with_cognates(_Found(batch, places))
+    most = CURVES if len(task.poses.angle) <= MANY else FEW
+    return _with_cognates(_of_fit(search.nearest(most, starts)))
+
+
+def _of_fit(fit: CurveFit) -> _Found:
+    return _Found(fit.linkages.batch(), fit.linkages.rows(fit.t))
 
 
 def _timed_exactly(points: FloatArray, path: TracedPath) -> _Found:
@@ -249,12 +256,6 @@ def _without_tolerance(task: Task, options: SynthesisOptions) -> Evaluation:
     return Evaluation(problem, target_of(problem).relaxed)
 
 
-def _like_the_path(task: Task, path: TracedPath) -> _Found:
-    """Many different linkages whose curves are like the path, hardly refined."""
-    alike = cranks_like_path(task.poses.translation, closed=path.closed)
-    return _with_cognates(_Found(alike.linkages.batch(), alike.linkages.rows(alike.t)))
-
-
 def _within_limits(wide: Evaluation, found: _Found) -> _Found:
     """Linkages near the points with their pivots and links within the limits, the nearest first.
 
@@ -282,18 +283,12 @@ def _within_limits(wide: Evaluation, found: _Found) -> _Found:
     return _refined(target, refined)
 
 
-def _transmitting(task: Task, path: TracedPath) -> _Found:
+def _transmitting(task: Task, search: PathSearch) -> _Found:
     """Linkages that transmit better and better, and are sanely built, as near as each can be."""
     asked = Standard.of(task).requirements(task.requirements)
-    batch, places = linkages_transmitting_well(
-        task.poses.translation,
-        _levels(task),
-        closed=path.closed,
-        weights=task.weights,
-        ratio=asked.link_ratio,
-        most=KEPT if len(task.poses.angle) <= MANY else 1,
-    )
-    return _with_cognates(_Found(batch, places))
+    most = KEPT if len(task.poses.angle) <= MANY else 1
+    fit = search.transmitting_well(_levels(task), ratio=asked.link_ratio, most=most)
+    return _with_cognates(_of_fit(fit))
 
 
 def _levels(task: Task) -> list[float]:
@@ -423,20 +418,61 @@ def _assumed(task: Task, least: float, assumed: float) -> Advice:
 
 
 def _judged(evaluation: Evaluation, found: _Found) -> list[FoundLinkage]:
-    """The linkages with errors and verdicts, in the order of `ranking`."""
+    """The linkages with errors and verdicts, in the order of `ranking`.
+
+    Those that cannot be inside the tolerances only where no other is usable: told they are not.
+    """
     step(f"judging {count(len(found.batch), 'linkage')}")
-    target, task = evaluation.target, evaluation.task
-    places = Displacement(found.places[..., :2], found.places[..., 2])
-    pairs = [_numbered(found.batch, k, task) for k in range(len(found.batch))]
+    found = _in_order(evaluation.task, found)
+    near = _may_be_inside(evaluation.task, found)
+    judged = _members(evaluation, found, np.flatnonzero(near))
+    if not any(each.usable for each in judged):
+        judged += _members(evaluation, found, np.flatnonzero(~near))
+    judged = ranked(judged, evaluation.problem)
+    return _front(_different(judged, SAME, span(evaluation.task)))
+
+
+def _in_order(task: Task, found: _Found) -> _Found:
+    """The same at places in the order of the points, where these are inside the tolerances too."""
+    path = task.path or TracedPath()
+    if path.crank_angles is not None or not len(found.batch):
+        return found
+    assert task.tolerances is not None
+    own, t = CrankLinkages.of(found.batch, found.places)
+    rows = own.rows(in_order(own, t, closed=path.closed))
+    rows[..., 2] += found.places[:, :1, 2] - own.rows(t[:, :1])[..., 2]  # of the body frame M
+    gap = np.abs(rows[..., :2] - task.poses.translation)
+    inside = np.all(gap <= task.tolerances.position + EXACT * span(task), axis=(1, 2))
+    places = np.where(inside[:, None, None], rows, found.places)
+    return found._replace(places=places)
+
+
+def _may_be_inside(task: Task, found: _Found) -> NDArray[np.bool_]:
+    """Which linkages (k,) may have places inside the tolerances of all points.
+
+    Their places are nearest to the points, and what is inside is no farther than the corners.
+    """
+    assert task.tolerances is not None
+    away = np.linalg.norm(found.places[..., :2] - task.poses.translation, axis=-1)
+    corner = np.linalg.norm(task.tolerances.position, axis=-1)
+    return np.asarray((away <= corner + EXACT * span(task)).all(axis=-1))
+
+
+def _members(evaluation: Evaluation, found: _Found, index: NDArray[np.intp]) -> list[FoundLinkage]:
+    """Some of the linkages, judged."""
+    if not len(index):
+        return []
+    target, some = evaluation.target, take(found, index)
+    places = Displacement(some.places[..., :2], some.places[..., 2])
+    pairs = [_numbered(found.batch, k, evaluation.task) for k in index.tolist()]
     candidates = Candidates(
-        found.batch.to_canonical(target.frames),
+        some.batch.to_canonical(target.frames),
         target.rows_at(places),
         pairs,
         np.ones(len(pairs), dtype=bool),
-        found.batch,
+        some.batch,
     )
-    found_linkages = ranked(evaluation.members(candidates), evaluation.problem)
-    return _front(_different(found_linkages, SAME, span(task)))
+    return evaluation.members(candidates)
 
 
 def _numbered(batch: LinkageBatch, k: int, task: Task) -> Pair:

@@ -57,6 +57,9 @@ class SynthesisOptions:
     time_limit
         Seconds after which nothing more is looked for or refined; what must be done is.  None for
         no limit.
+    nine_point_starts
+        Whether linkages near the points of an open path are looked for from those through nine of
+        them as well; other tasks have none.
 
     Raises
     ------
@@ -75,12 +78,13 @@ class SynthesisOptions:
     stock_lengths: Sequence[float] = ()
     prefer: Preference = "transmission"
     time_limit: float | None = None
+    nine_point_starts: bool = False
 
     def __post_init__(self) -> None:
         _require_word("method", self.method, get_args(Method))
         _require_word("norm", self.norm, get_args(Norm))
         _require_word("prefer", self.prefer, get_args(Preference))
-        for name in ("normalise", "certify"):
+        for name in ("normalise", "certify", "nine_point_starts"):
             if not isinstance(getattr(self, name), bool | np.bool_):
                 raise InputError(
                     "E134",
