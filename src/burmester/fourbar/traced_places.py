@@ -3,9 +3,10 @@
 On each circuit the points are laid along the curve of the body's origin, forwards or backwards, at
 most once around, so that the sum of squared distances is least (a shortest path over samples).
 Each then goes down to the nearest place of its own stretch of the curve, and on to one inside its
-tolerance where that is beside it.  A way that keeps clear of
-one driver's dead points is taken where it is nearly as near as the nearest of all.  That no other
-way is nearer is not proved.
+tolerance where that is beside it.  Noise may exchange neighbours that lie closer than it: these
+share a place where it is inside the tolerance of each.  A way that keeps clear of one driver's dead
+points is taken where it is nearly as near as the nearest of all.  That no other way is nearer is
+not proved.
 """
 
 from __future__ import annotations
@@ -56,6 +57,24 @@ class _Samples(NamedTuple):
         turns, sample = np.divmod(position, self.share.shape[1])
         return np.asarray(self.share[circuit, sample] + turns)
 
+    def gaps(self, circuits: NDArray[np.intp], points: ComplexArray) -> FloatArray:
+        """Squared distances (c, s, m) of points (m,) from the curve beside each sample.
+
+        That is the chord to half way to the next sample and to the one before: between samples a
+        curve may pass a point that it meets at none.  Infinite where a sample does not assemble.
+        """
+        curve, closed = self.curve[circuits], self.closed[circuits]
+        to = points - curve[..., None]
+        best = np.full(to.shape, np.inf)
+        for step, end in ((-1, -1), (1, 0)):
+            chord = np.nan_to_num(np.roll(curve, step, axis=1) - curve)
+            chord[~closed, end] = 0.0
+            size = np.maximum(np.abs(chord) ** 2, np.finfo(float).tiny)
+            along = (chord.conj()[..., None] * to).real / size[..., None]
+            rest = to - np.clip(along, 0.0, 0.5) * chord[..., None]
+            best = np.fmin(best, rest.real**2 + rest.imag**2)
+        return best
+
 
 class _Stretch(NamedTuple):
     """A stretch of a circuit: `size` samples from number `first`; all of a closed one goes round.
@@ -99,10 +118,10 @@ def places_along(
         return out
     ways = _free_ways(samples, wanted, share, any_order)
     ways += _clear_ways(samples, ways, wanted, share, any_order)
-    rows = _at_feet(samples, ways, wanted, length, boxes)
+    rows = _at_feet(samples, ways, wanted, length, boxes, any_order=any_order)
     misses = np.sqrt(_squares(rows, wanted) @ share / share.sum())
-    clear = np.array([each.stretch.clear for each in ways])
     linkage = samples.row[[each.stretch.circuit for each in ways]]
+    clear = _clear(batch[linkage], rows, length)
     for k in np.unique(linkage):
         own = np.flatnonzero(linkage == k)
         best = own[misses[own].argmin()]
@@ -113,6 +132,15 @@ def places_along(
         out[k] = rows[best]
     out[..., 2] = np.unwrap(out[..., 2], period=2 * math.pi * length, axis=-1)
     return out
+
+
+def _clear(batch: LinkageBatch, rows: FloatArray, length: float) -> NDArray[np.bool_]:
+    """Whether one of the drivers of linkages (w,) passes no dead point between rows (w, N, 3)."""
+    clear = np.zeros(len(batch), dtype=bool)
+    for driver in (0, 1):
+        sine = Transmission.of(batch, rows, length, np.full(len(batch), driver)).sine
+        clear |= (sine > 0).all(axis=1) | (sine < 0).all(axis=1)
+    return clear
 
 
 def _squares(rows: FloatArray, wanted: ComplexArray) -> FloatArray:
@@ -210,8 +238,8 @@ def _laid(
     costs, chosen = np.empty(len(order)), np.empty((len(order), len(some)), dtype=np.intp)
     for at in range(0, len(order), WAYS_AT_ONCE):
         rows = slice(at, at + WAYS_AT_ONCE)
-        curve = samples.curve[circuit[rows, None], positions[rows] % number]
-        gap = np.nan_to_num(np.abs(curve[..., None] - near), nan=np.inf) ** 2 * weight
+        own, of = np.unique(circuit[rows], return_inverse=True)
+        gap = samples.gaps(own, near)[of[:, None], positions[rows] % number] * weight
         if any_order:
             chosen[rows], costs[rows] = gap.argmin(axis=1), gap.min(axis=1).sum(axis=-1)
         else:
@@ -262,7 +290,13 @@ class _Bracket(NamedTuple):
 
 
 def _at_feet(
-    samples: _Samples, ways: list[_Way], wanted: ComplexArray, length: float, boxes: Boxes | None
+    samples: _Samples,
+    ways: list[_Way],
+    wanted: ComplexArray,
+    length: float,
+    boxes: Boxes | None,
+    *,
+    any_order: bool,
 ) -> FloatArray:
     """Rows (w, N, 3) of the places nearest to the points, each down from where it is laid."""
     circuits = samples.circuits[[each.stretch.circuit for each in ways]]
@@ -290,12 +324,62 @@ def _at_feet(
     if boxes is None:
         return rows
     out = boxes.share(rows) > 1
-    if not out.any():
+    if out.any():
+        reach = np.minimum(BESIDE * np.sqrt(away(rows)) / np.maximum(speed, 1e-9), 1 / 4)
+        bracket = _Bracket(middle, np.where(out, reach, 0.0), low, high)
+        beside, inside = _narrowed(circuits, bracket, boxes.share, length)
+        out &= boxes.share(inside) <= 1
+        middle = np.where(out, beside, middle)
+        rows = np.where(out[..., None], inside, rows)
+    if any_order:
         return rows
-    reach = np.minimum(BESIDE * np.sqrt(away(rows)) / np.maximum(speed, 1e-9), 1 / 4)
-    bracket = _Bracket(middle, np.where(out, reach, 0.0), low, high)
-    _, inside = _narrowed(circuits, bracket, boxes.share, length)
-    return np.where((out & (boxes.share(inside) <= 1))[..., None], inside, rows)
+    shared = np.array(
+        [
+            _in_sequence(samples, way, at, np.square(pace))
+            for way, at, pace in zip(ways, middle, speed, strict=True)
+        ]
+    )
+    moved = np.flatnonzero((shared != middle).any(axis=1))
+    if len(moved):
+        there = places_at(circuits[moved], shared[moved], length)
+        sound = (boxes.share(there) <= 1).all(axis=1)
+        rows[moved[sound]] = there[sound]
+    return rows
+
+
+def _in_sequence(samples: _Samples, way: _Way, at: FloatArray, weight: FloatArray) -> FloatArray:
+    """Fractions (N,) of a circuit that never go back along a way, nearest to those of the feet.
+
+    By sums of squares with weights (N,): neighbours in the wrong order share one (the pooling of
+    adjacent violators).  Feet that are in order stay as they are, to the last bit.
+    """
+    laid, around = samples.share_at(way.stretch.circuit, way.positions), way.stretch.around
+    along = at + np.round(laid - at) if around else at.copy()
+    sense = -1.0 if laid[-1] < laid[0] else 1.0
+    along *= sense
+    begin = 0
+    if around:  # cut where the way from point to point is longest
+        begin = (int(np.diff(along, append=along[0] + 1).argmax()) + 1) % len(along)
+        along[:begin] += 1.0
+    along, own = np.roll(along, -begin), np.roll(weight, -begin)
+    if (np.diff(along) >= 0).all():
+        return at
+    out = np.roll(_pooled(along, own), begin)
+    out[:begin] -= float(around)
+    return np.asarray(sense * out)
+
+
+def _pooled(x: FloatArray, weight: FloatArray) -> FloatArray:
+    """The numbers (n,) that never fall with the least weighted sum of squares from x (n,)."""
+    blocks: list[tuple[float, float, int]] = []  # mean, weight, length
+    for value, own in zip(x.tolist(), weight.tolist(), strict=True):
+        mean, heavy, length = value, max(own, 1e-300), 1
+        while blocks and blocks[-1][0] > mean:
+            before, more, count = blocks.pop()
+            mean = (before * more + mean * heavy) / (more + heavy)
+            heavy, length = more + heavy, length + count
+        blocks.append((mean, heavy, length))
+    return np.repeat([each[0] for each in blocks], [each[2] for each in blocks])
 
 
 def _narrowed(
@@ -323,8 +407,8 @@ def _downhill(samples: _Samples, way: _Way, wanted: ComplexArray) -> NDArray[np.
     """The positions (N,) to which points go down from sample to sample, within their stretch."""
     stretch, number = way.stretch, samples.share.shape[1]
     every = np.arange(stretch.size)
-    curve = samples.curve[stretch.circuit, (stretch.first + every) % number]
-    away = np.nan_to_num(np.abs(curve[:, None] - wanted), nan=np.inf)
+    gaps = samples.gaps(np.array([stretch.circuit]), wanted)[0]
+    away = gaps[(stretch.first + every) % number]
     beside = np.stack([np.roll(away, 1, axis=0), away, np.roll(away, -1, axis=0)])
     if not stretch.around:
         beside[0, 0] = beside[2, -1] = np.inf

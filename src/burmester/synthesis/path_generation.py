@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from burmester.curves.crank_linkages import CrankLinkages
 from burmester.curves.curve_descent import CurveFit
 from burmester.curves.nine_point_starts import nine_point_starts
-from burmester.curves.order_of_feet import in_order
 from burmester.curves.path_fit import PathSearch
 from burmester.curves.timed_paths import linkages_of_five_points
 from burmester.dyads.selection import FoundDyad
@@ -423,28 +422,12 @@ def _judged(evaluation: Evaluation, found: _Found) -> list[FoundLinkage]:
     Those that cannot be inside the tolerances only where no other is usable: told they are not.
     """
     step(f"judging {count(len(found.batch), 'linkage')}")
-    found = _in_order(evaluation.task, found)
     near = _may_be_inside(evaluation.task, found)
     judged = _members(evaluation, found, np.flatnonzero(near))
     if not any(each.usable for each in judged):
         judged += _members(evaluation, found, np.flatnonzero(~near))
     judged = ranked(judged, evaluation.problem)
     return _front(_different(judged, SAME, span(evaluation.task)))
-
-
-def _in_order(task: Task, found: _Found) -> _Found:
-    """The same at places in the order of the points, where these are inside the tolerances too."""
-    path = task.path or TracedPath()
-    if path.crank_angles is not None or not len(found.batch):
-        return found
-    assert task.tolerances is not None
-    own, t = CrankLinkages.of(found.batch, found.places)
-    rows = own.rows(in_order(own, t, closed=path.closed))
-    rows[..., 2] += found.places[:, :1, 2] - own.rows(t[:, :1])[..., 2]  # of the body frame M
-    gap = np.abs(rows[..., :2] - task.poses.translation)
-    inside = np.all(gap <= task.tolerances.position + EXACT * span(task), axis=(1, 2))
-    places = np.where(inside[:, None, None], rows, found.places)
-    return found._replace(places=places)
 
 
 def _may_be_inside(task: Task, found: _Found) -> NDArray[np.bool_]:
