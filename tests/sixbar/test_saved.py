@@ -82,3 +82,10 @@ def test_a_six_bar_that_does_not_do_it_is_refused(tree, fault):
         read(wrong)
     assert refused.value.code == "E150"
     assert "$.six_bars.found[0]" in refused.value.message
+
+
+def test_where_a_four_bar_is_needed_six_bars_are_told(tree):
+    with pytest.raises(InputError, match="this result has six-bars, and a four-bar is needed") as at:
+        read(tree).choose()
+    assert at.value.code == "E151"
+    assert "export" in at.value.help

@@ -102,6 +102,15 @@ class Result(NamedTuple):
     def choose(self, id: str | None = None) -> SavedLinkage:
         """A linkage by its id, or the first; raises E151."""
         known = [each.id for each in self.linkages]
+        if not known and self.six_bars:
+            raise InputError(
+                "E151",
+                "this result has six-bars, and a four-bar is needed here",
+                where=self.label,
+                why="six-bars are judged when they are found, and again when their file is read",
+                help="look at them by `burmester report --six-bars`, or hand them over by "
+                "`burmester export`",
+            )
         if not known:
             raise InputError(
                 "E151",
