@@ -136,9 +136,7 @@ def refine(
     problem = Problem(
         batch.kinds, rows_of(poses, length), length, share, exact, constraints, used, metric
     )
-    state = problem.state(
-        np.arange(count), batch.dimensions.reshape(count, SIZE), rows_of(places, length)
-    )
+    state = problem.start(batch.dimensions.reshape(count, SIZE), rows_of(places, length))
     keeping = bool(exact.any()) or constraints is not None
     rows, met = state.rows, np.ones(count, dtype=bool)
     for power in POWERS if worst else POWERS[:1]:

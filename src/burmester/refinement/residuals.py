@@ -113,6 +113,13 @@ class Problem:
         """The linkages z (k, 10) with their places nearest to the poses, by steps from rows."""
         return self._state(which, z, rows, self.wanted)
 
+    def start(self, z: FloatArray, rows: FloatArray) -> State:
+        """All linkages z (k, 10) with places near rows: free components stay about as they are."""
+        near = self.wanted
+        if self.metric is not None:
+            near = np.where((self.metric != 0).any(axis=-2), near, rows)
+        return self._state(np.arange(len(z)), z, rows, near)
+
     def _state(
         self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray, target: FloatArray | None
     ) -> State:

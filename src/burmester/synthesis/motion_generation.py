@@ -89,9 +89,14 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
 
         return near_points(task, options, task.notes)
     step(f"looking at {task.poses.shape[0]} poses")
+    note = list[Advice]()
+    if task.free_angles.any() and options.method == "auto":
+        from burmester.synthesis.point_approximation import with_nearest_angles  # noqa: PLC0415  few
+
+        task, note = with_nearest_angles(task, options)
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options)
-    known = (*task.notes, *diagnosis.findings)
+    known = (*task.notes, *note, *diagnosis.findings)
     if (points := _of_points(problem, known)) is not None:
         return points
     open_ = max(problem.missing_conditions) > 0 and options.method in ("auto", "exact")
@@ -116,9 +121,8 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
         outcome = summary(problem, search, linkages)
     outcome = offering_six_bars(problem, outcome)
     warnings = (
-        *task.notes,
         *_odd_pose(problem, search),
-        *diagnosis.findings,
+        *known,
         *dyad_advice(problem, search),
         *map(_found_twice, twice),
         *linkage_advice(task, linkages, outcome.code),

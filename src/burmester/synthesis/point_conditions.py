@@ -7,6 +7,7 @@ without a pose the first point has no angle to begin with, and N is one more.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple, final
 
 import numpy as np
@@ -16,10 +17,11 @@ from burmester.geometry.regions import Point
 from burmester.numerics.arrays import FloatArray
 from burmester.points.classes import CLASS
 from burmester.points.start_systems import CASES, Case
+from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.wording import count, listed
 
-__all__ = ["PointConditions", "point_conditions"]
+__all__ = ["PointConditions", "given_pivots", "point_conditions"]
 
 
 @final
@@ -65,13 +67,14 @@ class PointConditions(NamedTuple):
 
 def point_conditions(task: Task) -> PointConditions | None:
     """What a task asks for; None where no pose is a point, or poses have other tolerances."""
-    stated = task.tolerances
-    if stated is None or not stated.exact[:, :2].all():
+    if task.tolerances is None or not task.tolerances.are_poses_and_points:
         return None
-    is_point = stated.free[:, 2]
-    if not (is_point.any() and (is_point | stated.exact[:, 2]).all()):
-        return None
-    given = [each.fixed_pivot for each in task.limits] if len(task.limits) == 2 else []
+    return PointConditions(task.free_angles, *given_pivots(task.limits))
+
+
+def given_pivots(limits: Sequence[Limits]) -> tuple[FloatArray, bool]:
+    """Fixed pivots (k, 2) at points, and whether the one given belongs to the second dyad."""
+    given = [each.fixed_pivot for each in limits] if len(limits) == 2 else []
     pivots = [each.at for each in given if isinstance(each, Point)]
     later = len(pivots) == 1 and isinstance(given[1], Point)
-    return PointConditions(is_point, np.reshape(np.array(pivots, dtype=float), (-1, 2)), later)
+    return np.reshape(np.array(pivots, dtype=float), (-1, 2)), later

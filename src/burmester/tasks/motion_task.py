@@ -396,8 +396,10 @@ def _require_fitting(
             why="an exact pose is met in x, y and angle",
             help="take the mark away, or give this pose the tolerance 0 in all three",
         )
-    if (conditions := tolerances.conditions + pivots) > 2 * CONDITIONS:
-        _refuse_points(tolerances, pivots)
+    # Poses and points that are too many, and have no tolerances, are met as closely as possible.
+    if (conditions := tolerances.conditions + pivots) > 2 * CONDITIONS and not (
+        tolerances.are_poses_and_points
+    ):
         raise InputError(
             "E133",
             f"{conditions} exact conditions, and a four-bar can meet {2 * CONDITIONS}",
@@ -406,25 +408,6 @@ def _require_fitting(
             + (", a pivot at a point two, on a line one" if pivots else ""),
             help="give more components a tolerance, all poses the same one by default",
         )
-
-
-def _refuse_points(tolerances: PoseTolerances, pivots: int) -> None:
-    """E133 in other words for poses and points, which have no tolerances."""
-    points = np.flatnonzero(tolerances.free[:, 2])
-    if tolerances.gives_room or not len(points):
-        return
-    poses = count_of(tolerances.shape[0] - len(points), "pose")
-    raise InputError(
-        "E133",
-        f"{poses} and {count_of(len(points), 'point')}{' with these pivots' * bool(pivots)} are "
-        "more than a four-bar can meet exactly",
-        why="a pose is two conditions, "
-        + ("a pivot at a point two, on a line one, " if pivots else "")
-        + f"and a point, which has no angle, is one: they are {tolerances.conditions + pivots}, "
-        f"and {2 * CONDITIONS} are the most; pose {points[0] + 1} has no angle",
-        help="say by --pose-tolerance how far they may be missed, or leave some out; or give every "
-        "pose its angle",
-    )
 
 
 def _parts(poses: Displacement) -> tuple[FloatArray, FloatArray]:

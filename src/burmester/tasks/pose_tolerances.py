@@ -128,6 +128,12 @@ class PoseTolerances:
         return not bool((self.exact | self.free).all())
 
     @property
+    def are_poses_and_points(self) -> bool:
+        """Whether x and y are exact, and angles exact at some poses and free at the others."""
+        free = self.free[:, 2]
+        return bool(self.exact[:, :2].all() and (free | self.exact[:, 2]).all() and free.any())
+
+    @property
     def exact_poses(self) -> NDArray[np.bool_]:
         """The poses (N,) that are exact in all three components."""
         return np.asarray(self.exact.all(axis=1))
