@@ -13,7 +13,7 @@ Item = TypeVar("Item")
 
 
 def samples(every: int, some: int) -> range:
-    """The numbers of all cases, or of the first of them: `for seed in samples(200, 40)`."""
+    """The numbers of all cases, or of the first ones: 40 of 200 by `samples(200, 40)`."""
     return range(every if EVERY else some)
 
 

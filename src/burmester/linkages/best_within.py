@@ -108,7 +108,8 @@ def _inside(rows: FloatArray, target: Target) -> NDArray[np.bool_]:
     reach, length = asked.within / float(target.frames.length), target.length
     if asked.within_deg is not None:
         length = reach / math.radians(asked.within_deg)
-    gap = np.abs(rows - rows_of(target.poses, target.length))
+    away = rows - rows_of(target.poses, target.length)
+    gap = np.abs(away if target.boxes is None else target.boxes.counted(rows))
     missed = np.maximum(np.hypot(gap[..., 0], gap[..., 1]), length / target.length * gap[..., 2])
     return np.asarray((missed <= reach).all(axis=-1))
 

@@ -102,7 +102,8 @@ def _judgement(
 def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, tuple[Advice, ...]]:
     """The task as synthesis judges its linkages, and what is to be said of it.
 
-    The points of a path have free angles, and a tolerance where the task states none.
+    The points of a path have free angles, and a tolerance where the task states none; so have poses
+    and points that are more than a linkage can meet.
     """
     if task.path is not None:
         from burmester.synthesis.path_generation import with_tolerance  # noqa: PLC0415  paths only
@@ -110,9 +111,14 @@ def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, t
         given, note = with_tolerance(task, options)
         return SynthesisProblem.of(given, None, options), tuple(note)
     step(f"looking at {task.poses.shape[0]} poses")
+    note = list[Advice]()
+    if task.free_angles.any():
+        from burmester.synthesis.point_approximation import with_nearest_angles  # noqa: PLC0415  few
+
+        task, note = with_nearest_angles(task, options)
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
-    return problem, tuple(diagnosis.findings)
+    return problem, (*note, *diagnosis.findings)
 
 
 def _found_dyads(dyads: tuple[Dyad, Dyad], evaluation: Evaluation) -> Pair:

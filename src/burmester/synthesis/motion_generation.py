@@ -90,7 +90,7 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
         return near_points(task, options, task.notes)
     step(f"looking at {task.poses.shape[0]} poses")
     note = list[Advice]()
-    if task.free_angles.any() and options.method == "auto":
+    if task.free_angles.any():
         from burmester.synthesis.point_approximation import with_nearest_angles  # noqa: PLC0415  few
 
         task, note = with_nearest_angles(task, options)

@@ -112,7 +112,8 @@ def _unaccounted(
     # Where all points are accounted for, no dyad is missing for a rank that is near its border.
     times = NEAR_DIGITS if known == COUNT else 1.0
     meeting = sum(within_digits(each, problem.task, times) for each in found.dyads)
-    if meeting < exact:
+    lent = bool(problem.given.free_angles.any())  # angles from a linkage agree with its dyads
+    if meeting < exact and not lent:
         message = (
             f"{exact} independent quadrics hold the poses within their digits, so that as many "
             f"dyads should meet them, and {meeting or 'none'} of those listed "

@@ -21,12 +21,14 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.from_dyads import target_of
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.bundles import concatenate
 from burmester.points.real_linkages import linkages_through
 from burmester.points.start_systems import CASES
 from burmester.progress import step
 from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.least_error import Refined
+from burmester.refinement.target import Target
 from burmester.synthesis.point_conditions import given_pivots
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import length_of
@@ -36,66 +38,121 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import worst_miss
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 
-__all__ = ["with_nearest_angles"]
+__all__ = ["nearest_linkage", "with_nearest_angles"]
 
 ASSUMED_RATIO = 2.0  # of the assumed tolerance to the worst error of the nearest linkage
 LEAST_ASSUMED = 1e-4  # motion sizes; a smaller tolerance is not assumed
 MOST_CHOICES, PATHS = 10, 900  # of rows for one case, and paths that are followed for them all
 FAR = 20.0  # motion sizes; a linkage with a longer link is not refined
+MOST_ROWS = 30  # poses, and points, by which linkages are refined
 REFINED, JUDGED = 60, 12  # linkages that are refined, and how many of them are judged
 STEPS, CHOICE = 300, ((20, 30), (60, 16))  # of the refinement; after how many how many go on
+FARTHER = 5.0  # times as far as the nearest one may be one that is better to build
 SAME = 1e-6  # relative; refined linkages whose costs differ by less are one
-WIDE = 3.0  # radians, and lengths per radian: a tolerance that only says what counts how much
+WIDE = 3.0  # radians, and lengths per radian; a tolerance that all near places keep
 
 
 def with_nearest_angles(task: Task, options: SynthesisOptions) -> tuple[Task, list[Advice]]:
-    """The task with the angles of the nearest linkage at its points, and a tolerance if it has none.
+    """The task with the angles of the nearest linkage at its points, and with a tolerance.
 
-    The same task where it has no points beside its poses, or so few that linkages meet them all.
+    Where it states none, one is assumed, and said.  The same task where it has no points beside
+    its poses, or so few that linkages meet them all.
     """
-    if not _are_too_many(task):
+    stated = task.tolerances
+    if stated is None or not _are_too_many(task, stated):
         return task, []
-    assert task.tolerances is not None
-    step("looking for the linkage nearest to poses and points")
-    wide = task if task.tolerances.gives_room else replace(task, tolerances=_wide(task, options))
-    problem = SynthesisProblem.of(wide, None, options)
-    nearest = _nearest(problem)
+    nearest = nearest_linkage(task, options)
     if nearest is None:
         return task, []
     angle = np.where(task.free_angles, nearest.error.places.angle, task.poses.angle)
     task = replace(task, poses=Displacement(task.poses.translation, angle))
-    if wide.tolerances is task.tolerances:
-        return task, []
-    return _with_tolerance(task, nearest, problem)
+    return (task, []) if stated.gives_room else _with_tolerance(task, nearest, options)
 
 
-def _are_too_many(task: Task) -> bool:
+def _are_too_many(task: Task, stated: PoseTolerances) -> bool:
     """Whether poses and points are more than a linkage meets exactly, tolerances or not."""
-    if task.path is not None or task.tolerances is None:
+    if task.path is not None:
         return False
-    free = task.tolerances.free
+    free = stated.free
     mixed = free[:, 2].any() and not free[:, 2].all() and not free[:, :2].any()
     pivots = sum(each.conditions for each in task.limits) * (3 - len(task.limits))
     return bool(mixed) and int((2 - free[:, 2]).sum()) + pivots > 2 * CONDITIONS
 
 
-def _wide(task: Task, options: SynthesisOptions) -> PoseTolerances:
-    """Tolerances that near places keep, in the proportion by which a radian counts as a length.
+def nearest_linkage(task: Task, options: SynthesisOptions) -> FoundLinkage | None:
+    """The nearest linkage found that is sound, or at least works, or at all; None without any.
 
-    Poses that are marked exact stay so.
+    Nearest by the tolerances that are stated; else by squares, a radian as the length per radian.
+    Sound: without shortcomings (`verdicts.standard`), and not much farther than the nearest.
     """
-    length = SynthesisProblem.of(task, None, options).length_per_radian
-    loose = np.full(task.poses.shape, WIDE)
+    step("looking for the linkage nearest to poses and points")
+    few = _few_rows(task)
+    evaluation = _evaluation(few, options)
+    refined = _refined(evaluation.problem, evaluation.target.relaxed)
+    if refined is None:
+        return None
+    index = np.flatnonzero(refined.met & np.isfinite(refined.cost))
+    index = index[np.argsort(refined.cost[index], kind="stable")]
+    cost = refined.cost[index]
+    index = index[np.diff(cost, prepend=-np.inf) > SAME * cost][:JUDGED]
+    best = _best(evaluation, refined.batch[index], refined.rows[index])
+    if best is None or few is task:
+        return best
+    whole = _evaluation(task, options)
+    batch = LinkageBatch.of([best.linkage]).to_canonical(whole.target.frames)
+    return _best(whole, batch, whole.target.places(batch))
+
+
+def _evaluation(task: Task, options: SynthesisOptions) -> Evaluation:
+    """How linkages near the rows are judged: within what is stated, or anywhere near."""
+    problem = SynthesisProblem.of(task, None, options)
+    assert task.tolerances is not None
+    if not task.tolerances.gives_room:
+        wide = _tolerances(task, WIDE * problem.length_per_radian, math.degrees(WIDE))
+        problem = SynthesisProblem.of(replace(task, tolerances=wide), None, options)
+    return Evaluation(problem, target_of(problem))
+
+
+def _best(evaluation: Evaluation, batch: LinkageBatch, rows: FloatArray) -> FoundLinkage | None:
+    """Of linkages with their places the nearest sound one, or that works, or the nearest."""
+    if not len(batch):
+        return None
+    own, none = batch.from_canonical(evaluation.target.frames), np.zeros(len(batch), dtype=bool)
+    pairs = [_pair(own, k) for k in range(len(own))]
+    judged = evaluation.members(Candidates(batch, rows, pairs, none, own), quality=False)
+    first = min(judged, key=lambda each: (not each.usable, each.combined_error), default=None)
+    sound = [
+        each
+        for each in judged
+        if first is not None
+        and each.usable
+        and not each.shortcomings
+        and each.combined_error <= FARTHER * first.combined_error
+    ]
+    return min(sound, key=lambda each: each.combined_error, default=first)
+
+
+def _few_rows(task: Task) -> Task:
+    """The task with MOST_ROWS of its poses, and so many of its points; with all that are exact."""
+    if task.poses.shape[0] <= 2 * MOST_ROWS:
+        return task
+    free = task.free_angles
+    some = [rows[even_numbers(len(rows), MOST_ROWS)] for rows in map(np.flatnonzero, (free, ~free))]
+    index = np.unique(np.concatenate(some))
     if task.exact is not None:
-        loose[task.exact] = 0.0
-    position = np.column_stack([loose, loose]) * length
-    return PoseTolerances(position, np.where(task.free_angles, np.inf, loose))
+        index = np.union1d(index, np.flatnonzero(task.exact))
+    return replace(
+        task,
+        poses=task.poses[index],
+        weights=None if task.weights is None else task.weights[index],
+        names=None if task.names is None else tuple(task.names[k] for k in index.tolist()),
+        exact=None if task.exact is None else task.exact[index],
+        tolerances=None if task.tolerances is None else task.tolerances.at(index),
+    )
 
 
-def _nearest(problem: SynthesisProblem) -> FoundLinkage | None:
-    """The nearest linkage found that works; where none does, the nearest; None where none is."""
-    evaluation = Evaluation(problem, target_of(problem))
-    target = evaluation.target.relaxed
+def _refined(problem: SynthesisProblem, target: Target) -> Refined | None:
+    """Four-bars through some of the rows, refined to the least error at all; None without any."""
     starts = [*_through_some(problem.given, problem.motion_size)]
     if not starts:
         return None
@@ -105,25 +162,13 @@ def _nearest(problem: SynthesisProblem) -> FoundLinkage | None:
     batch = batch.to_canonical(target.frames)
     rows = target.places(batch)
     some = np.argsort(np.nan_to_num(target.cost(rows), nan=np.inf), kind="stable")[:REFINED]
-    refined = target.refine(
+    return target.refine(
         batch[some],
         rows[some],
         constraints=AllConstraints(target.kept),
         constrained_steps=STEPS,
         selection=CHOICE,
     )
-    index = np.flatnonzero(refined.met & np.isfinite(refined.cost))
-    if not len(index):
-        return None
-    index = index[np.argsort(refined.cost[index], kind="stable")]
-    cost = refined.cost[index]
-    index = index[np.diff(cost, prepend=-np.inf) > SAME * cost][:JUDGED]
-    own = refined.batch[index].from_canonical(target.frames)
-    pairs = [_pair(own, k) for k in range(len(own))]
-    none = np.zeros(len(index), dtype=bool)
-    candidates = Candidates(refined.batch[index], refined.rows[index], pairs, none, own)
-    judged = evaluation.members(candidates, quality=False)
-    return min(judged, key=lambda each: (not each.usable, each.combined_error), default=None)
 
 
 def _pair(batch: LinkageBatch, k: int) -> Pair:
@@ -161,31 +206,41 @@ def _some(count: int, wanted: int, share: float) -> NDArray[np.intp]:
 
 
 def _with_tolerance(
-    task: Task, nearest: FoundLinkage, problem: SynthesisProblem
+    task: Task, nearest: FoundLinkage, options: SynthesisOptions
 ) -> tuple[Task, list[Advice]]:
-    """The task with a tolerance of twice the worst error of the nearest linkage, and what is said.
+    """The task with a tolerance, and what is said of it.
 
-    A radian counts as the length per radian.
+    The greatest acceptable error, where one is asked for; else twice the worst error of the nearest
+    linkage.  A radian counts as the length per radian.
     """
-    length, free = problem.length_per_radian, task.free_angles
-    places = nearest.error.places
-    away = np.abs(places.translation - task.poses.translation).max()
-    turn = np.where(free, 0.0, nearest.error.angle).max()
+    problem, asked = SynthesisProblem.of(task, None, options), task.requirements
+    length = problem.length_per_radian
+    if asked.within is not None:
+        degrees = asked.within_deg or math.degrees(asked.within / length)
+        return replace(task, tolerances=_tolerances(task, asked.within, degrees)), []
+    away = np.abs(nearest.error.places.translation - task.poses.translation).max()
+    turn = np.where(task.free_angles, 0.0, nearest.error.angle).max()
     worst = max(float(away), length * float(turn), LEAST_ASSUMED * problem.motion_size)
     position = float(f"{ASSUMED_RATIO * worst:.2g}")
     angle = float(f"{math.degrees(ASSUMED_RATIO * worst / length):.2g}")
-    loose = np.ones(task.poses.shape) if task.exact is None else np.where(task.exact, 0.0, 1.0)
-    tolerances = PoseTolerances(
-        position * np.column_stack([loose, loose]),
-        np.where(free, np.inf, math.radians(angle) * loose),
-    )
-    advice = Advice(
-        "W226",
-        f"a tolerance of {length_of(position, task)} was assumed for x and y of every pose and "
-        f"point, and one of {angle:g}° for the angles",
-        "say how far they may be missed: --pose-tolerance "
-        f"{position:g},{position:g},{angle:g}",
-        f"the nearest linkage misses them by {worst_miss(nearest, task)} at most, and within "
-        f"{ASSUMED_RATIO:g} times that the one that transmits best is chosen",
-    )
-    return replace(task, tolerances=tolerances), [advice]
+    sound = "" if nearest.shortcomings else "sound "
+    out = replace(task, tolerances=_tolerances(task, position, angle))
+    return out, [
+        Advice(
+            "W226",
+            f"a tolerance of {length_of(position, task)} was assumed for x and y of every pose and "
+            f"point, and {angle:g}° for the angles",
+            f"say how far they may be missed: --pose-tolerance {position:g},{position:g},{angle:g}",
+            f"the nearest {sound}linkage misses them by {worst_miss(nearest, out)} at most, and "
+            f"within {ASSUMED_RATIO:g} times that the one that transmits best is chosen",
+        )
+    ]
+
+
+def _tolerances(task: Task, position: float, degrees: float) -> PoseTolerances:
+    """The same tolerance for all poses and points; poses that are marked exact stay so."""
+    loose = np.ones(task.poses.shape)
+    if task.exact is not None:
+        loose[task.exact] = 0.0
+    angle = np.where(task.free_angles, np.inf, math.radians(degrees) * loose)
+    return PoseTolerances(position * np.column_stack([loose, loose]), angle)

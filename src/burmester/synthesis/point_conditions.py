@@ -18,7 +18,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.points.classes import CLASS
 from burmester.points.start_systems import CASES, Case
 from burmester.tasks.limits import Limits
-from burmester.tasks.motion_task import Task
+from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.wording import count, listed
 
 __all__ = ["PointConditions", "given_pivots", "point_conditions"]
@@ -55,8 +55,16 @@ class PointConditions(NamedTuple):
         parts = [(poses, "pose"), (points, "point"), (pivots, "fixed pivot")]
         return listed([count(number, name) for number, name in parts if number])
 
+    @property
+    def are_too_many(self) -> bool:
+        """Whether they are more than a linkage can meet exactly."""
+        points = int(self.is_point.sum())
+        return 2 * len(self.is_point) - points + 2 * len(self.pivots) > 2 * CONDITIONS
+
     def in_words(self) -> str:
         """What is asked for, and how many linkages that leaves, for those who look at a task."""
+        if self.are_too_many:
+            return f"{self}: more than a four-bar can meet; those near them are looked for"
         if self.case is None:
             return f"{self}: infinitely many four-bars, of which good ones are chosen"
         number, also = CASES[self.case], ""
