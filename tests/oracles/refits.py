@@ -48,8 +48,12 @@ def case(seed, second=RR, count=8):
                 return dyads, rows, drive
 
 
-def refitted(dyads, rows, drive, weights=None, free=None):
-    """The numbers of the linkage that is fitted to poses, moving within `free` (m, n) only."""
+def refitted(dyads, rows, drive, weights=None, free=None, *, counts=1):
+    """The numbers of the linkage that is fitted to poses, moving within `free` (m, n) only.
+
+    counts: (N, 3), 0 for components of poses that count for nothing.
+    """
+    one, two, three = np.broadcast_to(counts, rows.shape).T
     kinds, z0 = [type(d) for d in dyads], numbers_of(dyads)
     free = np.eye(len(z0)) if free is None else free
     root = np.sqrt(np.ones(len(rows)) if weights is None else weights)
@@ -59,19 +63,23 @@ def refitted(dyads, rows, drive, weights=None, free=None):
         where, phi = places(first, second, y[free.shape[1] :])
         gap = where[0] - rows[:, 0] - 1j * rows[:, 1]
         turned = np.angle(np.exp(1j * (phi[0] - rows[:, 2])))
-        return np.concatenate([root * gap.real, root * gap.imag, root * LENGTH * turned])
+        away = one * gap.real, two * gap.imag, three * LENGTH * turned
+        return np.concatenate([root * each for each in away])
 
     start = np.concatenate([np.zeros(free.shape[1]), drive])
     end = least_squares(miss, start, method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15)
     return z0 + free @ end.x[: free.shape[1]]
 
 
-def slopes(dyads, rows, drive, weights=None, free=None):
+def slopes(dyads, rows, drive, weights=None, free=None, *, counts=1):
     """How the numbers of the fit move with each number of each pose: (n, N, 3)."""
     columns = []
     for at in np.ndindex(rows.shape):
         off = np.zeros_like(rows)
         off[at] = STEP
-        ends = [refitted(dyads, rows + sign * off, drive, weights, free) for sign in (1, -1)]
+        ends = [
+            refitted(dyads, rows + sign * off, drive, weights, free, counts=counts)
+            for sign in (1, -1)
+        ]
         columns.append((ends[0] - ends[1]) / (2 * STEP))
     return np.array(columns).T.reshape(-1, *rows.shape)

@@ -137,3 +137,22 @@ def test_curves_that_points_lie_on_are_recognised():
     assert point_set(ellipse + 1e-3 * np.column_stack([t**3, t**2])) is None
     assert point_set(np.column_stack([t, 2 * t - 1])).kind == "line"
     assert point_set(np.column_stack([np.cos(t), np.sin(t)])).kind == "circle"
+
+
+@pytest.mark.parametrize(("poses", "points", "code"), [(3, 2, "R308"), (0, 6, "R350")])
+def test_fewer_rows_leave_infinitely_many_and_pivots_open(poses, points, code):
+    """What is listed is driven through all rows; no pose says how certain its pivots are."""
+    is_point = np.arange(poses + points) % 2 == 1 if poses else np.ones(points, dtype=bool)
+    task = of_crank_rocker(np.linspace(20, 200, poses + points), is_point)
+    synthesis = synthesize(task)
+    assert synthesis.outcome.code == code
+    assert "infinitely many" in synthesis.outcome.message
+    assert not {"W203", "W206", "W207", "W226"} & {each.code for each in synthesis.warnings}
+    assert len(synthesis.usable) > 1
+    for each in synthesis.usable:
+        places = each.error.places
+        rows = np.column_stack([places.translation, places.angle])
+        assert max(missed(each.linkage, row) for row in rows) < 1e-6
+        assert np.abs(places.translation - task.poses.translation).max() < 1e-6
+        assert each.uncertainty is None
+    assert np.degrees(synthesis.usable[0].driven.least_over_range) > 30

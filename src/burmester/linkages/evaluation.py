@@ -401,6 +401,7 @@ class Evaluation:
             (position / unit, angle),
             weights=None if weights is None else weights[some],
             fixed=active,
+            open_=None if self.target.boxes is None else self.target.boxes.free_directions[some],
         )
         spreads = spreads * len(some) / count
         size = self.problem.motion_size

@@ -69,6 +69,14 @@ class ToleranceBoxes:
         return not bool((self.exact | self.free).all())
 
     @property
+    def free_directions(self) -> FloatArray:
+        """The unit vectors (N, 3, 3) of rows along which components are free; 0 for the others."""
+        out = np.zeros((len(self.free), 3, 3))
+        out[:, :2, :2] = self.boxes.directions
+        out[:, 2, 2] = 1.0
+        return out * self.free[..., None]
+
+    @property
     def metric(self) -> FloatArray:
         """The matrices (N, 3, 3) whose product with a gap is what counts of it.
 

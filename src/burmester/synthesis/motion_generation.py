@@ -37,10 +37,11 @@ from burmester.synthesis.time_limit import with_time_limit
 from burmester.synthesis.within_digits import tolerances_of_digits, with_linkages_within_digits
 from burmester.tasks.feasibility import require_feasible
 from burmester.tasks.motion_kinds import FewPoses, MotionKind, Rest, Undetermined
-from burmester.tasks.motion_task import Task
+from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.special_motions import CircularTranslation
+from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 
 if TYPE_CHECKING:  # loaded where a task asks for it
@@ -115,6 +116,10 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     search = search_dyads(problem)
     pairs, twice = search.pairs(problem.length)
     linkages = _linkages(problem, pairs)
+    if problem.leaves_linkages_open:  # no pose determines their pivots
+        linkages = tuple(
+            replace(each, uncertainty=None, determined=True, other_types=()) for each in linkages
+        )
     outcome = summary(problem, search, linkages)
     if outcome.code == "R305":
         linkages = with_linkages_within_digits(problem, pairs, linkages)
@@ -138,12 +143,21 @@ def _kind(problem: SynthesisProblem) -> MotionKind | None:
 
 
 def _of_points(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
-    """Poses and points that determine finitely many linkages: all of them; None for others."""
-    if problem.given.tolerances is None or problem.options.method not in ("auto", "exact"):
-        return None
-    from burmester.synthesis.point_generation import through_points  # noqa: PLC0415  few need it
+    """Poses and points with finitely many linkages: all of them; of fewer points some.
 
-    return through_points(problem, findings)
+    None for others.
+    """
+    task, options = problem.given, problem.options
+    if task.tolerances is None or options.method not in ("auto", "exact"):
+        return None
+    from burmester.synthesis.path_generation import near_points  # noqa: PLC0415  few need it
+    from burmester.synthesis.point_generation import through_points  # noqa: PLC0415  the same
+
+    found = through_points(problem, findings)
+    traced = task.tolerances.are_points and problem.task.poses.shape[0] >= CONDITIONS
+    if found is None and traced and problem.leaves_linkages_open:
+        return near_points(replace(task, path=TracedPath()), options, findings)
+    return found
 
 
 def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:

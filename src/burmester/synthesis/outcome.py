@@ -15,6 +15,7 @@ from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.from_dyads import MAX_POSES_REFINED, sample_refined
 from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
+from burmester.synthesis.point_conditions import point_conditions
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of, span
@@ -44,6 +45,8 @@ SHOWN_ANGLE = 1e-6  # degrees; an angle lower by less is as good
 
 def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
     """What a user should know about the dyads."""
+    if problem.leaves_linkages_open:  # start values: their poses are partly made up
+        return _thin_regions(problem)
     poses, size = problem.task.poses, max(span(problem.given), problem.length)  # as the page shows
     warnings = [
         Advice(
@@ -186,6 +189,8 @@ def summary(
     if not linkages:
         return _none(problem.given, search, dyads + aside)
     usable = [each for each in linkages if each.usable]
+    if problem.leaves_linkages_open and usable:
+        return _some_of_many(problem, len(linkages), len(usable))
     if len(search.dyads) < 2:
         dyads = f"links of low error beside {dyads}"
     all_of_them = f"{count(len(linkages), 'four-bar')} from {dyads}"
@@ -200,6 +205,14 @@ def summary(
         return _undetermined(problem, usable, message)
     approximate = isinstance(search.fits[0], FivePoseDyads) and search.meeting < 2
     return Outcome("R307" if approximate else "R300", message)
+
+
+def _some_of_many(problem: SynthesisProblem, found: int, usable: int) -> Outcome:
+    """Usable linkages where poses with free components leave infinitely many."""
+    asked = point_conditions(problem.given)
+    what = f"{asked} leave" if asked else "the poses, free as they are, leave"
+    some = f"of {found} found, {usable} {'is' if usable == 1 else 'are'} usable"
+    return Outcome("R308", f"{what} infinitely many linkages; {some}")
 
 
 def offering_six_bars(problem: SynthesisProblem, outcome: Outcome) -> Outcome:

@@ -26,7 +26,7 @@ from burmester.progress import step
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.path_linkages import PathLinkages, is_timed_exactly, linkages_near
 from burmester.synthesis.result import Outcome, Synthesis
-from burmester.tasks.motion_task import Task
+from burmester.tasks.motion_task import MOST_POINTS, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
@@ -141,7 +141,14 @@ def _stated(task: Task, path: TracedPath) -> FloatArray | None:
         return stated
     if task.requirements.within is not None:
         return np.full((len(task.poses.angle), 2), task.requirements.within)
-    return np.zeros((len(task.poses.angle), 2)) if is_timed_exactly(task, path) else None
+    exactly = is_timed_exactly(task, path) or _are_few(task, path)
+    return np.zeros((len(task.poses.angle), 2)) if exactly else None
+
+
+def _are_few(task: Task, path: TracedPath) -> bool:
+    """Whether infinitely many linkages pass the points, one way or the other."""
+    untimed = path.crank_angles is None and not path.closed
+    return untimed and len(task.poses.angle) + task.pivot_conditions < MOST_POINTS
 
 
 def _of_points(position: FloatArray) -> PoseTolerances:
@@ -283,6 +290,8 @@ def _outcome(
     nearest = min(usable, key=lambda each: each.error.worst)
     if nearest.error.worst <= EXACT * span(task):
         how = f"that {'passes' if len(usable) == 1 else 'pass'} {points}{timed}"
+        if _are_few(task, path):
+            how = f"of the infinitely many that pass {points}"
     else:
         how = (
             f"near {points}{timed}; the nearest, {nearest.id}, misses them by "

@@ -138,6 +138,12 @@ class Task:
         return self.tolerances.free[:, 2]
 
     @property
+    def pivot_conditions(self) -> int:
+        """How many conditions the limits of both dyads put on their pivots."""
+        both = self.limits * (2 if len(self.limits) == 1 else 1)
+        return sum(each.conditions for each in both)
+
+    @property
     def angles_are_free(self) -> bool:
         """Whether only points of the body are asked for, and no angle anywhere."""
         return bool(self.free_angles.all())
@@ -200,8 +206,7 @@ class Task:
                 help="give one name a pose, or none",
             )
         if self.tolerances is not None:
-            both = self.limits * (2 if len(self.limits) == 1 else 1)
-            pivots = sum(limits.conditions for limits in both)
+            pivots = self.pivot_conditions
             if self.path is None and _are_many_points(self.tolerances, pivots):
                 object.__setattr__(self, "path", TracedPath())
             # Points of a path are met as closely as possible where they are too many.
@@ -369,8 +374,7 @@ def _are_many_points(tolerances: PoseTolerances, pivots: int) -> bool:
 
     pivots: how many conditions limits put on its pivots.
     """
-    alone = tolerances.exact[:, :2].all() and tolerances.free[:, 2].all()
-    return bool(alone) and len(tolerances.angle) + pivots > MOST_POINTS
+    return tolerances.are_points and len(tolerances.angle) + pivots > MOST_POINTS
 
 
 def _require_fitting(

@@ -128,6 +128,16 @@ class PoseTolerances:
         return not bool((self.exact | self.free).all())
 
     @property
+    def are_points(self) -> bool:
+        """Whether x and y are exact, and all angles free."""
+        return bool(self.exact[:, :2].all() and self.free[:, 2].all())
+
+    @property
+    def asked(self) -> int:
+        """How many equations or bounds the components that are not free are for a linkage."""
+        return int(np.maximum((~self.free).sum(axis=1) - 1, 0).sum())
+
+    @property
     def are_poses_and_points(self) -> bool:
         """Whether x and y are exact, and angles exact at some poses and free at the others."""
         free = self.free[:, 2]

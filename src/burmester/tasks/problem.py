@@ -77,6 +77,14 @@ class SynthesisProblem:
         return [CONDITIONS - each - self.task.poses.shape[0] for each in conditions]
 
     @property
+    def leaves_linkages_open(self) -> bool:
+        """Whether poses with free components leave infinitely many linkages."""
+        stated = self.given.tolerances
+        if stated is None or not stated.free.any():
+            return False
+        return stated.asked + self.given.pivot_conditions < 2 * CONDITIONS
+
+    @property
     def pose_numbers(self) -> list[int]:
         """The numbers (from 0) that the poses of `task` have in the task as given."""
         numbers = np.arange(self.given.poses.shape[0])
