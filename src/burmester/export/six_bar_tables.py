@@ -34,7 +34,7 @@ CLOSE: Final = 1e-9  # of the greatest length; a table keeps bars and poses this
 
 
 def write_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
-    """A row for each step from the first pose to the last, and one for each pose."""
+    """A row for each step over the range of the poses, and one for each pose."""
     found = chosen.found
     marked = [(value, 0) for value in found.along(MOTION_ROWS).tolist()]
     marked = [each for each in marked if np.abs(found.drive - each[0]).min() > 1e-9]
@@ -64,9 +64,9 @@ def check_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
     at = dict(zip(JOINTS, np.moveaxis(numbers[:, 4:].reshape(-1, 7, 2), 1, 0), strict=True))
     body = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
     _require_linkage(chosen, at, body, np.radians(numbers[:, 0]))
-    poses = [(k, int(row[-1]) - 1) for k, row in enumerate(rows) if row[-1]]
-    require_equal("the poses", [pose for _, pose in poses], np.arange(len(poses)), 0)
-    _require_places(chosen, body[[k for k, _ in poses]])
+    poses = sorted((int(row[-1]) - 1, k) for k, row in enumerate(rows) if row[-1])
+    require_equal("the poses", [pose for pose, _ in poses], np.arange(len(chosen.found.drive)), 0)
+    _require_places(chosen, body[[k for _, k in poses]])
 
 
 def write_json(chosen: SavedSixBar, path: Path, options: Options) -> None:

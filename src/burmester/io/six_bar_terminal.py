@@ -61,7 +61,8 @@ def _at_poses(synthesis: Synthesis, found: FoundSixBar, width: int) -> Table:
     """What the six-bar does at each pose."""
     rows = six_bar_words.pose_rows(synthesis, found)
     most = len(rows) < len(found.drive)
-    table = new_table(f"At the poses{' that are missed most' if most else ''}")
+    title = f"At the poses{' that are missed most' if most else ''}"
+    table = new_table(f"{title}, on one branch" if found.on_branches else title)
     for head in six_bar_words.pose_heads(synthesis)[: None if width >= NARROW else 3]:
         table.add_column(head, justify="right" if table.columns else "left", no_wrap=True)
     for row in rows:

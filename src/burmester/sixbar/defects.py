@@ -66,8 +66,8 @@ def defects_of(
     if stuck:
         text = f"is at a dead point at {told.phrase(stuck)}"
         out.append(Defect("branch", text, tuple(stuck), certain=False))
-    if course.out_of_order:
-        out.append(_order(course, here, told))
+    if course.out_of_order and not course.elsewhere.any():  # an order is that of one branch
+        out.append(_order(course, told))
     return tuple(out)
 
 
@@ -93,14 +93,14 @@ def _branch(
     return Defect("branch", text, tuple(sorted({pose for pair in pairs for pose in pair})))
 
 
-def _order(course: Course, here: NDArray[np.bool_], names: PoseNames) -> Defect:
+def _order(course: Course, names: PoseNames) -> Defect:
     """The order in which the poses are met, of both senses the one with the lower number first."""
-    poses = np.flatnonzero(here)
-    steps = np.round(course.along[poses] / REPEATED_POSE_STEP)
+    poses = np.arange(len(course.along))
+    steps = np.round(course.along / REPEATED_POSE_STEP)
     sequences = []
     for sense in (1, -1):
         sequence = poses[np.lexsort((poses, sense * steps))].tolist()
-        start = sequence.index(poses[0]) if course.full else 0
+        start = sequence.index(0) if course.full else 0
         sequences.append(sequence[start:] + sequence[:start])
     met = min(sequences)
     moved = tuple(a for a, b in zip(poses.tolist(), met, strict=True) if a != b)

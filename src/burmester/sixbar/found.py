@@ -77,6 +77,11 @@ class FoundSixBar:
         return not (self.defects or self.violations)
 
     @property
+    def on_branches(self) -> bool:
+        """Whether it meets poses on other branches than this one, the errors being of this one."""
+        return any(each.kind in ("circuit", "branch") and each.certain for each in self.defects)
+
+    @property
     def turns_fully(self) -> bool:
         """Whether the driver turns fully and nothing locks."""
         return bool(np.isinf(self.room).all())
@@ -117,8 +122,13 @@ class FoundSixBar:
         return transmission(self._joints(np.asarray(drive, dtype=np.float64)), self.driver)
 
     def along(self, count: int) -> FloatArray:
-        """So many angles of the driver, evenly from the first pose to the last, in radians."""
-        return np.linspace(self.drive[0], self.drive[-1], count)
+        """So many angles of the driver, evenly over the range of the poses, in radians.
+
+        From the first pose to the last, where these are met in their order.
+        """
+        low, high = self.drive_range
+        ends = (high, low) if self.drive[-1] < self.drive[0] else (low, high)
+        return np.linspace(*ends, count)
 
     def _joints(self, drive: FloatArray) -> ComplexArray:
         return joints_at(self.linkage, drive, self.sides, self.driver)

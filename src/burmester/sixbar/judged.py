@@ -227,15 +227,12 @@ def _verdict(driven: _OneDriver, k: int, problem: SynthesisProblem) -> _Verdict:
     """What is wrong with one branch."""
     task, own, branches = problem.given, driven.candidates, driven.branches
     missed = driven.missed > 1
-    same = branches.circuit == branches.circuit[k]
     met = ~missed
-    elsewhere = np.where(
-        met[same].any(axis=0),
-        ELSEWHERE["branch"],
-        np.where(met.any(axis=0), ELSEWHERE["circuit"], 0),
-    )
-    if not met[k].any():
-        elsewhere[:] = 0
+    same = branches.circuit == branches.circuit[k]
+    elsewhere = np.zeros(len(missed[k]), dtype=np.intp)
+    if met[k].any():
+        elsewhere[missed[k] & met.any(axis=0)] = ELSEWHERE["circuit"]
+        elsewhere[missed[k] & met[same].any(axis=0)] = ELSEWHERE["branch"]
     course = Course(
         missed[k],
         elsewhere,

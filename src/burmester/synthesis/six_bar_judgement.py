@@ -104,9 +104,16 @@ def _outcome(found: FoundSixBar, problem: SynthesisProblem) -> Outcome:
     does_not = f"does not {works.replace('works', 'work')}"
     reasons = [each.message for each in found.defects]
     reasons += [each.message for each in found.violations]
-    joined = ":" if any(each.kind == "assembly" for each in found.defects) else " but"
-    why = f"it {nearness(found, task, problem.length)}{joined} {'; '.join(reasons)}"
+    why = f"it {_how_near(found, problem)} {'; '.join(reasons)}"
     return Outcome("R331", f"the linkage {does_not}", _help(found, problem), why)
+
+
+def _how_near(found: FoundSixBar, problem: SynthesisProblem) -> str:
+    """How near it comes, before the reasons; on one branch, of which the reasons tell others."""
+    missed = any(each.kind == "assembly" for each in found.defects)
+    if found.on_branches:
+        return "meets some poses, but" if missed else "meets every pose, but"
+    return f"{nearness(found, problem.given, problem.length)}{':' if missed else ' but'}"
 
 
 def _help(found: FoundSixBar, problem: SynthesisProblem) -> str:
