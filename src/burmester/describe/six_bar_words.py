@@ -58,8 +58,12 @@ def headline(found: FoundSixBar) -> str:
 def sentences(synthesis: Synthesis, found: FoundSixBar) -> list[str]:
     """What else is to be said of it: how it is driven, what it does at the poses, shortcomings."""
     first, last = (math.degrees(each) for each in (found.drive[0], found.drive[-1]))
+    way = f"goes from {first:.1f}° to {last:.1f}°"
+    low, high = (math.degrees(each) for each in found.drive_range)
+    if {first, last} != {low, high}:  # in another order
+        way = f"is between {low:.1f}° and {high:.1f}° at the poses"
     out = [
-        f"The driver goes from {first:.1f}° to {last:.1f}°"
+        f"The driver {way}"
         + (" and may go round." if found.turns_fully else f"; {_locks(found)}."),
         _at_poses(synthesis, found),
     ]
