@@ -158,6 +158,31 @@ def test_another_order_works_only_where_any_is_allowed(six_bars):
         assert found.transmission == pytest.approx(made.transmission, abs=1e-8)
 
 
+def test_of_branches_that_work_the_nearest_is_told(six_bars):
+    anywhere = Requirements(within=100.0, within_deg=179.0)
+    for made in six_bars[0]:
+        found, _ = judged(task(REACH, requirements=anywhere), made.linkage)
+        assert found.error.position.max() < 1e-9
+    # In another order the branch through the poses does not work, and one beside them does.
+    rows = [REACH[k] for k in (0, 2, 1, 3, 4)]
+    found, _ = judged(task(rows, requirements=anywhere), six_bars[0][0].linkage)
+    assert found.usable
+    assert found.error.position.max() > 0.1
+
+
+def test_the_angle_has_a_bound_of_its_own(six_bars):
+    linkage = bent(six_bars[1][0].linkage, np.random.default_rng(1), 0.01)
+    found, _ = judged(task(TURNING), linkage)
+    turned = np.degrees(found.error.angle.max())
+    assert turned > 0.01
+    for share, usable in ((1.01, True), (0.99, False)):
+        asked = Requirements(within=3.0, within_deg=share * turned)
+        found, outcome = judged(task(TURNING, requirements=asked), linkage)
+        assert found.usable is usable
+    assert "too far from pose" in outcome.why
+    assert "--within-angle" in outcome.help
+
+
 def test_many_poses_a_repeated_one_and_one_that_locks(six_bars):
     made = six_bars[0][0]
     way = made.body(made.along(40))
