@@ -114,20 +114,14 @@ def test_both_drivers_have_the_same_circuits(six_bars):
         assert len(set(one.circuit)) == len(set(two.circuit))
 
 
-def along(linkage, drives, sides, driver="second"):
-    """Poses at drives, as rows of a task."""
-    origin, turn = places(linkage, driver, np.asarray(drives, dtype=float), sides)
-    return np.column_stack([origin.real, origin.imag, np.degrees(np.angle(turn))])
-
-
 @pytest.mark.parametrize(
-    ("other", "kind", "message"),
+    ("kind", "message"),
     [
-        ((0.3, 0.45), "branch", "locks between poses 3 and 4, at a dead point"),
-        ((0.3, 0.7), "circuit", "poses 1-3 are on one assembly, 4 and 5 on another"),
+        ("branch", "locks between poses 3 and 4, at a dead point"),
+        ("circuit", "poses 1-3 are on one assembly, 4 and 5 on another"),
     ],
 )
-def test_poses_on_two_branches_do_not_work(six_bars, other, kind, message):
+def test_poses_on_two_branches_do_not_work(six_bars, kind, message):
     linkage = six_bars[0][0].linkage
     found_on = [run for run in runs(linkage) if run.driver == "first" and len(run.angles) > 300]
     one, two = found_on[0], found_on[{"branch": 2, "circuit": 1}[kind]]
@@ -276,6 +270,9 @@ def test_what_cannot_be_judged(six_bars):
         with pytest.raises(InputError) as refused:
             judge_six_bar(task(REACH), wrong)
         assert refused.value.code == code
+    with pytest.raises(InputError) as refused:
+        judge_six_bar(task([REACH[1], REACH[1]]), linkage)
+    assert refused.value.code == "E195"
     with pytest.raises(InputError) as refused:
         judge_six_bar(task(BENT, requirements=Requirements(types={"crank-rocker"})), linkage)
     assert refused.value.code == "E196"

@@ -120,7 +120,9 @@ def require_kept(task: Task, *, judged: bool = False) -> None:
             f"{'this' if len(not_kept) == 1 else 'these'}",
             why="a six-bar keeps regions of pivots, lengths of cranks, a least transmission angle, "
             "a link ratio, the order of the poses, and a driver that turns fully",
-            help="leave it out, and look at the answer yourself",
+            help="leave it out, and look at the answer yourself"
+            if task.path is None
+            else "give poses with their angles",
         )
 
 

@@ -46,11 +46,13 @@ def judge_six_bar(
     can be assembled nowhere), E195 (one pose), E196 (what six-bars do not keep).
     """
     require_kept(task, judged=True)
-    if task.poses.shape[0] < FEWEST:
-        raise InputError("E195", "one pose is no motion", help=f"give {FEWEST} poses or more")
     with limited(options.time_limit) as watch:
         step(f"looking at {task.poses.shape[0]} poses")
-        problem = SynthesisProblem.of(task, diagnose(task).motion, options)
+        motion = diagnose(task).motion
+        if motion is None or motion.distinct < FEWEST:
+            message = "a six-bar is judged at two different poses or more, and here is one"
+            raise InputError("E195", message, help="give another pose as well")
+        problem = SynthesisProblem.of(task, motion, options)
         _require_links(linkage, problem)
         step("judging the six-bar")
         found = judged_six_bar(linkage, problem)
