@@ -2,6 +2,7 @@
 
 import copy
 import json
+from functools import cache
 from importlib import resources
 
 import jsonschema
@@ -47,20 +48,23 @@ def table(rows):
     return "x_mm,y_mm,angle_deg\n" + "".join(f"{x},{y},{angle}\n" for x, y, angle in rows)
 
 
+@cache
+def made():
+    """Six-bars of a search."""
+    return burmester.synthesize_six_bars(
+        TURNING, angle_unit="deg", length_unit="mm", chains=300, most=3
+    )
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     path = tmp_path_factory.mktemp("judged")
     (path / "task.csv").write_text(table(TURNING))
     (path / "swapped.csv").write_text(table([TURNING[k] for k in (0, 2, 1, 3, 4)]))
-    found.save(path / "found.json")
-    found.export(path / "exported.json", "S2")
-    (path / "typed.toml").write_text(typed(found.best.linkage))
+    made().save(path / "found.json")
+    made().export(path / "exported.json", "S2")
+    (path / "typed.toml").write_text(typed(made().best.linkage))
     return path
-
-
-found = burmester.synthesize_six_bars(
-    TURNING, angle_unit="deg", length_unit="mm", chains=300, most=3
-)
 
 
 def typed(linkage, **changed):
@@ -105,12 +109,12 @@ def test_results_and_exports_are_judged_at_their_own_poses(folder, capsys, file,
     code, out, _ = run(capsys, *words, "--json")
     data = json.loads(out)
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
-    made = found[1 if id or file == "exported.json" else 0]
+    own = made()[1 if id or file == "exported.json" else 0]
     (told,) = data["six_bars"]["found"]
     assert (code, data["outcome"]["code"], told["given"], told["usable"]) == (0, "R330", True, True)
-    assert told["lengths"] == pytest.approx(made.lengths)
-    assert told["driver"] == made.driver
-    assert told["min_transmission_angle_deg"] == pytest.approx(np.degrees(made.transmission))
+    assert told["lengths"] == pytest.approx(own.lengths)
+    assert told["driver"] == own.driver
+    assert told["min_transmission_angle_deg"] == pytest.approx(np.degrees(own.transmission))
     assert told["position_error"]["max"] < 1e-9
 
 
@@ -121,9 +125,9 @@ def test_a_file_that_a_person_types(folder, capsys):
     assert out.startswith("result[R330]: the linkage works\n")
     assert "At the poses" in out
     linkage = read_linkage(folder / "typed.toml")
-    assert dimensions(linkage) == pytest.approx(dimensions(found.best.linkage), abs=2e-4)
+    assert dimensions(linkage) == pytest.approx(dimensions(made().best.linkage), abs=2e-4)
     for name in ("coupler_joint", "crank_joint"):  # not their mirror images
-        wanted = getattr(found.best.linkage, name)
+        wanted = getattr(made().best.linkage, name)
         assert getattr(linkage, name) == pytest.approx(wanted, abs=1e-3)
     code, out, _ = run(capsys, *words, "--min-transmission", 80)
     assert code == 1
@@ -179,7 +183,7 @@ def test_what_is_saved_is_read_again(folder, capsys, poses):
     ],
 )
 def test_files_that_are_no_six_bar(tmp_path, changed, message):
-    text = typed(found.best.linkage, **changed)
+    text = typed(made().best.linkage, **changed)
     file = tmp_path / "wrong.toml"
     file.write_text(text.replace("[lengths]\n", "") if "lengths2" in text else text)
     with pytest.raises(InputError) as refused:
@@ -209,12 +213,12 @@ def test_options_of_four_bars_are_refused(folder, capsys):
     code, _, err = run(capsys, *words, "--type", "crank-rocker")
     assert (code, "error[E196]" in err) == (2, True)
     with pytest.raises(InputError) as refused:
-        burmester.judge(task(TURNING), found.best, improve=True)
+        burmester.judge(task(TURNING), made().best, improve=True)
     assert refused.value.code == "E197"
 
 
 def test_in_python_a_six_bar_of_lists(tmp_path):
-    own = found.best.linkage
+    own = made().best.linkage
     plain = WattLinkage(*(np.asarray(getattr(own, name)).tolist() for name in own.__match_args__))
     judged = burmester.judge(task(TURNING, length_unit="mm"), plain)
     assert isinstance(judged.best, FoundSixBar)
