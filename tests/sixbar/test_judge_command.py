@@ -20,8 +20,7 @@ from tests.oracles.six_bars import dimensions
 from tests.sixbar.tasks import TURNING, task
 
 SCHEMA = json.loads(resources.files("burmester").joinpath("io/synthesis.schema.json").read_text())
-# The first six-bar that 1,000 chains give for TURNING, to four decimals, its coupler and its second
-# crank each in a frame of the drawing.
+# A six-bar to four decimals, its coupler and its second crank each in a frame of the drawing.
 TYPED = """\
 length_unit = "mm"
 [ground]
