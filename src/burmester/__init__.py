@@ -67,6 +67,8 @@ if TYPE_CHECKING:
     from burmester.geometry.regions import box as box
     from burmester.io.reading.poses import read_task as read_task
     from burmester.progress import Progress as Progress
+    from burmester.sixbar.found import FoundSixBar as FoundSixBar
+    from burmester.sixbar.watt import WattLinkage as WattLinkage
     from burmester.synthesis.result import Synthesis as Synthesis
     from burmester.tasks.limits import Limits as Limits
     from burmester.tasks.motion_task import Task as Task
@@ -120,7 +122,9 @@ _ROOMS = {
 # Solvers and parts of results, reachable by their names alone as well.
 _ROOMS_BESIDE = {
     "FoundLinkage": "verdicts.found_linkage",
+    "FoundSixBar": "sixbar.found",
     "Synthesis": "synthesis.result",
+    "WattLinkage": "sixbar.watt",
     "algebraic_fit": "dyads.image_space_fits",
     "certify": "certificates.certificate",
     "certify_five": "certificates.certificate",

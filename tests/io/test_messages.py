@@ -97,6 +97,7 @@ class Case(NamedTuple):
 
 
 FIVE = "x,y,angle_deg\n" + "".join(ROWS.splitlines(keepends=True)[:5])
+SWAPPED = "\n".join(FIVE.splitlines()[k] for k in (0, 1, 3, 2, 4, 5))
 FOUR = "\n".join(FIVE.splitlines()[:5])
 TWO_ANGLES = "0.2,2.4,10 2,-4.4,50 1.2,9.4,50 -6.7,-5.2,10 -2.7,-10.5,50 0,5.9,10 3.3,4,50"
 POINTS = "px,py,qx,qy\n0,0,5,0\n3,1,7,4\n4,3,7,7\n5,3,5,8\n6,2,3,6\n"
@@ -296,6 +297,13 @@ S = "synthesize poses.csv"
 SIX = "--six-bars --chains"
 J = "judge poses.csv"
 FIRST, SECOND = "--dyad -2.2,0.1:1.24,0.1", "--dyad 1.14,0.39:4.58,1.31"
+SIX_BAR = """\
+ground = {A = [-2.2, 0.1], B = [1.1, 0.4]}
+coupler = {D = [1, 1], E = [3, 0]}
+second_crank = {D = [2, 0], G = [2, 2]}
+body = {E = [0, 1], H = [2, 1]}
+lengths = {AC = 2.5, GH = 4}
+"""
 CRANK = """\
 [[dyads]]
 fixed_pivot = [-2.2, 0.1]
@@ -1374,6 +1382,25 @@ CASES: dict[str, Case] = {
         "export six.json -o a.py",
         lambda help: Args("export six.json -o a.csv " + re.search(r"--to \w+", help)[0]),
         {"six.json": lambda: six_bars(FIVE)},
+    ),
+    "a six-bar without a joint": Case(
+        "E156",
+        f"{J} --linkage six.toml",
+        Write("six.toml", SIX_BAR),
+        {**GOOD, "six.toml": SIX_BAR.replace("G =", "g =")},
+    ),
+    "better ones near a six-bar": Case(
+        "E197",
+        f"{J} --linkage six.json --improve",
+        Args(f"{J} --linkage six.json"),
+        {**GOOD, "six.json": lambda: six_bars(FIVE)},
+    ),
+    "a given six-bar that meets the poses in another order": Case(
+        "R331",
+        "judge other.csv --linkage six.json",
+        Args("judge other.csv --linkage six.json --any-order"),
+        {"other.csv": SWAPPED, "six.json": lambda: six_bars(FIVE)},
+        exit=1,
     ),
     "six-bars": Case("R370", f"{S} {SIX} 100", None, GOOD, exit=0),
     "no six-bar": Case(

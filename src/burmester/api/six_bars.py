@@ -41,6 +41,8 @@ __all__ = ["SixBarResult", "synthesize_six_bars"]
 class SixBarResult:
     """The six-bars of a task: a sequence of `FoundSixBar`, the best one first.
 
+    Or the one six-bar that `judge` was given.
+
     Attributes
     ----------
     synthesis : Synthesis
@@ -51,13 +53,13 @@ class SixBarResult:
 
     @property
     def six_bars(self) -> tuple[FoundSixBar, ...]:
-        """All of them work; sound ones come first."""
+        """All of them work, but for one that was given; sound ones come first."""
         found = self.synthesis.six_bars
         return () if found is None else found.found
 
     @property
     def best(self) -> FoundSixBar | None:
-        """The one to build; None where none was found."""
+        """The one to build, or the one that was given; None where none was found."""
         return next(iter(self.six_bars), None)
 
     @property

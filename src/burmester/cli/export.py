@@ -130,5 +130,6 @@ def export(
             f"wrote {printable(str(path))}: {chosen.id}, {chosen.type}; read back and verified"
         )
     if not chosen.usable:
-        click.echo(f"{chosen.id} is not usable: `burmester synthesize` says why", err=True)
+        command = "judge" if chosen.id.startswith("S") else "synthesize"
+        click.echo(f"{chosen.id} is not usable: `burmester {command}` says why", err=True)
     return EXIT_FOUND

@@ -18,6 +18,8 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 
 __all__ = ["judge"]
 
+GIVEN_WORKS = "R330"
+
 DYAD_HELP = """\b
 DYAD    FX,FY:MX,MY            a link: fixed pivot on the ground, moving pivot
                                on the body; its length follows from the poses,
@@ -28,7 +30,8 @@ DYAD    FX,FY:MX,MY            a link: fixed pivot on the ground, moving pivot
                                and a line through x,y of the body at DEG degrees
 FILE    a result of `burmester synthesize POSES -o FILE`, an export to JSON, or
         two [[dyads]] with fixed_pivot, moving_pivot, length or line, in TOML or
-        JSON
+        JSON; of a six-bar (Watt I) its joints: [ground] A, B, [coupler] D, E,
+        [second_crank] D, G, [body] E, H, and [lengths] AC, GH
 
 PAIRS of angles stand in the place of POSES, for a linkage in a FILE or by --links.
 POSES, REGION and NAME are those of `burmester synthesize`."""
@@ -74,4 +77,4 @@ def judge(
                 files.require_writable(output, force=force, source=source)
     synthesis = run_judgement(poses, linkage=linkage, **given)
     hand_over(synthesis, output, force=force, as_json=as_json)
-    return EXIT_FOUND if synthesis.linkages[0].usable else EXIT_NOTHING
+    return EXIT_FOUND if synthesis.outcome.code == GIVEN_WORKS else EXIT_NOTHING

@@ -110,7 +110,7 @@ LINKAGE: tuple[Decorator, ...] = (
     _linkage(
         "--id",
         metavar="ID",
-        help="The linkage of a result, such as L2; by default its first one.",
+        help="The linkage of a result, such as L2 or S2; by default its first one.",
     ),
     _linkage("--dyad", metavar="DYAD", multiple=True, help="A dyad of the linkage; give two."),
     _linkage(
@@ -543,7 +543,7 @@ def run_six_bars(poses: str, **given: Any) -> Synthesis:
     from burmester.synthesis.six_bars import synthesize_six_bars
     from burmester.tasks.options import SynthesisOptions
 
-    _require_no_option_but_those_of_six_bars()
+    _refuse_options(_NOT_FOR_SIX_BARS, "--six-bars")
     numbers = {name: given[name] for name in ("chains", "seed") if given[name] is not None}
     options = SynthesisOptions(time_limit=_time_limit(given))
     with working("reading the poses"):
@@ -563,19 +563,18 @@ def require_six_bars(**given: Any) -> None:
             )
 
 
-def _require_no_option_but_those_of_six_bars() -> None:
+def _refuse_options(names: tuple[str, ...], instead: str) -> None:
+    """Refuse options that are typed and have no meaning for six-bars; raises E197."""
     from burmester.errors import InputError
 
     context = click.get_current_context()
     typed = click.core.ParameterSource.COMMANDLINE
     for option in context.command.params:
-        if option.name in _NOT_FOR_SIX_BARS and (
-            context.get_parameter_source(option.name) is typed
-        ):
+        if option.name in names and (context.get_parameter_source(option.name) is typed):
             raise InputError(
                 "E197",
                 f"{option.opts[0]} has no meaning for six-bars",
-                help=f"leave {option.opts[0]} out, or --six-bars",
+                help=f"leave {option.opts[0]} out, or {instead}",
             )
 
 
@@ -590,6 +589,7 @@ def run_judgement(
         lengths_and_limits,
         require_one_source,
     )
+    from burmester.sixbar.watt import WattLinkage
     from burmester.synthesis.judgement import judge_linkage
     from burmester.tasks.options import SynthesisOptions
 
@@ -601,7 +601,13 @@ def run_judgement(
         if linkage is None:
             one: Linkage | Sequence[GivenDyad] = dyads_from_options(dyad, lengths)
         else:
-            one = read_linkage(linkage, id, task.length_unit)
+            given_one = read_linkage(linkage, id, task.length_unit)
+            if isinstance(given_one, WattLinkage):
+                from burmester.synthesis.six_bar_judgement import judge_six_bar
+
+                _refuse_options(_NOT_FOR_JUDGED_SIX_BARS, "take a four-bar")
+                return judge_six_bar(task, given_one, options)
+            one = given_one
         return judge_linkage(task, one, options, improve=given["improve"])
 
 
@@ -640,6 +646,7 @@ _NOT_FOR_SIX_BARS = (
     "everything",
     "dyads",
 )
+_NOT_FOR_JUDGED_SIX_BARS = ("improve", "norm", "manufacturing_tolerance")
 _ROWS = ("columns", "sheet", "points", "plane", "drop", "every", "first", "last", "closed")
 _LENGTH_OPTIONS = {
     "length_per_radian": "--angle-weight",

@@ -6,24 +6,34 @@ import math
 
 import numpy as np
 
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.sixbar.found import FoundSixBar
-from burmester.synthesis.result import Synthesis
-from burmester.tasks.notation import least_angle, length_of
+from burmester.synthesis.result import JUDGED, Synthesis
+from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import least_angle, length_of, pose_labels
+from burmester.verdicts.explanation import meets_exactly, worst_miss
+from burmester.verdicts.tolerance_words import percent
 from burmester.wording import figure, listed
 
 __all__ = [
     "HEADS",
     "distances",
     "driver_name",
+    "errors",
     "headline",
     "joint_rows",
     "length_rows",
+    "met",
+    "pose_heads",
+    "pose_rows",
     "row",
     "sentences",
 ]
 
 HEADS = ("", "driver", "turns by", "transmits", "link ratio", "extent", "locks after")
+POSE_HEADS = ("pose", "off by", "turned by", "driver at", "transmits")
+OF_TOLERANCE = "of the tolerance"
+MOST_POSES = 20  # of which errors are told one by one; of more those that are missed most
 DIGITS = 7  # significant ones of dimensions
 _PLAIN = {"first crank": "AC", "floating link": "GH"}
 
@@ -35,6 +45,9 @@ def driver_name(found: FoundSixBar) -> str:
 
 def headline(found: FoundSixBar) -> str:
     """What to build, in a sentence."""
+    if not found.usable:
+        at = driver_name(found)
+        return f"{found.id} is a six-bar of Watt's first kind, nearest to the poses driven at {at}"
     low, high = (math.degrees(each) for each in found.drive_range)
     return (
         f"{found.id} is a six-bar of Watt's first kind, driven at {driver_name(found)} over "
@@ -43,15 +56,17 @@ def headline(found: FoundSixBar) -> str:
 
 
 def sentences(synthesis: Synthesis, found: FoundSixBar) -> list[str]:
-    """What else is to be said of it."""
+    """What else is to be said of it: how it is driven, what it does at the poses, shortcomings."""
     first, last = (math.degrees(each) for each in (found.drive[0], found.drive[-1]))
+    way = f"goes from {first:.1f}° to {last:.1f}°"
+    low, high = (math.degrees(each) for each in found.drive_range)
+    if {first, last} != {low, high}:  # in another order
+        way = f"is between {low:.1f}° and {high:.1f}° at the poses"
     out = [
-        f"The driver goes from {first:.1f}° to {last:.1f}°"
+        f"The driver {way}"
         + (" and may go round." if found.turns_fully else f"; {_locks(found)}."),
-        "All poses are on one branch and in their order: nothing locks on the way.",
+        _at_poses(synthesis, found),
     ]
-    if synthesis.task.requirements.any_order:
-        out[1] = "All poses are on one branch: nothing locks between them."
     if found.shortcomings:
         out.append(f"It {listed(found.shortcomings)}.")
     return out
@@ -98,6 +113,79 @@ def row(synthesis: Synthesis, found: FoundSixBar) -> tuple[str, ...]:
         length_of(found.extent, synthesis.task),
         room,
     )
+
+
+def pose_rows(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, ...]]:
+    """What it does at the poses, under `pose_heads`; of many poses those that are missed most."""
+    task = synthesis.task
+    numbers = np.arange(len(found.drive))
+    if len(numbers) > MOST_POSES:
+        missed = found.error.combined(synthesis.length_per_radian)
+        numbers = np.sort(np.argsort(-missed, kind="stable")[:MOST_POSES])
+    transmits = found.transmission_at(found.drive)
+    labels = pose_labels(task, numbers.tolist(), "number and name")
+    rows = []
+    misses = errors(synthesis, found)
+    for label, k in zip(labels, numbers.tolist(), strict=True):
+        cells = [
+            label,
+            *misses[k],
+            f"{math.degrees(found.drive[k]):.1f}°",
+            least_angle(float(transmits[k])),
+        ]
+        if found.within_tolerance is not None and _gives_room(task):
+            cells.append(percent(float(found.within_tolerance[k].max())))
+        rows.append(tuple(cells))
+    return rows
+
+
+def pose_heads(synthesis: Synthesis) -> tuple[str, ...]:
+    """The heads of `pose_rows`."""
+    return (*POSE_HEADS, OF_TOLERANCE) if _gives_room(synthesis.task) else POSE_HEADS
+
+
+def errors(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, str]]:
+    """How far each pose is missed, and by what angle."""
+    task, exact = synthesis.task, ROUNDING * synthesis.length
+    free, error = task.free_angles.tolist(), found.error
+    return [
+        (
+            "0" if away < exact else length_of(away, task),
+            "free" if any_angle else "0°" if turned < 10 * ROUNDING else _degrees(turned),
+        )
+        for away, turned, any_angle in zip(
+            error.position.tolist(), error.angle.tolist(), free, strict=True
+        )
+    ]
+
+
+def met(synthesis: Synthesis, found: FoundSixBar) -> str | None:
+    """How near it comes to the poses; None where it meets them exactly."""
+    if meets_exactly(found, synthesis.length):
+        return None
+    return f"within {worst_miss(found, synthesis.task)}"
+
+
+def _gives_room(task: Task) -> bool:
+    return task.tolerances is not None and task.tolerances.gives_room
+
+
+def _degrees(angle: float) -> str:
+    return f"{figure(math.degrees(angle))}°"
+
+
+def _at_poses(synthesis: Synthesis, found: FoundSixBar) -> str:
+    """What it does at the poses, and between them."""
+    task = synthesis.task
+    if not found.usable:
+        why = synthesis.outcome.why or "it does not work"
+        return f"{why[0].upper()}{why[1:]}."
+    branch = "All poses are on one branch and in their order: nothing locks on the way."
+    if task.requirements.any_order:
+        branch = "All poses are on one branch: nothing locks between them."
+    if synthesis.outcome.code not in JUDGED:
+        return branch
+    return f"It passes every pose {met(synthesis, found) or 'exactly'}. {branch}"
 
 
 def _locks(found: FoundSixBar) -> str:

@@ -34,7 +34,7 @@ CLOSE: Final = 1e-9  # of the greatest length; a table keeps bars and poses this
 
 
 def write_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
-    """A row for each step from the first pose to the last, and one for each pose."""
+    """A row for each step over the range of the poses, and one for each pose."""
     found = chosen.found
     marked = [(value, 0) for value in found.along(MOTION_ROWS).tolist()]
     marked = [each for each in marked if np.abs(found.drive - each[0]).min() > 1e-9]
@@ -64,16 +64,17 @@ def check_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
     at = dict(zip(JOINTS, np.moveaxis(numbers[:, 4:].reshape(-1, 7, 2), 1, 0), strict=True))
     body = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
     _require_linkage(chosen, at, body, np.radians(numbers[:, 0]))
-    poses = [(k, int(row[-1]) - 1) for k, row in enumerate(rows) if row[-1]]
-    require_equal("the poses", [pose for _, pose in poses], np.arange(len(poses)), 0)
-    _require_poses(chosen, body[[k for k, _ in poses]])
+    poses = sorted((int(row[-1]) - 1, k) for k, row in enumerate(rows) if row[-1])
+    require_equal("the poses", [pose for pose, _ in poses], np.arange(len(chosen.found.drive)), 0)
+    _require_places(chosen, body[[k for _, k in poses]])
 
 
 def write_json(chosen: SavedSixBar, path: Path, options: Options) -> None:
-    """The six-bar as a result holds it, with the poses of its task."""
+    """The six-bar as a result holds it, with the poses of its task and its own places there."""
     data: dict[str, Any] = {"schema": SCHEMA, "length_unit": chosen.task.length_unit}
     data |= six_bar_data(chosen.found)
     data["poses"] = poses_data(chosen.task.poses)
+    data["places"] = poses_data(chosen.found.body(chosen.found.drive))
     path.write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
 
@@ -81,10 +82,10 @@ def check_json(chosen: SavedSixBar, path: Path, options: Options) -> None:
     """Joints, drives and poses."""
     data = json.loads(path.read_text(encoding="utf-8"))
     at = {name: np.array([each[name] for each in data["joints"]]) for name in JOINTS}
-    rows = [[each["x"], each["y"], math.radians(each["angle_deg"])] for each in data["poses"]]
-    poses = Displacement.from_poses(np.array(rows))
-    _require_linkage(chosen, at, poses, np.radians(data["drive_deg"]))
-    _require_poses(chosen, poses)
+    poses, places = (_read_poses(data[name]) for name in ("poses", "places"))
+    _require_linkage(chosen, at, places, np.radians(data["drive_deg"]))
+    _require_places(chosen, places)
+    _require_same(chosen, "the poses", poses, chosen.task.poses)
     lengths = [data["lengths"][bar] for bar in BARS]
     require_equal("the lengths", lengths, chosen.found.linkage.lengths(), CLOSE * _size(chosen))
 
@@ -110,11 +111,20 @@ def _require_linkage(
     require_equal("the driver", turned, 0, 1e-8)
 
 
-def _require_poses(chosen: SavedSixBar, places: Displacement) -> None:
-    poses = chosen.task.poses
-    require_equal("the poses", places.translation, poses.translation, 1e-6 * _size(chosen))
-    turned = np.abs(np.exp(1j * places.angle) - np.exp(1j * poses.angle)).max()
-    require_equal("the angles of the poses", turned, 0, 1e-6)
+def _read_poses(rows: list[dict[str, float]]) -> Displacement:
+    numbers = [[each["x"], each["y"], math.radians(each["angle_deg"])] for each in rows]
+    return Displacement.from_poses(np.array(numbers))
+
+
+def _require_places(chosen: SavedSixBar, places: Displacement) -> None:
+    """Compare where the body is with where it was found: at the poses, where it meets them."""
+    _require_same(chosen, "the places", places, chosen.found.error.places)
+
+
+def _require_same(chosen: SavedSixBar, what: str, got: Displacement, wanted: Displacement) -> None:
+    require_equal(what, got.translation, wanted.translation, 1e-6 * _size(chosen))
+    turned = np.abs(np.exp(1j * got.angle) - np.exp(1j * wanted.angle)).max()
+    require_equal(f"the angles of {what}", turned, 0, 1e-6)
 
 
 def _size(chosen: SavedSixBar) -> float:

@@ -203,10 +203,13 @@ def _task_parts(result: WrittenResult, task: Task) -> _Parts:
         yield from _line_parts(dyad, ("dyads", k), task.poses, slack)
     usable = any(each.usable for each in result.linkages)
     code, keys = result.outcome.code, ("outcome", "code")
-    if not result.linkages and code in (*WORKING, *NOT_USABLE, *JUDGED):
+    known = [each.usable for each in result.linkages]
+    if result.six_bars is not None:
+        known += [each.usable for each in result.six_bars.found if each.given]
+    if (not result.linkages and code in (*WORKING, *NOT_USABLE)) or (not known and code in JUDGED):
         yield _Part(keys, code, "no linkage")
     elif code in JUDGED:  # of the linkage that was given, which is the first
-        given = result.linkages[0].usable
+        given = known[0]
         if given is not (code == "R330"):
             yield _Part(keys, code, f"{'a' if given else 'no'} usable linkage as given")
     elif result.linkages and code in ("R302", "R303", "R306"):

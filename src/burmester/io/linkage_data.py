@@ -7,6 +7,7 @@ numbered from 1.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -17,15 +18,25 @@ from burmester.fourbar.defects import Defect, Driven
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
+from burmester.numerics.arrays import FloatArray
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.requirement_check import Violation
 from burmester.verdicts.tolerances import Spread
 from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 
 if TYPE_CHECKING:
     from burmester.clearance.least_clearance import Clearance
 
-__all__ = ["dyad_data", "linkage_data", "number"]
+__all__ = [
+    "defect_data",
+    "dyad_data",
+    "errors_data",
+    "linkage_data",
+    "number",
+    "shares_data",
+    "unmet_data",
+]
 
 CONFIDENCE = 0.95
 
@@ -84,13 +95,13 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         "type": found.type,
         "possible_types": [found.type, *found.other_types],
         "dyads": [dyad_data(dyad, found.error.places) for dyad in found.dyads],
-        "position_error": _errors(found.error.position),
-        "angle_error_deg": _errors(np.degrees(found.error.angle)),
+        "position_error": errors_data(found.error.position),
+        "angle_error_deg": errors_data(np.degrees(found.error.angle)),
         "combined_error": number(found.combined_error),
         "shortcomings": list(found.shortcomings),
         "quality": _quality(found),
-        "defects": [_defect(each) for each in found.defects],
-        "unmet": [{"kind": each.kind, "message": each.message} for each in found.violations],
+        "defects": [defect_data(each) for each in found.defects],
+        "unmet": unmet_data(found.violations),
         "sought": found.from_search,
         "min_transmission_angle_deg": _transmission(found.driven),
         "drives": {
@@ -106,25 +117,37 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
     if np.isfinite(found.error.angle).all():
         data["coupler"] = poses_data(found.error.places)
     if found.within_tolerance is not None:
-        data["within_tolerance"] = [
-            {name: number(share) for name, share in zip(COMPONENTS, shares, strict=True)}
-            for shares in found.within_tolerance.tolist()
-        ]
+        data["within_tolerance"] = shares_data(found.within_tolerance)
     if found.spread is not None:
         data["tolerance"] = _spread(found.spread, tolerance)
     if (before := found.error_before_rounding) is not None:
         data["rounded"] = {
-            "position_error_before": _errors(before.position),
-            "angle_error_before_deg": _errors(np.degrees(before.angle)),
+            "position_error_before": errors_data(before.position),
+            "angle_error_before_deg": errors_data(np.degrees(before.angle)),
         }
     return data
 
 
-def _errors(values: np.ndarray) -> dict[str, float | None]:
+def shares_data(shares: FloatArray) -> list[dict[str, float | None]]:
+    """The shares (N, 3) of tolerances that are used at poses."""
+    return [
+        {name: number(share) for name, share in zip(COMPONENTS, each, strict=True)}
+        for each in shares.tolist()
+    ]
+
+
+def unmet_data(violations: Sequence[Violation]) -> list[dict[str, str]]:
+    """Requirements that are not met."""
+    return [{"kind": each.kind, "message": each.message} for each in violations]
+
+
+def errors_data(values: FloatArray) -> dict[str, float | None]:
+    """The errors (N,) at poses in two figures."""
     return {"rms": number(np.sqrt((values**2).mean())), "max": number(values.max())}
 
 
-def _defect(defect: Defect) -> dict[str, Any]:
+def defect_data(defect: Defect) -> dict[str, Any]:
+    """A defect, with the numbers of poses from 1."""
     return {
         "kind": defect.kind,
         "message": defect.message,
@@ -168,7 +191,7 @@ def _drive(dyad: Dyad, driven: Driven) -> dict[str, Any]:
     slides = isinstance(dyad, PR)
     travel = driven.input_range if slides else np.degrees(driven.input_range)
     return {
-        "defects": [_defect(each) for each in driven.defects],
+        "defects": [defect_data(each) for each in driven.defects],
         "turns_fully": driven.turns_fully,
         "min_transmission_angle_deg": _transmission(driven),
         "circuit": driven.circuit if driven.circuit >= 0 else None,

@@ -1,7 +1,7 @@
 """A linkage that exists, from a file: of a result, of an export to JSON, or of pivots.
 
 A result of `synthesize` or `judge` holds linkages with their ids.  An export to JSON, and a file
-that a person writes, hold two `dyads`, in JSON or TOML:
+that a person writes, hold the joints of a six-bar (`six_bar_file`) or two `dyads`, in JSON or TOML:
 
 fixed_pivot = [X, Y]     in F; missing in a dyad with a slider on the ground (PR)
 moving_pivot = [x, y]    in M; missing in a dyad with a slot in the body (RP)
@@ -29,12 +29,15 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
+from burmester.io.linkage_values import fault, number, pair
 from burmester.io.reading.dyads_text import line_through
 from burmester.io.reading.file_content import read_source
 from burmester.io.result import SCHEMA
 from burmester.io.saved import read_result
+from burmester.io.six_bar_file import is_six_bar, six_bar_of
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
+from burmester.sixbar.watt import WattLinkage
 from burmester.synthesis.given_linkage import GivenDyad, OpenLink
 from burmester.values import shown
 from burmester.verdicts.found_linkage import with_driver_first
@@ -46,14 +49,17 @@ LINE_KEYS = ({"point", "direction_deg"}, {"normal_deg", "offset"})
 NO_LINKAGE = "this file holds no linkage"
 HELP = (
     "give a result of `burmester synthesize POSES -o result.json`, an export to JSON, or a file "
-    "with two [[dyads]], each with fixed_pivot = [X, Y] and moving_pivot = [x, y]"
+    "with two [[dyads]], each with fixed_pivot = [X, Y] and moving_pivot = [x, y], or with the "
+    "joints of a six-bar"
 )
 
 
 def read_linkage(
     source: str | os.PathLike[str], id: str | None = None, unit: str | None = None
-) -> Linkage | tuple[GivenDyad, GivenDyad]:
-    """The linkage of a result, or the two dyads in another file, or on standard input ("-").
+) -> Linkage | WattLinkage | tuple[GivenDyad, GivenDyad]:
+    """The linkage of a result, or that in another file, or on standard input ("-").
+
+    A six-bar is a `WattLinkage`; of a file of dyads they are given as they stand.
 
     id: of a linkage of a result, the first if None; unit: of the lengths of the task, which a file
     that states one has to share.
@@ -71,7 +77,8 @@ def read_linkage(
         if tree.get("schema") == SCHEMA:
             return _of_result(path, data, id, unit)
         _require_unit(tree.get("length_unit"), unit)
-        return _of_dyads(tree, id)
+        _require_id(tree, id)
+        return six_bar_of(tree) if is_six_bar(tree) else _of_dyads(tree)
     except InputError as error:
         error.where = error.where or label
         raise
@@ -103,10 +110,14 @@ def _is_table(text: str) -> bool:
     return text.lstrip().partition("\n")[0].strip().strip("[]").strip().replace("_", "").isalpha()
 
 
-def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage:
-    """A linkage of a result, its dyads in the order of the file."""
+def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage | WattLinkage:
+    """A linkage of a result, its dyads in the order of the file, or a six-bar."""
     try:
-        chosen = read_result(path, data).choose(id)
+        result = read_result(path, data)
+        if (six_bar := result.choose_six_bar(id)) is not None:
+            _require_unit(six_bar.unit, unit)
+            return six_bar.found.linkage
+        chosen = result.choose(id)
     except InputError as error:
         if error.code == "E151" and error.help:
             error.help = error.help.replace("--linkage", "--id")
@@ -124,7 +135,15 @@ def _require_unit(stated: object, unit: str | None) -> None:
         )
 
 
-def _of_dyads(tree: dict[str, Any], id: str | None) -> tuple[GivenDyad, GivenDyad]:
+def _require_id(tree: dict[str, Any], id: str | None) -> None:
+    """Refuse another id than that of the one linkage in a file: E151."""
+    if id is not None and str(tree.get("id", id)).lower() != id.lower():
+        message = f"there is no linkage {printable(id)} in this file"
+        why, help = f"it has {shown(tree['id'])} only", "leave --id out"
+        raise InputError("E151", message, why=why, help=help)
+
+
+def _of_dyads(tree: dict[str, Any]) -> tuple[GivenDyad, GivenDyad]:
     """The linkage of a file with two dyads."""
     dyads = tree.get("dyads")
     if not isinstance(dyads, list) or not all(isinstance(each, dict) for each in dyads):
@@ -134,10 +153,6 @@ def _of_dyads(tree: dict[str, Any], id: str | None) -> tuple[GivenDyad, GivenDya
     if len(dyads) != 2:
         why = f"it has {len(dyads)} dyads, and a linkage has two"
         raise InputError("E156", NO_LINKAGE, why=why, help=HELP)
-    if id is not None and str(tree.get("id", id)).lower() != id.lower():
-        message = f"there is no linkage {printable(id)} in this file"
-        why, help = f"it has {shown(tree['id'])} only", "leave --id out"
-        raise InputError("E151", message, why=why, help=help)
     return _dyad(dyads[0], "dyads[0]"), _dyad(dyads[1], "dyads[1]")
 
 
@@ -145,7 +160,7 @@ def _dyad(tree: dict[str, Any], path: str) -> GivenDyad:
     """A dyad from its object."""
     for key in tree:
         if key not in KEYS:
-            raise _fault(f"{path}.{printable(str(key))[:40]} is not known", f"{HELP}")
+            raise fault(f"{path}.{printable(str(key))[:40]} is not known", f"{HELP}")
     parts = {key for key in ("fixed_pivot", "moving_pivot", "line") if tree.get(key) is not None}
     kind = {
         frozenset({"fixed_pivot", "moving_pivot"}): "RR",
@@ -155,55 +170,34 @@ def _dyad(tree: dict[str, Any], path: str) -> GivenDyad:
     if kind is None or tree.get("kind", kind) != kind:
         has = ", ".join(sorted(parts)) or "neither pivot"
         stated = f" and is of kind {shown(tree['kind'])}" if "kind" in tree else ""
-        raise _fault(f"{path} is no dyad", HELP, f"it has {has}{stated}")
+        raise fault(f"{path} is no dyad", HELP, f"it has {has}{stated}")
     if kind == "RR":
-        fixed, moving = (_pair(tree, key, path) for key in ("fixed_pivot", "moving_pivot"))
+        fixed, moving = (pair(tree, key, path) for key in ("fixed_pivot", "moving_pivot"))
         lengths = [key for key in ("length", "radius") if tree.get(key) is not None]
         if not lengths:
             return OpenLink(fixed, moving)
         if len(lengths) > 1:
-            raise _fault(f"{path} has a length and a radius", "give the length alone")
-        length = _number(tree[lengths[0]], f"{path}.{lengths[0]}")
+            raise fault(f"{path} has a length and a radius", "give the length alone")
+        length = number(tree[lengths[0]], f"{path}.{lengths[0]}")
         if not length > 0:
             help = "give a length above zero, or leave it out: then it follows from the poses"
-            raise _fault(f"{path}.{lengths[0]} is {length:g}", help)
+            raise fault(f"{path}.{lengths[0]} is {length:g}", help)
         return RR(fixed, moving, np.asarray(length))
     line = _line(tree["line"], f"{path}.line")
     if kind == "PR":
-        return PR(*line, _pair(tree, "moving_pivot", path))
-    return RP(_pair(tree, "fixed_pivot", path), *line)
+        return PR(*line, pair(tree, "moving_pivot", path))
+    return RP(pair(tree, "fixed_pivot", path), *line)
 
 
 def _line(tree: object, path: str) -> tuple[FloatArray, FloatArray]:
     """A line by its normal and offset, or by a point and its direction."""
     if isinstance(tree, dict):
         if LINE_KEYS[1] <= tree.keys():
-            normal = _number(tree["normal_deg"], f"{path}.normal_deg")
-            offset = _number(tree["offset"], f"{path}.offset")
+            normal = number(tree["normal_deg"], f"{path}.normal_deg")
+            offset = number(tree["offset"], f"{path}.offset")
             return np.asarray(math.radians(normal)), np.asarray(offset)
         if LINE_KEYS[0] <= tree.keys():
-            direction = _number(tree["direction_deg"], f"{path}.direction_deg")
-            return line_through(_pair(tree, "point", path), direction)
+            direction = number(tree["direction_deg"], f"{path}.direction_deg")
+            return line_through(pair(tree, "point", path), direction)
     help = "write line = {point = [X, Y], direction_deg = 30}"
-    raise _fault(f"{path} is no line", help, f"it is {shown(tree)}")
-
-
-def _pair(tree: dict[str, Any], key: str, path: str) -> FloatArray:
-    value = tree[key]
-    if not isinstance(value, list) or len(value) != 2:
-        raise _fault(f"{path}.{key} is no point", f"write {key} = [X, Y]", f"it is {shown(value)}")
-    return np.array([_number(each, f"{path}.{key}[{k}]") for k, each in enumerate(value)])
-
-
-def _number(value: object, path: str) -> float:
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        try:
-            if math.isfinite(number := float(value)):
-                return number
-        except OverflowError:
-            pass
-    raise _fault(f"{path} is no finite number", "give a number", f"it is {shown(value)}")
-
-
-def _fault(message: str, help: str, why: str | None = None) -> InputError:
-    return InputError("E156", message, why=why, help=help)
+    raise fault(f"{path} is no line", help, f"it is {shown(tree)}")

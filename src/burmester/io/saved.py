@@ -107,9 +107,8 @@ class Result(NamedTuple):
                 "E151",
                 "this result has six-bars, and a four-bar is needed here",
                 where=self.label,
-                why="six-bars are judged when they are found, and again when their file is read",
-                help="look at them by `burmester report --six-bars`, or hand them over by "
-                "`burmester export`",
+                help="judge them by `burmester judge`, look at them by `burmester report "
+                "--six-bars`, or hand them over by `burmester export`",
             )
         if not known:
             raise InputError(
@@ -188,7 +187,7 @@ def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> Re
         from burmester.io.saved_six_bars import saved_six_bars
 
         try:
-            six_bars = saved_six_bars(written.six_bars, task)
+            six_bars = saved_six_bars(written.six_bars, task, written.length_per_radian)
         except InputError as error:
             error.where = error.where or label
             raise

@@ -484,9 +484,13 @@ class WrittenSixBar(_Part):
     second_crank: _SixBarCrank
     body: _SixBarBody
     lengths: _SixBarLengths
-    drive_deg: Annotated[list[_Number], Field(min_length=2, max_length=5)]
+    drive_deg: Annotated[list[_Number], Field(min_length=2, max_length=MOST_POSES)]
     extent: _Size
     shortcomings: _Texts
+    usable: bool = True
+    given: bool = False
+    defects: _Defects = []
+    unmet: Annotated[list[_Unmet], Field(max_length=MOST_UNMET)] = []
 
 
 class WrittenSixBars(_Part):

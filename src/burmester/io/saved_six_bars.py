@@ -1,12 +1,13 @@
 """Six-bars of a result, read back and judged again.
 
-E150 a six-bar that does not carry the body through the poses of its result
+E150 a six-bar that does not carry the body through the poses of its result, or one that was given
+     and judged otherwise than its file says
 E151 no such six-bar
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 import numpy as np
@@ -21,7 +22,9 @@ from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.motion import poses_of
 from burmester.sixbar.travel import least_transmission, travel
 from burmester.sixbar.watt import Drive, WattLinkage
+from burmester.synthesis.six_bar_judgement import judge_six_bar
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 
 __all__ = ["SavedSixBar", "saved_six_bars"]
 
@@ -54,18 +57,44 @@ class SavedSixBar:
 
     @property
     def usable(self) -> bool:
-        """Whether it goes from pose to pose in one motion: every six-bar of a result does."""
-        return True
+        """Whether it goes from pose to pose in one motion; one that was given need not."""
+        return self.found.usable
 
 
-def saved_six_bars(written: WrittenSixBars, task: Task) -> tuple[SavedSixBar, ...]:
-    """Those of a result; raises E150."""
-    return tuple(SavedSixBar(_found(each, k, task), task) for k, each in enumerate(written.found))
+def saved_six_bars(
+    written: WrittenSixBars, task: Task, length_per_radian: float | None = None
+) -> tuple[SavedSixBar, ...]:
+    """Those of a result; raises E150.
+
+    length_per_radian: what a radian of angle error counted as, where one was judged.
+    """
+    return tuple(
+        SavedSixBar(
+            _judged(each, k, task, length_per_radian) if each.given else _found(each, k, task), task
+        )
+        for k, each in enumerate(written.found)
+    )
 
 
-def _found(written: WrittenSixBar, number: int, task: Task) -> FoundSixBar:
-    """One of them, from its dimensions and the drive at the poses alone."""
-    linkage = WattLinkage(
+def _judged(
+    written: WrittenSixBar, number: int, task: Task, length_per_radian: float | None
+) -> FoundSixBar:
+    """One that was given, judged again from its dimensions alone."""
+    options = SynthesisOptions(length_per_radian=length_per_radian or None)
+    try:
+        judged = judge_six_bar(task, _linkage(written), options).six_bars
+    except InputError as error:
+        raise _amiss(number, error.message) from None
+    assert judged is not None
+    found = judged.found[0]
+    if found.usable != written.usable:
+        works = "works" if found.usable else "does not work"
+        raise _amiss(number, f"its dimensions say that it {works}, and the file says otherwise")
+    return replace(found, id=written.id)
+
+
+def _linkage(written: WrittenSixBar) -> WattLinkage:
+    return WattLinkage(
         fixed_first=np.array(written.ground.A),
         fixed_second=np.array(written.ground.B),
         first_crank=np.array(written.lengths.AC),
@@ -77,6 +106,11 @@ def _found(written: WrittenSixBar, number: int, task: Task) -> FoundSixBar:
         body_joint=np.array(written.body.E),
         link_joint=np.array(written.body.H),
     )
+
+
+def _found(written: WrittenSixBar, number: int, task: Task) -> FoundSixBar:
+    """One of them, from its dimensions and the drive at the poses alone."""
+    linkage = _linkage(written)
     poses, drive = task.poses, np.radians(written.drive_deg)
     if len(drive) != poses.shape[0]:
         raise _amiss(number, f"it has {len(drive)} drives for {poses.shape[0]} poses")

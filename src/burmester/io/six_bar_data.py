@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from burmester.io.linkage_data import defect_data, errors_data, shares_data, unmet_data
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import RULE, SixBars
@@ -18,7 +19,10 @@ TYPE = "Watt I six-bar"
 
 
 def six_bars_data(result: SixBars) -> dict[str, Any]:
-    """What a search for six-bars has found."""
+    """What a search for six-bars has found, or the one that was given."""
+    if result.given:
+        counts = {"chains": result.chains, "designs": result.designs, "working": result.working}
+        return {**counts, "found": [{**six_bar_data(each), "given": True} for each in result.found]}
     return {
         "rule": RULE,
         "assumed": [{"message": words, "option": option} for words, option in result.assumed],
@@ -36,9 +40,10 @@ def six_bar_data(found: FoundSixBar) -> dict[str, Any]:
     linkage = found.linkage
     origin = [0.0, 0.0]
     joints = found.joints(found.drive)
-    return {
+    data: dict[str, Any] = {
         "id": found.id,
         "type": TYPE,
+        "usable": found.usable,
         "driver": found.driver,
         "joints_of_links": {name: list(joints) for name, joints in LINKS.items()},
         "ground": {"A": _pair(linkage.fixed_first), "B": _pair(linkage.fixed_second)},
@@ -62,14 +67,19 @@ def six_bar_data(found: FoundSixBar) -> dict[str, Any]:
         "min_transmission_angle_deg": math.degrees(found.transmission),
         "link_ratio": found.link_ratio,
         "extent": found.extent,
-        "position_error": {"max": float(found.error.position.max())},
-        "angle_error_deg": {"max": math.degrees(float(found.error.angle.max()))},
+        "position_error": errors_data(found.error.position),
+        "angle_error_deg": errors_data(np.degrees(found.error.angle)),
         "shortcomings": list(found.shortcomings),
+        "defects": [defect_data(each) for each in found.defects],
+        "unmet": unmet_data(found.violations),
         "joints": [
             {name: _pair(places[k]) for name, places in joints.items()}
             for k in range(len(found.drive))
         ],
     }
+    if found.within_tolerance is not None:
+        data["within_tolerance"] = shares_data(found.within_tolerance)
+    return data
 
 
 def _pair(point: FloatArray) -> list[float]:

@@ -21,7 +21,15 @@ from burmester.verdicts.standard import (
     SHORTEST_LINK,
 )
 
-__all__ = ["DRIVERS", "WIDEST", "Candidates", "Conditions", "candidates", "joined"]
+__all__ = [
+    "DRIVERS",
+    "WIDEST",
+    "Candidates",
+    "Conditions",
+    "candidates",
+    "extent_of",
+    "joined",
+]
 
 WIDEST = 4.0  # sizes of the motion; a convention: the extent that a six-bar to build keeps
 PLACES = 33  # along the range, at which the extent is looked at
@@ -121,7 +129,7 @@ def candidates(
                 room=way.room,
                 sides=way.sides,
                 transmission=least_transmission(links, way, driver, there),
-                extent=_extent(links, way.drive, way.sides, driver),
+                extent=extent_of(links, way.drive, way.sides, driver),
                 designs=len(added.task),
             )
         )
@@ -141,7 +149,7 @@ def joined(parts: list[Candidates], designs: int) -> Candidates:
     return Candidates(linkages=linkages, sides=sides, designs=designs, **columns)
 
 
-def _extent(linkage: WattLinkage, drive: FloatArray, sides: Sides, driver: Drive) -> FloatArray:
+def extent_of(linkage: WattLinkage, drive: FloatArray, sides: Sides, driver: Drive) -> FloatArray:
     """The diagonals (n,) of the boxes around all joints at places along the range."""
     low, high = drive.min(axis=-1)[:, None], drive.max(axis=-1)[:, None]
     steps = low + (high - low) * np.linspace(0, 1, PLACES)

@@ -7,11 +7,13 @@ from typing import final
 
 import numpy as np
 
+from burmester.fourbar.defect_messages import Defect
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.sixbar.motion import Sides, joints_at, poses_of
+from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
 from burmester.sixbar.watt import BARS, JOINTS, Drive, WattLinkage
+from burmester.verdicts.requirement_check import Violation
 
 __all__ = ["FoundSixBar"]
 
@@ -19,7 +21,7 @@ __all__ = ["FoundSixBar"]
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundSixBar:
-    """A six-bar that carries the body through the poses on one branch and in order.
+    """A six-bar that carries the body through the poses, or one that was given, on one branch.
 
     Attributes
     ----------
@@ -41,11 +43,17 @@ class FoundSixBar:
     extent : float
         The diagonal of the box around all joints at places along the range, in the task's unit.
     error : PoseError
-        At the poses: rounding.
+        At the poses: rounding, where it was made for them.
     shortcomings : tuple of str
         Where it falls short of the standard, in words that follow "it"; () is good.
     chain : int
         The number of its chain in the search.
+    defects : tuple of Defect
+        Of one that was given: why it does not go through the poses on one branch and in order.
+    violations : tuple of Violation
+        The limits and requirements of the task that it does not keep.
+    within_tolerance : (N, 3) array, optional
+        How much of its tolerance each component of each pose uses, where the task has tolerances.
     """
 
     id: str
@@ -59,6 +67,19 @@ class FoundSixBar:
     error: PoseError
     shortcomings: tuple[str, ...]
     chain: int
+    defects: tuple[Defect, ...] = ()
+    violations: tuple[Violation, ...] = ()
+    within_tolerance: FloatArray | None = None
+
+    @property
+    def usable(self) -> bool:
+        """Whether it goes through the poses on one branch and in order, and keeps all limits."""
+        return not (self.defects or self.violations)
+
+    @property
+    def on_branches(self) -> bool:
+        """Whether it meets poses on other branches than this one, the errors being of this one."""
+        return any(each.kind in ("circuit", "branch") and each.certain for each in self.defects)
 
     @property
     def turns_fully(self) -> bool:
@@ -93,9 +114,21 @@ class FoundSixBar:
         """The poses (*,) of the body when the driver is at angles (*,) in radians."""
         return poses_of(self.linkage, self._joints(np.asarray(drive, dtype=np.float64)))
 
+    def transmission_at(self, drive: FloatArray) -> FloatArray:
+        """The lesser transmission angle of both loops when the driver is at angles (*,).
+
+        Both in radians.
+        """
+        return transmission(self._joints(np.asarray(drive, dtype=np.float64)), self.driver)
+
     def along(self, count: int) -> FloatArray:
-        """So many angles of the driver, evenly from the first pose to the last, in radians."""
-        return np.linspace(self.drive[0], self.drive[-1], count)
+        """So many angles of the driver, evenly over the range of the poses, in radians.
+
+        From the first pose to the last, where these are met in their order.
+        """
+        low, high = self.drive_range
+        ends = (high, low) if self.drive[-1] < self.drive[0] else (low, high)
+        return np.linspace(*ends, count)
 
     def _joints(self, drive: FloatArray) -> ComplexArray:
         return joints_at(self.linkage, drive, self.sides, self.driver)

@@ -18,7 +18,7 @@ from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import listed
 
-__all__ = ["FEWEST", "POSES", "REACH", "SearchSpace"]
+__all__ = ["FEWEST", "POSES", "REACH", "SearchSpace", "require_kept"]
 
 POSES: Final = 5  # that a 3R chain with two added dyads meets
 FEWEST: Final = 2
@@ -50,7 +50,7 @@ class SearchSpace:
         """That of a task; raises E195 (poses that do not fit), E196 (what six-bars do not keep)."""
         task, asked = problem.given, problem.given.requirements
         _require_poses(task)
-        _require_kept(task)
+        require_kept(task)
         limits = task.limits * (2 if len(task.limits) == 1 else 1) or (Limits(), Limits())
         size = problem.motion_size
         assumed = []
@@ -98,15 +98,19 @@ def _require_poses(task: Task) -> None:
         )
 
 
-def _require_kept(task: Task) -> None:
-    """Refuse what six-bars are not looked for with, rather than pass over it; raises E196."""
+def require_kept(task: Task, *, judged: bool = False) -> None:
+    """Refuse what six-bars are not looked for with, rather than pass over it; raises E196.
+
+    judged: whether one is judged that exists: tolerances of poses are kept then.
+    """
     asked = task.requirements
     tried = {
         "a footprint": asked.footprint is not None,
         "types of linkage": asked.types is not None,
         "a driver by its limits": asked.driver in ("first", "second"),
         "regions to keep out of": task.surroundings is not None,
-        "tolerances of poses": task.tolerances is not None,
+        "a path to trace": task.path is not None,
+        "tolerances of poses": task.tolerances is not None and task.path is None and not judged,
         "kinds of dyads without RR": any("RR" not in each.kinds for each in task.limits),
     }
     if not_kept := [name for name, given in tried.items() if given]:
@@ -116,7 +120,9 @@ def _require_kept(task: Task) -> None:
             f"{'this' if len(not_kept) == 1 else 'these'}",
             why="a six-bar keeps regions of pivots, lengths of cranks, a least transmission angle, "
             "a link ratio, the order of the poses, and a driver that turns fully",
-            help="leave it out, and look at the answer yourself",
+            help="leave it out, and look at the answer yourself"
+            if task.path is None
+            else "give poses with their angles",
         )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Final, final
 
@@ -10,23 +9,15 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.fourbar.pose_error import PoseError
-from burmester.sixbar.candidates import DRIVERS, WIDEST
+from burmester.sixbar.candidates import DRIVERS
 from burmester.sixbar.chain_search import ChainSearch, search
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.motion import joints_at, poses_of
 from burmester.sixbar.search_space import SearchSpace
-from burmester.sixbar.watt import WattLinkage
+from burmester.sixbar.standard import shortcomings
 from burmester.tasks.motion_task import Task
-from burmester.tasks.notation import least_angle, length_of
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
-from burmester.verdicts.standard import (
-    LEAST_TRANSMISSION,
-    LONGEST_LINK,
-    MOST_LINK_RATIO,
-    SHORTEST_LINK,
-)
-from burmester.wording import figure
 
 __all__ = ["CHAINS", "RULE", "SixBarOptions", "SixBars", "best_six_bars"]
 
@@ -76,6 +67,7 @@ class SixBars:
     working: those of them that work within limits and requirements.
     options: how it was looked for; assumed: what the task does not say, each with its option.
     free_poses: how many of the five poses were free.
+    given: whether it is one that was given and judged, and nothing was searched.
     """
 
     found: tuple[FoundSixBar, ...]
@@ -85,6 +77,7 @@ class SixBars:
     options: SixBarOptions
     assumed: tuple[tuple[str, str], ...]
     free_poses: int
+    given: bool = False
 
 
 def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
@@ -121,26 +114,6 @@ def _found(result: ChainSearch, k: int, space: SearchSpace, task: Task) -> Found
         transmission=transmission,
         extent=extent,
         error=PoseError.at(places, task.poses),
-        shortcomings=_shortcomings(linkage, transmission, extent, space.size, task),
+        shortcomings=shortcomings(linkage, transmission, extent, space.size, task),
         chain=int(best.chain[k]),
     )
-
-
-def _shortcomings(
-    linkage: WattLinkage, transmission: float, extent: float, size: float, task: Task
-) -> tuple[str, ...]:
-    """Where a six-bar falls short of the standard of four-bars, or is large; in words."""
-    out, lengths, asked = [], linkage.lengths().tolist(), task.requirements
-    least, most = min(lengths), max(lengths)
-    if math.degrees(transmission) < LEAST_TRANSMISSION and not asked.transmission:
-        out.append(f"transmits at {least_angle(transmission)} only")
-    if most > MOST_LINK_RATIO * least and not math.isfinite(asked.link_ratio):
-        ratio = figure(most / least)
-        out.append(f"has joints {ratio} times as far from each other on one link as on another")
-    if least < SHORTEST_LINK * size:
-        out.append(f"has joints {length_of(least, task)} from each other")
-    elif most > LONGEST_LINK * size:
-        out.append(f"has joints {length_of(most, task)} from each other")
-    if extent > WIDEST * size:
-        out.append(f"needs room of {length_of(extent, task)}")
-    return tuple(out)

@@ -13,6 +13,7 @@ from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.pose_error import PoseError
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import places_to_judge, target_of
 from burmester.linkages.nearby_linkages import greatest_move, nearby_linkages
@@ -29,7 +30,7 @@ from burmester.verdicts.explanation import hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.wording import count, listed
 
-__all__ = ["judge_linkage"]
+__all__ = ["exact_note", "judge_linkage"]
 
 EXACT_SHARE = 1e-4  # motion sizes; it is said where a pose to be met exactly is missed by more
 
@@ -202,11 +203,11 @@ def _is_open(problem: SynthesisProblem) -> bool:
     return max(problem.missing_conditions) > 0
 
 
-def _exact_note(found: FoundLinkage, task: Task, size: float) -> str | None:
+def exact_note(error: PoseError, task: Task, size: float) -> str | None:
     """Of the poses that are to be met exactly the one that is missed most, if one is."""
     if task.exact is None or not task.exact.any():
         return None
-    missed = np.where(task.exact, np.nan_to_num(found.error.position, nan=np.inf), 0.0)
+    missed = np.where(task.exact, np.nan_to_num(error.position, nan=np.inf), 0.0)
     worst = int(missed.argmax())
     if missed[worst] <= EXACT_SHARE * size:
         return None
@@ -236,7 +237,7 @@ def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improv
         )
     if found.usable:
         notes = [f"it {listed(found.shortcomings)}"] if found.shortcomings else []
-        if (note := _exact_note(found, task, problem.motion_size)) is not None:
+        if (note := exact_note(found.error, task, problem.motion_size)) is not None:
             notes.append(note)
         return Outcome("R330", message, "; or ".join(options) or None, "; ".join(notes) or None)
     options.append(hints([found], problem))

@@ -57,7 +57,8 @@ class Synthesis:
     fits: what the method learnt (singular values, all roots); two where the task has two limits.
     certificate: what of it is proved, if the options ask for a certificate.
     family: how linkages were chosen where the poses leave infinitely many.
-    six_bars: what a search for six-bars has found, where one was asked for.
+    six_bars: what a search for six-bars has found, where one was asked for; or the one six-bar that
+        was given.
     points: the solutions that were counted where poses and points determine finitely many.
     """
 
@@ -110,7 +111,8 @@ class Synthesis:
     @property
     def works(self) -> bool:
         """Whether any linkage works, of four bars or of six."""
-        return bool(self.usable) or (self.six_bars is not None and bool(self.six_bars.found))
+        six_bars = () if self.six_bars is None else self.six_bars.found
+        return bool(self.usable) or any(each.usable for each in six_bars)
 
     @property
     def determined(self) -> bool:

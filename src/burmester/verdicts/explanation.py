@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Protocol
 
 import numpy as np
 
 from burmester.fourbar.defects import Defect
+from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import length_of, poses_in_words
@@ -15,19 +17,38 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure
 
-__all__ = ["by_nearness", "hints", "in_short", "meets_exactly", "nearness", "reasons"]
+__all__ = [
+    "HasError",
+    "above",
+    "by_nearness",
+    "hints",
+    "in_short",
+    "meets_exactly",
+    "nearness",
+    "reasons",
+    "too_far_from",
+    "worst_miss",
+]
 
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
 
 
-def meets_exactly(found: FoundLinkage, size: float) -> bool:
+class HasError(Protocol):
+    """A linkage of four bars, or of six, with its error at the poses."""
+
+    @property
+    def error(self) -> PoseError:
+        """At the poses of the task."""
+
+
+def meets_exactly(found: HasError, size: float) -> bool:
     """Whether a linkage meets all poses within rounding; size: the task's characteristic length."""
     worst = float(np.nan_to_num(found.error.angle, nan=np.inf).max())
     return found.error.worst < ROUNDING * size and worst < 10 * ROUNDING
 
 
-def nearness(found: FoundLinkage, task: Task, size: float) -> str:
+def nearness(found: HasError, task: Task, size: float) -> str:
     """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm and 2.1°"."""
     if not math.isfinite(found.error.worst):
         return "cannot be assembled near every pose"
@@ -36,7 +57,7 @@ def nearness(found: FoundLinkage, task: Task, size: float) -> str:
     return f"misses by {worst_miss(found, task)}"
 
 
-def worst_miss(found: FoundLinkage, task: Task) -> str:
+def worst_miss(found: HasError, task: Task) -> str:
     """The greatest misses at a pose: "0.15 mm and 2.1°", or "0.15 mm" where angles are free."""
     away = length_of(found.error.worst, task)
     if task.angles_are_free:
@@ -77,14 +98,24 @@ def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
         return None
     if defect.kind != "assembly" or not np.isfinite(found.error.position[poses]).all():
         return None
-    away = length_of(float(found.error.position[poses].max()), task)
-    turned = figure(math.degrees(float(found.error.angle[poses].max())))
+    return too_far_from(poses, found.error, task)
+
+
+def too_far_from(poses: Sequence[int], error: PoseError, task: Task) -> str:
+    """Poses that are missed by too much, and by how much at most.
+
+    "too far from pose 3 (1.2 mm and 3°)".
+    """
+    poses = list(poses)
+    away = length_of(float(error.position[poses].max()), task)
+    if not task.free_angles[poses].all():
+        away += f" and {figure(math.degrees(float(error.angle[poses].max())))}°"
     if len(poses) <= MAX_NAMED_POSES:
         which = poses_in_words(task, poses)
     else:
         total = task.poses.shape[0]
         which = f"all {total} poses" if len(poses) == total else f"{len(poses)} of {total} poses"
-    return f"too far from {which} ({'' if len(poses) == 1 else 'up to '}{away} and {turned}°)"
+    return f"too far from {which} ({'' if len(poses) == 1 else 'up to '}{away})"
 
 
 def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
@@ -146,7 +177,7 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
             options.append(f"--min-transmission {degrees:g}")
         elif each.kind == "link ratio" and links is not None:
             lengths = [float(length) for length in links]
-            options.append(f"--link-ratio {_above(max(lengths) / min(lengths))}")
+            options.append(f"--link-ratio {above(max(lengths) / min(lengths))}")
         elif each.kind == "type":
             name = found.driver_first.type
             options.append(f'--type "{name}"' if " " in name else f"--type {name}")
@@ -160,14 +191,14 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
 def _bounds(found: FoundLinkage, problem: SynthesisProblem) -> list[str]:
     """The options that bound both errors of a linkage from above."""
     asked = problem.given.requirements
-    within = _above(max(found.error.worst, ROUNDING * problem.length))
+    within = above(max(found.error.worst, ROUNDING * problem.length))
     turned = math.degrees(float(found.error.angle.max()))
     bound = asked.within_deg or math.degrees(float(within) / problem.length_per_radian)
     options = [f"--within {within}"]
-    return options if turned <= bound else [*options, f"--within-angle {_above(turned)}"]
+    return options if turned <= bound else [*options, f"--within-angle {above(turned)}"]
 
 
-def _above(value: float) -> str:
+def above(value: float) -> str:
     """The value rounded up to three digits."""
     step = 10.0 ** (math.floor(math.log10(value)) - 2)
     return f"{math.ceil(value / step) * step:.3g}"

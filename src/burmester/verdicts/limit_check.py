@@ -14,7 +14,7 @@ from burmester.tasks.limits import KINDS, Limits
 from burmester.verdicts.requirement_check import Violation
 from burmester.wording import figure, listed
 
-__all__ = ["limit_violations"]
+__all__ = ["LIMIT_TOLERANCE", "limit_violations", "outside"]
 
 LIMIT_TOLERANCE = 1e-6  # motion sizes; a limit missed by less is met
 
@@ -52,7 +52,7 @@ def _broken(dyad: Dyad, limits: Limits, slack: float, unit: str | None) -> Itera
     for name, region, at in pivots:
         if region is None:
             continue
-        out = _outside(region, at)
+        out = outside(region, at)
         if not out <= slack:
             x, y = (f"{float(value):.6g}" for value in at)
             yield f"the {name} pivot at ({x}, {y}) is {_length(out, unit)} outside its region"
@@ -64,7 +64,7 @@ def _broken(dyad: Dyad, limits: Limits, slack: float, unit: str | None) -> Itera
             yield f"a link is {radius:.4g} long; at most {most:g} is allowed"
 
 
-def _outside(region: Region, at: FloatArray) -> float:
+def outside(region: Region, at: FloatArray) -> float:
     """The distance of a point outside a region; 0 or less inside."""
     if isinstance(region, Polygon):
         return float(region.signed_distance(np.asarray(at)))

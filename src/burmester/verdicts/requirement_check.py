@@ -17,7 +17,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.requirements import Requirements
 from burmester.wording import figure, with_article
 
-__all__ = ["Violation", "ViolationKind", "violations"]
+__all__ = ["REQUIREMENT_TOLERANCE", "Violation", "ViolationKind", "violations", "weak_transmission"]
 
 ViolationKind: TypeAlias = Literal[
     "transmission", "type", "driver", "footprint", "link ratio", "limit", "clearance", "rounding"
@@ -48,15 +48,7 @@ def violations(
     if not asked.has_any:
         return ()
     missing: list[Violation] = []
-    least = driven.least_over_range
-    if not least >= asked.transmission - REQUIREMENT_TOLERANCE:
-        missing.append(
-            Violation(
-                "transmission",
-                f"the transmission angle falls to {_degrees(least)} between the poses; "
-                f"at least {_degrees(asked.transmission)} is asked for",
-            )
-        )
+    missing += weak_transmission(driven.least_over_range, asked)
     kind = linkage.type
     if not asked.allows(kind):
         missing.append(Violation("type", f"it is {with_article(kind)}"))
@@ -79,6 +71,17 @@ def violations(
             length = f"{figure(out)}{f' {unit}' if unit else ''}"
             missing.append(Violation("footprint", f"{what} leaves the footprint by {length}"))
     return tuple(missing)
+
+
+def weak_transmission(least: float, asked: Requirements) -> list[Violation]:
+    """The violation of a least transmission angle over the range, in radians, if it is one."""
+    if least >= asked.transmission - REQUIREMENT_TOLERANCE:
+        return []
+    message = (
+        f"the transmission angle falls to {_degrees(least)} between the poses; "
+        f"at least {_degrees(asked.transmission)} is asked for"
+    )
+    return [Violation("transmission", message)]
 
 
 def _degrees(angle: float) -> str:

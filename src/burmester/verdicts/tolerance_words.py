@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.defects import Defect, Verdict
+from burmester.fourbar.defects import Verdict
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import pose_labels
@@ -17,7 +17,7 @@ from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure, listed
 
-__all__ = ["in_words_of_tolerances", "most_used", "percent", "share_texts"]
+__all__ = ["in_words_of_tolerances", "most_used", "outside", "percent", "share_texts"]
 
 SHARE_DIGITS = 6  # decimals by which shares are compared: of equal ones the first is named
 MAX_NAMED = 3  # number of poses that a reason names; more are counted
@@ -29,7 +29,7 @@ def in_words_of_tolerances(verdict: Verdict, shares: FloatArray, names: Sequence
     shares: (N, 3), of the tolerances that are used; names: of the poses.
     """
     defects = tuple(
-        replace(each, message=_too_far(each, shares, names))
+        replace(each, message=outside(each.poses, shares, names))
         if each.kind == "assembly" and np.isfinite(shares[list(each.poses)]).all()
         else each
         for each in verdict.defects
@@ -37,10 +37,13 @@ def in_words_of_tolerances(verdict: Verdict, shares: FloatArray, names: Sequence
     return Verdict(defects, verdict.first, verdict.second)
 
 
-def _too_far(defect: Defect, shares: FloatArray, names: Sequence[str]) -> str:
-    """Which tolerances are exceeded, the most exceeded one by how much."""
+def outside(poses: Sequence[int], shares: FloatArray, names: Sequence[str]) -> str:
+    """Of which poses tolerances are exceeded, the most exceeded one by how much.
+
+    shares: (N, 3), of the tolerances that are used; names: of all poses.
+    """
     shares = np.round(shares, SHARE_DIGITS)
-    poses = sorted(defect.poses, key=lambda pose: -shares[pose].max())
+    poses = sorted(poses, key=lambda pose: -shares[pose].max())
     worst, component = poses[0], int(shares[poses[0]].argmax())
     text = f"outside the tolerance of pose {names[worst]} ({COMPONENTS[component]} is off by "
     text += f"{figure(float(shares[worst, component]))} times its tolerance)"

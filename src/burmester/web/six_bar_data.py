@@ -16,7 +16,7 @@ from burmester.io.result import message_data
 from burmester.io.six_bar_data import TYPE
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.found import FoundSixBar
-from burmester.sixbar.six_bars import RULE
+from burmester.sixbar.six_bars import RULE, SixBars
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.notation import least_angle, length_of
 from burmester.web.data import poses_report, scene_of
@@ -53,17 +53,25 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
         "asked_transmission_deg": task.requirements.transmission_deg or None,
         "heads": list(six_bar_words.HEADS),
         "six_bars": [_six_bar(synthesis, each) for each in found],
-        "footnotes": f"{RULE[0].upper()}{RULE[1:]}. {FRAMES}" if found else "",
+        "footnotes": _footnotes(result),
     }
+
+
+def _footnotes(result: SixBars | None) -> str:
+    """How the first one was chosen, and the frames of its dimensions."""
+    if result is None or not result.found:
+        return ""
+    return FRAMES if result.given else f"{RULE[0].upper()}{RULE[1:]}. {FRAMES}"
 
 
 def _best(synthesis: Synthesis, best: FoundSixBar) -> list[str]:
     """What to build; what else is to be said of it stands beside its picture."""
-    return [f"{six_bar_words.headline(best)}.", six_bar_words.sentences(synthesis, best)[1]]
+    told = [f"{six_bar_words.headline(best)}."]
+    return [*told, six_bar_words.sentences(synthesis, best)[1]] if best.usable else told
 
 
 def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
-    linkage = found.linkage
+    linkage, met = found.linkage, six_bar_words.met(synthesis, found)
     low, high = (math.degrees(each) for each in found.drive_range)
     below, above = np.degrees(found.room).tolist()
     middle = (low + high) / 2
@@ -71,6 +79,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
     return {
         "id": found.id,
         "type": TYPE,
+        "usable": found.usable,
         "sound": not found.shortcomings,
         "driver": found.driver,
         "crank": six_bar_words.driver_name(found),
@@ -88,6 +97,9 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
         "said": {
             "story": " ".join(six_bar_words.sentences(synthesis, found)[::2]),
             "shortcomings": list(found.shortcomings),
+            "why_not": None if found.usable else six_bar_words.sentences(synthesis, found)[1],
+            "met": met,
+            "errors": None if met is None else six_bar_words.errors(synthesis, found),
             "transmission": least_angle(found.transmission),
             "link_ratio": figure(found.link_ratio),
             "extent": length_of(found.extent, synthesis.task),

@@ -3418,7 +3418,7 @@ function moving(sixBar, poses) {
         loops: at.loops,
         position: Math.hypot(at.x - poses[k].x, at.y - poses[k].y),
         transmission_deg: at.transmission,
-        said: { position: "exact", turned: "exact" }
+        said: { position: sixBar.said.errors?.[k][0] ?? "exact", turned: sixBar.said.errors?.[k][1] ?? "exact" }
       };
     })
   };
@@ -3580,13 +3580,13 @@ var SixBarCards = class extends CardList {
     super(linkages.map((each, k) => card3(each, () => choose(k))));
   }
 };
-var verdictOf2 = (linkage) => linkage.sound ? "✓ works, sound" : "✓ works";
+var verdictOf2 = (linkage) => !linkage.usable ? "✕ does not work" : linkage.sound ? "✓ works, sound" : "✓ works";
 function card3(linkage, onclick) {
-  const { said } = linkage, [, driver, turn] = said.row;
+  const { said } = linkage, [, driver, turn] = said.row, lacks = said.shortcomings.length ? `It ${said.shortcomings.join("; ")}` : null;
   const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
   return h(
     "button",
-    { type: "button", class: "bm-choice bm-good", "aria-pressed": "false", "data-linkage": linkage.id, onclick },
+    { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
     h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
     h("span", { class: "bm-verdict" }, verdictOf2(linkage)),
     h(
@@ -3597,7 +3597,7 @@ function card3(linkage, onclick) {
       fact("extent", said.extent),
       fact("link ratio", said.link_ratio, "bm-detail")
     ),
-    said.shortcomings.length ? h("span", { class: "bm-reason" }, `It ${said.shortcomings.join("; ")}`) : null
+    said.why_not || lacks ? h("span", { class: "bm-reason" }, said.why_not ?? lacks) : null
   );
 }
 function sixBarTable(data) {
@@ -3616,14 +3616,16 @@ function sixBarDistances(data, { id, said }) {
   return h("details", { class: "bm-every" }, h("summary", {}, "Distances between joints"), table(caption, [{ name: "joints", text: true }, "distance"], rows));
 }
 function sixBarFacts(data, { said }) {
-  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", "exact, up to rounding"]];
+  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", said.met ?? "exact, up to rounding"]];
   return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
 function sixBarPoses(data, linkage) {
   const digits = decimalsOf(data), unit2 = data.unit ? ` (${data.unit})` : "";
-  const heads = ["pose", "x", `y${unit2}`, "angle", ...linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : []];
+  const missed = linkage?.said.errors;
+  const heads = ["pose", "x", `y${unit2}`, "angle", ...missed ? ["off by", "turned by"] : [], ...linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : []];
   const rows = data.poses.map((pose, k) => {
     const values = [poseName(pose), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`];
+    if (missed) values.push(...missed[k]);
     if (linkage) {
       const row = linkage.pose_errors[k];
       values.push(...[row.drive_deg, ...row.loops].map((angle) => `${fixed(angle, 1)}°`));
@@ -3664,7 +3666,7 @@ var SixBarReport = class extends Report {
   frame() {
     const { data, linkages } = this, any = linkages.length > 0;
     const main = h("div", { class: "bm-main" }), body = h("div", { class: "bm-body" });
-    this.root.append(header(data, any), body);
+    this.root.append(header(data, linkages.some((each) => each.usable)), body);
     if (any) {
       this.player = new SixBarPlayer(data, (...now) => this.show(...now), () => this.rebuild());
       this.cards = new SixBarCards(linkages, (index) => this.choose(index));

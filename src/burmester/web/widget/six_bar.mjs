@@ -78,7 +78,7 @@ export function moving(sixBar, poses) {
       return {
         x: at.x, y: at.y, angle_deg: degrees(at.a), way: 0, frame: frameAt(way.drive, drive), drive_deg: drive, joints: at.joints, loops: at.loops,
         position: Math.hypot(at.x - poses[k].x, at.y - poses[k].y), transmission_deg: at.transmission,
-        said: { position: "exact", turned: "exact" },
+        said: { position: sixBar.said.errors?.[k][0] ?? "exact", turned: sixBar.said.errors?.[k][1] ?? "exact" },
       };
     }),
   };

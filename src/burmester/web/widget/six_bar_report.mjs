@@ -17,7 +17,7 @@ export class SixBarReport extends Report {
   frame() {
     const { data, linkages } = this, any = linkages.length > 0;
     const main = h("div", { class: "bm-main" }), body = h("div", { class: "bm-body" });
-    this.root.append(header(data, any), body);
+    this.root.append(header(data, linkages.some((each) => each.usable)), body);
     if (any) {
       this.player = new SixBarPlayer(data, (...now) => this.show(...now), () => this.rebuild());
       this.cards = new SixBarCards(linkages, (index) => this.choose(index));

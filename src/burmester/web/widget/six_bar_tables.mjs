@@ -12,14 +12,14 @@ export class SixBarCards extends CardList {
   }
 }
 
-const verdictOf = (linkage) => (linkage.sound ? "✓ works, sound" : "✓ works");
+const verdictOf = (linkage) => (!linkage.usable ? "✕ does not work" : linkage.sound ? "✓ works, sound" : "✓ works");
 
 function card(linkage, onclick) {
-  const { said } = linkage, [, driver, turn] = said.row;
+  const { said } = linkage, [, driver, turn] = said.row, lacks = said.shortcomings.length ? `It ${said.shortcomings.join("; ")}` : null;
   const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
   return h(
     "button",
-    { type: "button", class: "bm-choice bm-good", "aria-pressed": "false", "data-linkage": linkage.id, onclick },
+    { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
     h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
     h("span", { class: "bm-verdict" }, verdictOf(linkage)),
     h(
@@ -30,7 +30,7 @@ function card(linkage, onclick) {
       fact("extent", said.extent),
       fact("link ratio", said.link_ratio, "bm-detail"),
     ),
-    said.shortcomings.length ? h("span", { class: "bm-reason" }, `It ${said.shortcomings.join("; ")}`) : null,
+    said.why_not || lacks ? h("span", { class: "bm-reason" }, said.why_not ?? lacks) : null,
   );
 }
 
@@ -58,16 +58,18 @@ export function sixBarDistances(data, { id, said }) {
 
 /** The figures of a six-bar, under the heads of the table of all. */
 export function sixBarFacts(data, { said }) {
-  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", "exact, up to rounding"]];
+  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", said.met ?? "exact, up to rounding"]];
   return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
 
 /** The poses, and driver and transmission angles there. */
 export function sixBarPoses(data, linkage) {
   const digits = decimalsOf(data), unit = data.unit ? ` (${data.unit})` : "";
-  const heads = ["pose", "x", `y${unit}`, "angle", ...(linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : [])];
+  const missed = linkage?.said.errors;
+  const heads = ["pose", "x", `y${unit}`, "angle", ...(missed ? ["off by", "turned by"] : []), ...(linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : [])];
   const rows = data.poses.map((pose, k) => {
     const values = [poseName(pose), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`];
+    if (missed) values.push(...missed[k]);
     if (linkage) {
       const row = linkage.pose_errors[k];
       values.push(...[row.drive_deg, ...row.loops].map((angle) => `${fixed(angle, 1)}°`));

@@ -1,0 +1,162 @@
+"""The judgement of a six-bar that exists: what is said of it is what is said of a four-bar."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from burmester.diagnosis.checks import diagnose
+from burmester.errors import InputError
+from burmester.progress import limited, step
+from burmester.sixbar.found import FoundSixBar
+from burmester.sixbar.judged import judged_six_bar
+from burmester.sixbar.search_space import FEWEST, POSES, require_kept
+from burmester.sixbar.six_bars import SixBarOptions, SixBars
+from burmester.sixbar.watt import BARS, LINKS, WattLinkage
+from burmester.synthesis.judgement import exact_note
+from burmester.synthesis.result import Outcome, Synthesis
+from burmester.synthesis.time_limit import with_time_limit
+from burmester.tasks.motion_task import MOST, Task
+from burmester.tasks.notation import length_of, span
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.explanation import above, nearness
+from burmester.wording import figure, listed
+
+__all__ = ["judge_six_bar"]
+
+SAME_JOINT = 1e-6  # sizes of the motion; joints of a link that are nearer to each other are one
+FARTHEST = 1e6  # sizes of the motion; of what is longer rounding takes too many digits
+
+
+def judge_six_bar(
+    task: Task,
+    linkage: WattLinkage,
+    options: SynthesisOptions = SynthesisOptions(),  # noqa: B008  frozen
+) -> Synthesis:
+    """One six-bar at the poses of a task, with errors, verdict, defects and violations.
+
+    It has the dimensions that are given: nothing is refined.  It is judged on the branch where it
+    works, else on that where it is nearest to the poses, and driven at the better crank.
+    task: two poses or more; they may be points, and have tolerances.
+    linkage: no leading axes.
+
+    Raises InputError E112 (numbers too large), E154 (two joints at one place), E155 (a six-bar that
+    can be assembled nowhere), E195 (one pose), E196 (what six-bars do not keep).
+    """
+    require_kept(task, judged=True)
+    with limited(options.time_limit) as watch:
+        step(f"looking at {task.poses.shape[0]} poses")
+        motion = diagnose(task).motion
+        if motion is None or motion.distinct < FEWEST:
+            message = "a six-bar is judged at two different poses or more, and here is one"
+            raise InputError("E195", message, help="give another pose as well")
+        problem = SynthesisProblem.of(task, motion, options)
+        _require_links(linkage, problem)
+        step("judging the six-bar")
+        found = judged_six_bar(linkage, problem)
+        six_bars = SixBars((found,), 0, 1, int(found.usable), SixBarOptions(), (), 0, given=True)
+        outcome = _outcome(found, problem)
+        judged = Synthesis(problem, outcome, warnings=task.notes, six_bars=six_bars)
+        return with_time_limit(judged, watch)
+
+
+def _require_links(linkage: WattLinkage, problem: SynthesisProblem) -> None:
+    """Refuse numbers that cannot be computed with, E112, and links without length, E154."""
+    task, size = problem.given, problem.motion_size
+    numbers = [np.asarray(getattr(linkage, name)) for name in linkage.__match_args__]
+    for name, value in zip(linkage.__match_args__, numbers, strict=True):
+        if not np.isfinite(value).all() or np.abs(value).max() > MOST:
+            raise InputError(
+                "E112",
+                "a number of the six-bar is too large to compute with",
+                why=f"its {name.replace('_', ' ')} is {value.tolist()}",
+                help="write the lengths in another unit",
+            )
+    lengths = dict(zip(BARS, linkage.lengths().tolist(), strict=True))
+    for bar, length in lengths.items():
+        link = next(name for name, joints in LINKS.items() if set(bar) <= set(joints))
+        if length <= SAME_JOINT * size:
+            raise InputError(
+                "E154",
+                f"joints {bar[0]} and {bar[1]} of the six-bar are at one place",
+                why=f"both are on the {link}, and are {figure(length)} apart",
+                help="give each joint of a link a place of its own, in the frame of that link",
+            )
+        if length > FARTHEST * size:
+            raise InputError(
+                "E112",
+                f"the {link} is too long to compute with",
+                why=f"{bar} is {length_of(length, task)} long; the poses span "
+                f"{length_of(span(task), task)}",
+                help="give the six-bar in the unit of the poses",
+            )
+
+
+def _outcome(found: FoundSixBar, problem: SynthesisProblem) -> Outcome:
+    """R330 or R331, why, and what to do."""
+    task = problem.given
+    works = "works within the requirements" if task.requirements.has_any else "works"
+    if found.usable:
+        notes = [f"it {listed(found.shortcomings)}"] if found.shortcomings else []
+        if (note := exact_note(found.error, task, problem.motion_size)) is not None:
+            notes.append(note)
+        return Outcome("R330", f"the linkage {works}", None, "; ".join(notes) or None)
+    does_not = f"does not {works.replace('works', 'work')}"
+    reasons = [each.message for each in found.defects]
+    reasons += [each.message for each in found.violations]
+    why = f"it {_how_near(found, problem)} {'; '.join(reasons)}"
+    return Outcome("R331", f"the linkage {does_not}", _help(found, problem), why)
+
+
+def _how_near(found: FoundSixBar, problem: SynthesisProblem) -> str:
+    """How near it comes, before the reasons; on one branch, of which the reasons tell others."""
+    missed = any(each.kind == "assembly" for each in found.defects)
+    if found.on_branches:
+        return "meets some poses, but" if missed else "meets every pose, but"
+    return f"{nearness(found, problem.given, problem.length)}{':' if missed else ' but'}"
+
+
+def _help(found: FoundSixBar, problem: SynthesisProblem) -> str:
+    """What would make it work: options where they do, else another six-bar."""
+    options = _options(found, problem)
+    texts = [f"with {' '.join(options)} it would do"] if options else []
+    if FEWEST <= problem.given.poses.shape[0] <= POSES:
+        texts.append("look for six-bars that work with `burmester synthesize --six-bars`")
+    elif not texts:
+        texts.append("move a pose, or leave one out")
+    return "; or ".join(texts)
+
+
+def _options(found: FoundSixBar, problem: SynthesisProblem) -> tuple[str, ...]:
+    """The options that would make it usable; none where no option helps."""
+    task, options = problem.given, []
+    for defect in found.defects:
+        if defect.kind == "order":
+            options.append("--any-order")
+        elif defect.kind == "assembly" and task.tolerances is None:
+            options += _bounds(found, problem)
+        else:
+            return ()
+    for each in found.violations:
+        if each.kind == "transmission" and math.isfinite(found.transmission):
+            degrees = math.floor(10 * math.degrees(found.transmission)) / 10
+            options.append(f"--min-transmission {degrees:g}")
+        elif each.kind == "link ratio":
+            options.append(f"--link-ratio {above(found.link_ratio)}")
+        elif each.kind == "driver":
+            options.append("--driver any")
+        else:
+            return ()
+    return tuple(sorted(set(options), reverse=True))
+
+
+def _bounds(found: FoundSixBar, problem: SynthesisProblem) -> list[str]:
+    """The options that bound both errors from above."""
+    within, turned = above(found.error.worst), math.degrees(float(found.error.angle.max()))
+    bound = problem.given.requirements.within_deg
+    if bound is None:
+        bound = math.degrees(float(within) / problem.length_per_radian)
+    options = [f"--within {within}"]
+    return options if turned <= bound else [*options, f"--within-angle {above(turned)}"]
