@@ -39,14 +39,14 @@ def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
         if saved.task.surroundings is not None:
             plot.keep_out(ax, saved.task.surroundings.keep_out)
         if saved.task.body is not None:
-            shown = places if len(there) else poses
+            shown = places if len(there) else poses[~saved.task.free_angles]
             outline = saved.task.body.vertices
             plot.body(ax, outline, shown, at=middle, along=_along(saved))
         for k in there.tolist():
             plot.linkage(
                 ax, linkage, places[k], travel=travel, faint=k != middle, names=k == middle
             )
-        plot.poses(ax, poses)
+        plot.poses(ax, poses, free=saved.task.free_angles)
         plot.legend(ax)
         plot.finish(ax, saved.unit)
     drawing = ax.get_figure(root=True)

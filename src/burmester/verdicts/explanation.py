@@ -15,7 +15,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure
 
-__all__ = ["by_nearness", "hints", "in_short", "meets_exactly", "nearness", "reasons"]
+__all__ = ["asked_for", "by_nearness", "hints", "in_short", "meets_exactly", "nearness", "reasons"]
 
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
@@ -27,12 +27,19 @@ def meets_exactly(found: FoundLinkage, size: float) -> bool:
     return found.error.worst < ROUNDING * size and worst < 10 * ROUNDING
 
 
+def asked_for(task: Task) -> str:
+    """What a linkage is to pass: "pose", "point", or "pose and point" where both are asked for."""
+    if task.angles_are_free:
+        return "point"
+    return "pose and point" if task.free_angles.any() else "pose"
+
+
 def nearness(found: FoundLinkage, task: Task, size: float) -> str:
     """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm and 2.1°"."""
     if not math.isfinite(found.error.worst):
-        return "cannot be assembled near every pose"
+        return f"cannot be assembled near every {asked_for(task)}"
     if meets_exactly(found, size):
-        return "passes every pose exactly"
+        return f"passes every {asked_for(task)} exactly"
     return f"misses by {worst_miss(found, task)}"
 
 
