@@ -39,6 +39,12 @@ def test_a_first_point_again_closes_the_path():
     assert len(task.poses.angle) == 18
     assert task.path.closed
     assert [each.code for each in task.notes] == ["W213"]
+    blank = "x;y;angle_deg\n" + text.partition("\n")[2].replace("\n", ";\n")
+    assert read(blank).path.closed
+    assert np.array_equal(read(blank).poses.translation, task.poses.translation)
+    one = blank.removesuffix("\n") + "30\n"
+    with pytest.raises(InputError, match="1 pose and 18 points are more"):
+        read(one)
     stated = read("x,y\n" + "".join(f"{x},{y}\n" for x, y in CABRERA.tolist()), closed=True)
     assert stated.path.closed
 

@@ -94,6 +94,13 @@ class Notebook:
             time.sleep(0.03)
 
 
+def playwright_error():
+    """What Playwright raises."""
+    from playwright.sync_api import Error  # noqa: PLC0415  browsers are optional
+
+    return Error
+
+
 @contextmanager
 def server(folder, *command):
     """The address of a JupyterLab on this machine that serves a folder, with its token."""
@@ -165,15 +172,18 @@ def notebook(chromium, folder, code, *, width=1000, height=900, before=None, **o
             page.wait_for_selector(".jp-Notebook .jp-CodeCell .cm-content")
             # Before the kernel is there nothing is run; and it is to be run once.
             while not page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').count():
-                if page.locator(".jp-Dialog").count():  # it asks for a kernel; this one will do
-                    page.keyboard.press("Enter")
+                _answer_dialogs(page, wrong)
                 page.wait_for_timeout(200)
             # It may be called idle before it takes cells: then nothing is run, and it is run again.
             prompt = page.locator(".jp-CodeCell .jp-InputPrompt").first
             end = time.monotonic() + SECONDS
             while prompt.inner_text() in ("[ ]:", ""):
                 assert time.monotonic() < end, "the cell was not run"
-                page.locator(".jp-CodeCell .cm-content").click()
+                _answer_dialogs(page, wrong)
+                try:
+                    page.locator(".jp-CodeCell .cm-content").click(timeout=3000)
+                except playwright_error():
+                    continue  # a dialog came in between
                 page.keyboard.press("Control+Enter")
                 begun = time.monotonic()
                 while prompt.inner_text() in ("[ ]:", "") and time.monotonic() < begun + 3:
@@ -184,7 +194,7 @@ def notebook(chromium, folder, code, *, width=1000, height=900, before=None, **o
             client.load_connection_file()
             client.start_channels()
             client.wait_for_ready(timeout=SECONDS)
-            page.wrong = wrong
+            page.wrong = [each for each in wrong if not each.startswith("a dialog was")]
             yield Notebook(page, client)
             client.stop_channels()
         except Exception:
@@ -192,6 +202,16 @@ def notebook(chromium, folder, code, *, width=1000, height=900, before=None, **o
             raise
         finally:
             context.close()
+
+
+def _answer_dialogs(page, said):
+    """Accept what JupyterLab asks, such as which kernel it is to be; what it asked is noted."""
+    for dialog in page.locator("dialog.jp-Dialog, .jp-Dialog").all():
+        try:
+            said.append(f"a dialog was answered: {dialog.inner_text(timeout=1000)}")
+            dialog.locator("button.jp-mod-accept").first.click(timeout=3000)
+        except playwright_error():
+            continue  # it has gone of itself
 
 
 def drag(page, number, path, pause):

@@ -360,6 +360,17 @@ def test_poses_are_frames_at_their_places(ax):
     assert [t.get_text() for t in drawn.labels] == [str(k) for k in range(1, 11)]
 
 
+def test_a_pose_whose_angle_is_free_has_a_dot_and_no_axes(ax):
+    rows = TABLE2.poses[np.arange(4)]
+    drawn = poses(ax, rows, size=0.5, free=[False, True, True, False])
+    d = rows.translation @ [1, 1j]
+    assert np.abs(points_of(drawn.origins) - d).max() < 1e-12
+    for axes in (drawn.x_axes, drawn.y_axes):
+        feet = points_of(axes).reshape(-1, 2)[:, 0]
+        assert np.abs(feet - d[[0, 3]]).max() < 1e-12
+    assert [t.get_text() for t in drawn.labels] == ["1", "2", "3", "4"]
+
+
 def test_a_linkage_is_drawn_with_its_pivots_links_and_guides(ax):
     (d, _), (phi, _) = witness.places(SLIDER.first, SLIDER.second, np.array([0.7]))
     at = place(d[0].real, d[0].imag, phi[0])

@@ -22,10 +22,11 @@ if TYPE_CHECKING:
 __all__ = ["linkage_figure"]
 
 SWEPT_PLACES = 49  # of the body along the motion; each is a thin outline
+MOST_PLACES = 12  # at which the linkage is drawn; a path has too many
 
 
 def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
-    """The linkage at the middle one of its places, faintly at the others, over the poses."""
+    """The linkage at the middle one of its places, faintly at others, over the poses."""
     linkage, places, poses = saved.linkage, saved.error.places, saved.task.poses
     with plot.house_style():
         if ax is None:
@@ -39,14 +40,15 @@ def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
         if saved.task.surroundings is not None:
             plot.keep_out(ax, saved.task.surroundings.keep_out)
         if saved.task.body is not None:
-            shown = places if len(there) else poses
+            shown = places if len(there) else poses[~saved.task.free_angles]
             outline = saved.task.body.vertices
             plot.body(ax, outline, shown, at=middle, along=_along(saved))
-        for k in there.tolist():
+        some = there[np.linspace(0, len(there) - 1, min(len(there), MOST_PLACES)).astype(np.intp)]
+        for k in sorted({*some.tolist(), *([] if middle is None else [middle])}):
             plot.linkage(
                 ax, linkage, places[k], travel=travel, faint=k != middle, names=k == middle
             )
-        plot.poses(ax, poses)
+        plot.poses(ax, poses, free=saved.task.free_angles)
         plot.legend(ax)
         plot.finish(ax, saved.unit)
     drawing = ax.get_figure(root=True)

@@ -15,6 +15,7 @@ from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of
+from burmester.verdicts.explanation import asked_for
 from burmester.wording import listed
 
 __all__ = ["as_html", "as_line", "as_text", "dimensions_as_html", "plain_html"]
@@ -28,9 +29,9 @@ def as_line(linkage: SavedLinkage) -> str:
     first, second = linkage.ids
     _, _, _, worst, angle, least, *_, verdict = _cells(linkage)
     if "-" in (worst, angle):
-        how = "cannot be assembled near every pose"
+        how = f"cannot be assembled near every {asked_for(linkage.task)}"
     elif worst == "exact" and angle in ("exact", "free"):
-        how = "passes every pose exactly"
+        how = f"passes every {asked_for(linkage.task)} exactly"
     else:
         how = f"misses by {worst}" if angle == "free" else f"misses by {worst} and {angle}"
     sure = f", transmission angle {least} or more" if linkage.usable else f", {verdict}"

@@ -82,8 +82,8 @@ def run(
     ----------
     tasks : str, path or Sample
         A table with a row a pose (Parquet or CSV: task, x, y, angle_deg or angle_rad, and weight
-        and exact if wanted) or a row a pair of angles (task, input_deg, output_deg), a file with a
-        task a line in JSON, or a folder of task files.
+        and exact if wanted; a row without an angle is a point) or a row a pair of angles (task,
+        input_deg, output_deg), a file with a task a line in JSON, or a folder of task files.
         Or a `Sample`: linkages that are drawn at random, with poses on their way.
     output : str or path
         The folder of the parts.  Where it holds a part of this very batch, the rest is done.

@@ -1,7 +1,8 @@
 """Tasks in one long table, Parquet or CSV: a row a pose, the rows of a task together.
 
-The columns are `task`, `x`, `y`, `angle_deg` or `angle_rad`, and `weight` and `exact` if wanted;
-without angles they are points, perhaps with `crank_deg` or `crank_rad`.  Or a row a pair of angles:
+The columns are `task`, `x`, `y`, `angle_deg` or `angle_rad`, and `weight` and `exact` if wanted.
+A row whose angle is missing (blank, null or nan) is a point of the body.  Without a column of
+angles all rows are points, perhaps with `crank_deg` or `crank_rad`.  Or a row a pair of angles:
 `task`, `input_deg`, `output_deg` (or both in `_rad`), and `weight`.
 The table is read from front to back, a piece at a time; it may be larger than the memory.
 
@@ -229,7 +230,7 @@ def _columns(batch: Any, label: str) -> dict[str, Any]:
             out[name] = column.cast(pa.string() if text else pa.int64())
         elif name == "exact":
             out[name] = _marks(column, label)
-        elif types.is_floating(kind) or types.is_integer(kind) or types.is_decimal(kind):
+        elif _holds_numbers(kind):
             numbers = column.cast(pa.float64())
             out[name] = numbers.to_numpy(zero_copy_only=False)
         else:
@@ -237,6 +238,18 @@ def _columns(batch: Any, label: str) -> dict[str, Any]:
             where = f"{label}, column {name}"
             raise InputError("E104", message, where=where, help="store it as float64")
     return out
+
+
+def _holds_numbers(kind: Any) -> bool:
+    """Whether a type of Arrow is one of numbers; null: a column that holds nothing at all."""
+    from pyarrow import types  # noqa: PLC0415
+
+    return bool(
+        types.is_floating(kind)
+        or types.is_integer(kind)
+        or types.is_decimal(kind)
+        or types.is_null(kind)
+    )
 
 
 def _marks(column: Any, label: str) -> Any:

@@ -54,6 +54,7 @@ WORDS = [
     *(f"linkages.list.element.dyads.list.element.{name}" for name in ("kind", "status")),
     *(f"generators.list.element.{name}" for name in ("verdict", "type")),
 ]
+POINTS = "points are solved at the depth full"
 TOLD = 20  # failed tasks of a part that the manifest names
 
 
@@ -153,15 +154,19 @@ def _solved(
             else:
                 found[index] = synthesis_data(synthesize(task, plan.options.synthesis))
         except InputError as error:
-            refusals.append(_refusal(index, error))
+            refusals.append(_refusal(tasks, index, error))
     blocks = [solved_rows(found)]
     if functions:
         blocks.append(function_rows(functions))
     return [*blocks, six_bar_rows(six_bars)] if six_bars else blocks
 
 
-def _refusal(index: int, error: BurmesterError) -> Refusal:
-    where = f" ({error.where.splitlines()[0]})" if error.where else ""
+def _refusal(tasks: Tasks, index: int, error: BurmesterError) -> Refusal:
+    where = error.where.splitlines()[0] if error.where else ""
+    if isinstance(tasks, TableTasks):  # lines and columns are those of a text that nobody has
+        label = f"{tasks.label}, task {tasks.names[index]}"
+        where = label if where.startswith(label) else where
+    where = f" ({where})" if where else ""
     why = f": {error.why}" if error.why else ""
     return Refusal(index, "refused", error.code, f"{error.message}{where}{why}")
 
@@ -172,15 +177,21 @@ def _task(tasks: Tasks, index: int, options: BatchOptions) -> Task:
         return as_task(options, tasks.labels[index], tasks.data[index])
     one = tasks.only([index])
     angle = f"{'crank' if one.points else 'angle'}_{'deg' if one.degrees else 'rad'}"
-    names = ["x", "y", angle][: one.poses.shape[1]]
-    marks = "" if one.exact is None else ",exact"
-    lines = [f"{','.join(names)}{',weight' if one.weights is not None else ''}{marks}"]
+    # Without any angle the rows are those of a path, as in a table without the column.
+    columns = 2 if one.has_angles and np.isnan(one.poses[:, 2]).all() else one.poses.shape[1]
+    names = ["x", "y", angle][:columns]
+    exact = one.exact if one.exact is not None and one.exact.any() else None
+    names += ["weight"] * (one.weights is not None) + ["exact"] * (exact is not None)
+    lines = [",".join(names)]
     for row, numbers in enumerate(one.poses.tolist()):
-        cells = [repr(number).removesuffix(".0") for number in numbers]
+        cells = [repr(number).removesuffix(".0") for number in numbers[:columns]]
+        # A free angle is a blank; a missing x or y is none, as a row of blanks is passed over.
+        if columns == 3 and one.has_angles and cells[2] == "nan":
+            cells[2] = ""
         if one.weights is not None:
             cells.append(repr(float(one.weights[row])))
-        if one.exact is not None:
-            cells.append("yes" if one.exact[row] else "no")
+        if exact is not None:
+            cells.append("yes" if exact[row] else "no")
         lines.append(",".join(cells))
     label = f"{one.label}, task {one.names[0]}"
     return as_task(options, label, "\n".join([*lines, ""]).encode())
@@ -195,7 +206,7 @@ def _stacked(
     elif tasks.pairs or tasks.points:
         counted = sizes.pairs if tasks.pairs else sizes.poses
         counted[wanted] = tasks.counts[wanted]
-        why = NOT_STACKED if tasks.pairs else "points are solved at the depth full"
+        why = NOT_STACKED if tasks.pairs else POINTS
         refusals += [Refusal(k, "not at this depth", None, why) for k in wanted]
         return [refused_rows([])]
     else:
@@ -204,13 +215,17 @@ def _stacked(
     if not len(kept):
         return [refused_rows([])]
     sizes.poses[kept] = counts = table.counts
-    finite = np.isfinite(table.poses).all(axis=1)
+    free = np.isnan(table.poses[:, 2])
+    finite = np.isfinite(table.poses[:, :2]).all(axis=1) & (free | np.isfinite(table.poses[:, 2]))
     if table.weights is not None:
         finite &= np.isfinite(table.weights)
-    good = np.logical_and.reduceat(finite, table.starts[:-1])
-    for index in kept[~good].tolist():
+    readable = np.logical_and.reduceat(finite, table.starts[:-1])
+    points = readable & np.logical_or.reduceat(free, table.starts[:-1])
+    good = readable & ~points
+    for index in kept[~readable].tolist():
         help = "a pose has a number that is missing, or not finite"
         refusals.append(Refusal(index, "refused", "E103", help))
+    refusals += [Refusal(k, "not at this depth", None, POINTS) for k in kept[points].tolist()]
     assert plan.depth != "full"
     sigma = plan.options.beside.pose_sigma
     resolution = (0.0, 0.0) if sigma is None else (math.sqrt(3) * sigma[0], math.sqrt(3) * sigma[1])
@@ -247,12 +262,13 @@ def _as_table(
                 continue
             task = _task(tasks, index, plan.options)
         except InputError as error:
-            refusals.append(_refusal(index, error))
+            refusals.append(_refusal(tasks, index, error))
             continue
         sizes.poses[index] = len(task.poses.angle)
         if states := _beyond_poses(task):
             why = f"{states} of a task count at the depth full only"
-            refusals.append(Refusal(index, "not at this depth", None, why))
+            told = POINTS if task.free_angles.any() else why
+            refusals.append(Refusal(index, "not at this depth", None, told))
             continue
         read.append(task)
         kept.append(index)

@@ -28,9 +28,10 @@ class TableTasks:
 
     names: of the tasks (T,); starts (T + 1,): the row at which each begins, and the end of the
     last; poses (R, 3): x, y and angle in the unit that `degrees` says; a number that is missing
-    is nan; weights (R,), exact (R,): None where no column has them.  pairs: whether they are tasks
-    of function generators; then poses is (R, 2): inputs and outputs in that unit.  points: whether
-    they are points without angles; then poses is (R, 2), or (R, 3) with angles of the crank.
+    is nan, and an angle that is nan is free; weights (R,), exact (R,): None where no column has
+    them.  pairs: whether they are tasks of function generators; then poses is (R, 2): inputs and
+    outputs in that unit.  points: whether no row has an angle; then poses is (R, 2), or (R, 3)
+    with angles of the crank.
     """
 
     names: Names
@@ -45,6 +46,11 @@ class TableTasks:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    @property
+    def has_angles(self) -> bool:
+        """Whether the rows are poses, whose angles may be free."""
+        return not (self.pairs or self.points)
 
     @property
     def counts(self) -> NDArray[np.int64]:

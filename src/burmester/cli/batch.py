@@ -20,8 +20,9 @@ __all__ = ["batch"]
 TASKS_HELP = """\b
 TASKS   a table with a row for each pose (.parquet or .csv), whose columns are
         task, x, y, angle_deg (or angle_rad), and weight and exact if wanted;
-        without angles the rows are points: ten or more of a task are a path,
-        timed by crank_deg if it is there; or a row for each pair of angles,
+        a row without an angle is a point; ten or more points alone are a
+        path, timed by crank_deg in a table without a column of angles;
+        or a row for each pair of angles,
         with task, input_deg, output_deg;
         a file with a task a line, in JSON (.jsonl); or a folder with a file
         for each task, as `burmester synthesize` reads it."""

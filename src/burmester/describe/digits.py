@@ -61,7 +61,12 @@ def sides(dyad: Dyad, decimals: Decimals) -> tuple[str, str, str]:
 
 
 def dyad_error(synthesis: Synthesis, value: float) -> str:
-    """The error of a dyad alone, "exact" where it is rounding."""
+    """The error of a dyad alone, "exact" where it is rounding.
+
+    "-" where angles are free: how far a dyad is from a point depends on the other one.
+    """
+    if synthesis.task.free_angles.any():
+        return "-"
     return "exact" if value < ROUNDING * (synthesis.length or 1.0) else short(value)
 
 

@@ -123,14 +123,12 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
 
 
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
-    tolerances, asked = synthesis.task.tolerances, "pose"
+    tolerances, asked = synthesis.task.tolerances, explanation.asked_for(synthesis.task)
     if tolerances is not None and tolerances.gives_room:
-        return "stays inside the tolerance of every pose"
-    if tolerances is not None and tolerances.free[:, 2].any():
-        asked = "point" if synthesis.task.angles_are_free else "pose and point"
+        return f"stays inside the tolerance of every {asked}"
     if explanation.meets_exactly(best, synthesis.length):
         return f"passes every {asked} exactly, up to rounding"
-    return f"passes every pose within {explanation.worst_miss(best, synthesis.task)}"
+    return f"passes every {asked} within {explanation.worst_miss(best, synthesis.task)}"
 
 
 def _nearer(one: FoundLinkage, other: FoundLinkage, size: float) -> bool:
@@ -269,7 +267,8 @@ def pose_tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None
         return None
     if not tolerances.gives_room:
         return None
-    return f"Of the poses' tolerances {found.id} uses {most_used(found, synthesis.task)}."
+    whose = "points'" if synthesis.task.angles_are_free else "poses'"
+    return f"Of the {whose} tolerances {found.id} uses {most_used(found, synthesis.task)}."
 
 
 def tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:

@@ -226,7 +226,8 @@ def _shares(synthesis: Synthesis, best: FoundLinkage) -> Table:
     for column in table.columns[1:]:
         column.justify = "right"
     for label, row in zip(labels, rows.tolist(), strict=True):
-        table.add_row(Text(f"pose {label}"), *texts[row])
+        noun = "point" if task.free_angles[row] else "pose"
+        table.add_row(Text(f"{noun} {label}"), *texts[row])
     return table
 
 

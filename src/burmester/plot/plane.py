@@ -85,8 +85,11 @@ def poses(
     color: str = VERMILION,
     linestyle: str | tuple[int, tuple[float, ...]] = "-",
     numbers: bool = True,
+    free: ArrayLike = False,
 ) -> Frames:
     """Poses as frames: a long x axis with a dot at its foot, a shorter y axis, and a number.
+
+    A pose whose angle is free is a point: a dot and a number.
 
     Parameters
     ----------
@@ -104,6 +107,8 @@ def poses(
         Line style of the axes, as in Matplotlib.
     numbers : bool
         Write the numbers of the poses, if there are no names.
+    free : (N,) array_like of bool
+        The poses whose angle is free, such as `task.free_angles`; by default none.
 
     Returns
     -------
@@ -127,8 +132,9 @@ def poses(
         "zorder": 5,
         "solid_capstyle": "round",
     }
-    (x_axes,) = ax.plot(*_broken(tips[:, :2]).T, lw=1.7, **style)
-    (y_axes,) = ax.plot(*_broken(tips[:, [0, 2]]).T, lw=1.0, **style)
+    turned = tips[~np.broadcast_to(free, len(tips))]
+    (x_axes,) = ax.plot(*_broken(turned[:, :2]).T, lw=1.7, **style)
+    (y_axes,) = ax.plot(*_broken(turned[:, [0, 2]]).T, lw=1.0, **style)
     (origins,) = ax.plot(*tips[:, 0].T, "o", ms=3.2, color=color, zorder=5.1)
     labels = []
     if numbers or names is not None:

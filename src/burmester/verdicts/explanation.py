@@ -20,6 +20,7 @@ from burmester.wording import figure
 __all__ = [
     "HasError",
     "above",
+    "asked_for",
     "by_nearness",
     "hints",
     "in_short",
@@ -48,12 +49,19 @@ def meets_exactly(found: HasError, size: float) -> bool:
     return found.error.worst < ROUNDING * size and worst < 10 * ROUNDING
 
 
+def asked_for(task: Task) -> str:
+    """What a linkage is to pass: "pose", "point", or "pose and point" where both are asked for."""
+    if task.angles_are_free:
+        return "point"
+    return "pose and point" if task.free_angles.any() else "pose"
+
+
 def nearness(found: HasError, task: Task, size: float) -> str:
     """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm and 2.1°"."""
     if not math.isfinite(found.error.worst):
-        return "cannot be assembled near every pose"
+        return f"cannot be assembled near every {asked_for(task)}"
     if meets_exactly(found, size):
-        return "passes every pose exactly"
+        return f"passes every {asked_for(task)} exactly"
     return f"misses by {worst_miss(found, task)}"
 
 

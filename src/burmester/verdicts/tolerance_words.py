@@ -60,8 +60,9 @@ def most_used(found: FoundLinkage, task: Task) -> str:
     shares = np.where(_exact(task), 0.0, found.within_tolerance)
     most = int(np.round(shares, SHARE_DIGITS).argmax())
     pose, component = np.unravel_index(most, shares.shape)
-    label = pose_labels(task, [int(pose)])[0]
-    return f"at most {percent(float(shares.max()))} ({COMPONENTS[component]} at pose {label})"
+    noun = "point" if task.free_angles[pose] else "pose"
+    at = f"{noun} {pose_labels(task, [int(pose)])[0]}"
+    return f"at most {percent(float(shares.max()))} ({COMPONENTS[component]} at {at})"
 
 
 def share_texts(found: FoundLinkage, task: Task) -> list[tuple[str, str, str]]:

@@ -23,6 +23,7 @@ from burmester.io.linkage_data import dyad_data, linkage_data, number
 from burmester.io.pose_data import poses_data
 from burmester.io.result import message_data
 from burmester.linkages.evaluation import transmission_at_given_poses
+from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
@@ -47,7 +48,8 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
     """The whole report as an object ready for JSON."""
     task, outcome = synthesis.task, synthesis.outcome
     scene = scene_of(synthesis)
-    chart = chart_of(task.poses, synthesis.length or scene)
+    poses = _poses_taken(task, next(iter(synthesis.linkages), None))
+    chart = chart_of(poses, synthesis.length or scene)
     count = max(1, len(synthesis.linkages))
     frames = int(np.clip(FRAMES // (WAYS * count), LEAST_FRAMES, MOST_FRAMES))
     linkages = [_linkage(synthesis, each, scene, frames, chart) for each in synthesis.linkages]
@@ -60,6 +62,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "method": synthesis.method,
         "unit": task.length_unit,
         "poses": poses_report(task),
+        "path": None if task.path is None else {"closed": task.path.closed},
         "body": None if task.body is None else task.body.vertices.tolist(),
         "keep_out": _keep_out(task),
         "scene": scene,
@@ -74,7 +77,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "dyads": [_dyad(synthesis, each) for each in synthesis.dyads],
         "linkages": linkages,
         "chart": chart,
-        "space": space_of(None, task.poses, None, chart),
+        "space": space_of(None, poses, None, chart),
         "pivot_map": pivot_map(synthesis, scene),
         "family_map": family_map(synthesis),
         "asked_transmission_deg": task.requirements.transmission_deg or None,
@@ -85,7 +88,8 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
 def linkage_report(synthesis: Synthesis, found: FoundLinkage, frames: int) -> dict[str, Any]:
     """One linkage as `report_data` has it; frames: along each of its ways."""
     scene = scene_of(synthesis)
-    chart = chart_of(synthesis.task.poses, synthesis.length or scene)
+    poses = _poses_taken(synthesis.task, next(iter(synthesis.linkages), None))
+    chart = chart_of(poses, synthesis.length or scene)
     return _linkage(synthesis, found, scene, frames, chart)
 
 
@@ -96,16 +100,26 @@ def scene_of(synthesis: Synthesis) -> float:
 
 
 def poses_report(task: Task) -> list[dict[str, Any]]:
-    """The poses of a task with their names, and their weights where it states them."""
+    """The poses of a task with their names, and their weights where it states them.
+
+    A point of the body has no angle: None.
+    """
     poses: list[dict[str, Any]] = [dict(each) for each in poses_data(task.poses)]
     for index, pose in enumerate(poses):
         own = "" if task.names is None else task.names[index]
         pose["name"] = own or str(index + 1)
+        if task.free_angles[index]:
+            pose["angle_deg"] = None
         if task.exact is not None and task.exact[index]:
             pose["exact"] = True
         if task.weights is not None:
             pose["weight"] = float(task.weights[index])
     return poses
+
+
+def _poses_taken(task: Task, found: FoundLinkage | None) -> Displacement:
+    """The poses (N,) of a task, free angles being those of a linkage, if there is one."""
+    return task.poses if found is None else poses_counted(found.error.places, task)
 
 
 def _keep_out(task: Task) -> list[dict[str, Any]]:
@@ -174,7 +188,7 @@ def _linkage(
         },
         "pose_errors": _pose_errors(synthesis, found, branches),
         "ways": branches.ways,
-        "space": space_of(found.driver_first, task.poses, _places(branches), chart),
+        "space": space_of(found.driver_first, _poses_taken(task, found), _places(branches), chart),
     }
 
 
@@ -234,7 +248,8 @@ def _pose_errors(
             else "-",
         }
         for key, share in zip(("position", "turned"), shares, strict=True):
-            if share is not None and share != row["said"][key]:
+            said = row["said"][key]
+            if share is not None and set(share.split(" | ")) != {said}:
                 row["said"][key] += f" ({share})"
         rows.append(row)
     return rows

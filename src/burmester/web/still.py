@@ -1,8 +1,8 @@
 """A linkage at one of its poses as a still drawing: SVG as text, without any library.
 
 Ground and links are dark, the coupler is blue, the poses are red frames, the way of the body's
-origin is dashed; the body's outline is green, regions to keep out of are grey.  Colours are chosen
-for light and dark pages alike.
+origin is dashed; points, whose angle is free, are red dots; the body's outline is
+green, regions to keep out of are grey.  Colours are chosen for light and dark pages alike.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ def still(linkage: Linkage, places: Displacement, task: Task, title: str) -> str
     """
     poses = task.poses
     there = np.flatnonzero(np.isfinite(places.angle))
-    shapes: list[tuple[str, FloatArray]] = [
-        _frame(poses[k], poses) for k in range(len(poses.angle))
-    ]
+    framed = np.flatnonzero(~task.free_angles)
+    shapes: list[tuple[str, FloatArray]] = [_frame(poses[k], poses) for k in framed.tolist()]
+    points = poses.translation[task.free_angles]
     if len(there):
         place = places[int(there[len(there) // 2])]
         travel = places[there]
@@ -62,9 +62,9 @@ def still(linkage: Linkage, places: Displacement, task: Task, title: str) -> str
         ]
     else:
         pins = []
-        shapes[:0] = _body(task, poses, None)
+        shapes[:0] = _body(task, poses[framed], None)
     shapes[:0] = _keep_out(task)
-    return _svg(shapes, pins, title)
+    return _svg(shapes, pins, title, points)
 
 
 def six_bar_still(found: FoundSixBar, task: Task, title: str) -> str:
@@ -184,9 +184,14 @@ def _curve(linkage: Linkage, places: Displacement, near: FloatArray) -> list[Flo
 
 
 def _svg(
-    shapes: list[tuple[str, FloatArray]], pins: list[tuple[FloatArray, bool]], title: str
+    shapes: list[tuple[str, FloatArray]],
+    pins: list[tuple[FloatArray, bool]],
+    title: str,
+    dots: FloatArray | None = None,
 ) -> str:
-    every = np.concatenate([points for _, points in shapes] + [at[None] for at, _ in pins])
+    """The document; dots (n, 2): points of the body, at any angle."""
+    dots = np.zeros((0, 2)) if dots is None else dots
+    every = np.concatenate([points for _, points in shapes] + [at[None] for at, _ in pins] + [dots])
     low, high = every.min(axis=0), every.max(axis=0)
     size = max(float((high - low).max()), np.finfo(float).tiny)
     scale = SIZE_PX / size / (1 + 2 * MARGIN)
@@ -202,6 +207,9 @@ def _svg(
         steps = " ".join("{:.1f},{:.1f}".format(*at(point)) for point in points)
         shape = "polygon" if "fill-opacity" in style else "polyline"
         parts.append(f'<{shape} points="{steps}" {style} stroke-linejoin="round"/>')
+    for point in dots:
+        x, y = at(point)
+        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{POSE}"/>')
     for point, ground in pins:
         x, y = at(point)
         if ground:

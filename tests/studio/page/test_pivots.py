@@ -8,6 +8,7 @@ import pytest
 
 from burmester.dyads.pivot_map import fixed_pivot_map, moving_pivot_map
 from burmester.geometry.displacement import Displacement
+from tests.oracles.browser import at_rest
 from tests.oracles.studio_page import answered, drag, place_of, solved, view
 
 FIXED = '.bs-pivot[data-pivot="{}"][data-plane="F"]'
@@ -86,11 +87,11 @@ def test_a_press_on_the_map_puts_the_nearest_pivot_there(page):
     panel = page.locator("[data-panel=pivots] .bm-map svg")
     panel.scroll_into_view_if_needed()
     page.wait_for_selector(".bs-map-pivot")
-    box = panel.bounding_box()
+    box = at_rest(panel)
     page.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.35 * box["height"])
     page.mouse.down()
     waits(page)  # the first linkage of the hand may move what is below the plane
-    box = panel.bounding_box()
+    box = at_rest(panel)
     page.mouse.move(box["x"] + 0.72 * box["width"], box["y"] + 0.4 * box["height"], steps=4)
     page.mouse.up()
     waits(page)
@@ -100,7 +101,7 @@ def test_a_press_on_the_map_puts_the_nearest_pivot_there(page):
         "all => all.map((e) => { const b = e.querySelector('circle').getBoundingClientRect();"
         " return [b.x + b.width / 2, b.y + b.height / 2]; })"
     )
-    box = panel.bounding_box()
+    box = at_rest(panel)
     wanted = box["x"] + 0.72 * box["width"], box["y"] + 0.4 * box["height"]
     away = [math.dist(mark, wanted) for mark in marks]
     k = int(np.argmin(away))

@@ -123,7 +123,7 @@ def _stage(film: Film) -> Stage:
         trial = plot.figure(film.width / DPI, film.width / DPI, DPI)
         ax = trial.add_subplot()
         some = np.unique(np.linspace(0, film.count - 1, FITTED_PLACES).astype(np.intp))
-        plot.poses(ax, task.poses[shown], numbers=False)
+        plot.poses(ax, task.poses[shown], numbers=False, free=task.free_angles[shown])
         for number in some:
             plot.linkage(ax, linkage, motion.places[number], travel=(motion.places,))
         if film.outline is not None:
@@ -157,7 +157,14 @@ def _stage(film: Film) -> Stage:
             numbers = shown[np.isfinite(motion.pose_shares[shown]) == reached]
             if len(numbers):
                 names = [str(k + 1) for k in numbers]
-                wanted = plot.poses(ax, task.poses[numbers], size=long, names=names, color=color)
+                wanted = plot.poses(
+                    ax,
+                    task.poses[numbers],
+                    size=long,
+                    names=names,
+                    color=color,
+                    free=task.free_angles[numbers],
+                )
                 over += [wanted.x_axes, wanted.y_axes, wanted.origins, *wanted.labels]
         ax.set_xlabel(with_unit("X", film.chosen.unit), labelpad=1)
         ax.set_ylabel(with_unit("Y", film.chosen.unit), labelpad=1)

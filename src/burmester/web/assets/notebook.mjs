@@ -402,117 +402,118 @@ ke-width: 1; opacity: 0.5; }\n.bm-curve.bm-same { stroke-dasharray: 6 4; opacity
 : round; }\n.bm-ground { stroke: var(--bm-coupler); stroke-width: 1.4; fill: none; }\n.bm-thin { opacity: 0.55; }\n.bm .bm-name { font-weight: 600; paint-order: st\
 roke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm text.bm-side0, .bm b.bm-side0, .bm th.bm-side0 { fill: var(--bm-driver); color: var(--bm-driver); }\n.bm \
 text.bm-side1, .bm b.bm-side1, .bm th.bm-side1 { fill: var(--bm-follower); color: var(--bm-follower); }\n.bm-wanted path { fill: none; stroke: var(--bm-wanted); \
-stroke-width: 1.3; stroke-dasharray: 3.5 2.5; }\n.bm-wanted circle { fill: none; stroke: var(--bm-wanted); stroke-width: 1.4; }\n.bm-achieved path { fill: none; s\
-troke: var(--bm-ink); stroke-width: 1.1; }\n.bm-achieved circle { fill: var(--bm-ink); }\n.bm-elsewhere { opacity: 0.38; }\n.bm-errors path { fill: none; stroke: v\
-ar(--bm-error); stroke-width: 1.8; stroke-linejoin: round; stroke-linecap: round; }\n.bm .bm-pose-names text { font-weight: 600; fill: var(--bm-muted); paint-ord\
-er: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-bar { stroke-width: 11; stroke-linecap: round; fill: none; }\n.bm-core { stroke-width: 7.5; stroke-\
-linecap: round; fill: none; }\n.bm-link.bm-side0 .bm-bar { stroke: var(--bm-driver); }\n.bm-link.bm-side0 .bm-core { stroke: var(--bm-driver-solid); }\n.bm-link.bm\
--side1 .bm-bar { stroke: var(--bm-follower); }\n.bm-link.bm-side1 .bm-core { stroke: var(--bm-panel); }\n.bm-inner .bm-bar { stroke: var(--bm-coupler); }\n.bm-inne\
-r .bm-core { stroke: var(--bm-panel); }\n.bm-carried .bm-bar { stroke: var(--bm-coupler); stroke-width: 17; opacity: 0.9; }\n.bm-carried .bm-core { stroke: var(--\
-bm-plate); stroke-width: 14; }\n.bm-key .bm-carried .bm-bar { stroke-width: 13; }\n.bm-key .bm-carried .bm-core { stroke-width: 10; }\n.bm-ternary { opacity: 0.86;\
- }\n.bm-ternary path { stroke-linejoin: round; }\n.bm-ternary.bm-side0 .bm-core { fill: var(--bm-driver-solid); fill-opacity: 0.45; }\n.bm-ternary.bm-side1 .bm-cor\
-e { fill: var(--bm-follower); fill-opacity: 0.12; }\n.bm-ternary.bm-inner .bm-core { fill: var(--bm-coupler); fill-opacity: 0.12; }\n.bm-ternary.bm-carried .bm-co\
-re { fill: var(--bm-plate); }\n.bm-plate-rim { fill: none; stroke: var(--bm-coupler); stroke-width: 17; stroke-linejoin: round; stroke-linecap: round; opacity: 0\
-.9; }\n.bm-plate { fill: var(--bm-plate); stroke: var(--bm-plate); stroke-width: 14; stroke-linejoin: round; stroke-linecap: round; }\n.bm-coupler { opacity: 0.86\
-; }\n.bm-slot-rim { stroke: var(--bm-coupler); stroke-width: 21; stroke-linecap: round; }\n.bm-slot-plate { stroke: var(--bm-plate); stroke-width: 18; stroke-line\
-cap: round; }\n.bm-slot-edge { stroke: var(--bm-coupler); stroke-width: 12.5; }\n.bm-slot { stroke: var(--bm-panel); stroke-width: 10; }\n.bm-block rect { stroke-w\
-idth: 1.6; }\n.bm-block.bm-side0 rect { fill: var(--bm-driver-solid); stroke: var(--bm-driver); }\n.bm-block.bm-side1 rect { fill: var(--bm-panel); stroke: var(--\
-bm-follower); }\n.bm-pin { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-origin { fill: var(--bm-ink); }\n.bm-body-frame { fill: none; st\
-roke: var(--bm-ink); stroke-width: 1.8; }\n.bm .bm-letter { font-weight: 700; font-style: italic; }\n.bm-far-mark { fill: none; stroke-width: 2.4; stroke-linecap:\
- round; stroke-linejoin: round; }\n.bm-far-mark.bm-side0 { stroke: var(--bm-driver); }\n.bm-far-mark.bm-side1 { stroke: var(--bm-follower); }\n.bm-drive-mark { fil\
-l: none; stroke: var(--bm-driver); stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }\n\n.bm-controls { display: grid; gap: 6px; margin: 0 0 10px\
-; }\n.bm-row { display: flex; flex-wrap: wrap; gap: 8px; align-items: flex-start; }\n.bm-button { font: inherit; font-size: 0.9rem; color: inherit; background: va\
-r(--bm-panel); border: 1px solid var(--bm-line); border-radius: 8px; padding: 5px 11px; min-height: 34px; cursor: pointer; display: inline-flex; gap: 7px; align\
--items: center; white-space: nowrap; }\n.bm-button:hover { border-color: var(--bm-muted); }\n.bm-button:disabled { opacity: 0.45; cursor: default; }\n.bm-play { ba\
-ckground: var(--bm-accent); border-color: var(--bm-accent); color: var(--bm-panel); min-width: 92px; justify-content: center; font-weight: 600; }\n.bm-play svg {\
- fill: currentColor; }\n.bm-whole { display: inline-flex; gap: 6px; align-items: center; min-height: 34px; font-size: 0.9rem; white-space: nowrap; cursor: pointe\
-r; }\n.bm-whole input, .bm-far-pivots input { accent-color: var(--bm-accent); margin: 0; }\n.bm-whole:has(:disabled) { opacity: 0.45; cursor: default; }\n.bm-track\
- { min-width: 0; }\n.bm-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-color: var(--bm-accent); }\n.bm-stops { width: 100%; overflow:\
- visible; }\n.bm-stops path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-pan\
-el); stroke-width: 3px; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { display: inline-block; max-width: 100%; }\n.bm-under \
-{ display: flex; flex-wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-top: 10px; }\n.bm-choose { display: flex; flex-wra\
-p: wrap; gap: 4px 18px; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden] { display: none; }\n.bm\
--factor { white-space: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel\
-); border: 1px solid var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; fle\
-x: 1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-st\
-and { min-width: 0; }\n.bm-view { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); align-content: start; }\n.bm-aside { display: grid; gap: 16px; \
-grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content: space-bet\
-ween; gap: 14px; border-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-no\
-te-text { font-size: 0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm\
- table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: i\
-nset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; fo\
-nt-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top\
-; white-space: nowrap; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-align: bott\
-om; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-t\
-able td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td\
-:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbo\
-dy th { position: sticky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-ta\
-ble) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\
-\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-t\
-op: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-e\
-very { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid\
--template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: non\
-e; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm\
--tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 1\
-2px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); \
-}\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.\
-bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-\
-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { posi\
-tion: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position\
-: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor\
- { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55\
-; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-fol\
-lower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pa\
-irs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\n.bm-pairs-map canvas { posit\
-ion: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map\
- svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-p\
-airs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-or\
-der: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { f\
-ill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-p\
-anel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { \
-fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none\
-; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: roun\
-d; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stro\
-ke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel\
-); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-\
-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white\
--space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-bran\
-ch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { fon\
-t-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; height: 11px; border: 1px solid \
-var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-nea\
-r); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cu\
-rsor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: \
-0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; op\
-acity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round;\
- }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stro\
-ke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm\
--panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1\
-760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { di\
-splay: contents; }\n  .bm-stage, .bm-stand { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside { order: -3; }\n  .bm-choices { align-items: stretch; }\
-\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width:\
- 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6p\
-x; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: b\
-reak-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: \
-1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-sta\
-cks td { display: flex; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-\
-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-he\
-ad); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: \
-var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620p\
-x) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-\
-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; pa\
-dding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .b\
-m-main, .bm-view { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stand, .bm-curves, .bm-pair-box { grid-column: 1 / -1; }\n  .bm-stage, .bm-aside, .\
-bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pi\
-vots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-co\
-lumn: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-curves { grid-column: span 6; align-self: start; }\n  .bm-pair-box { grid-column:\
- span 4; align-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-\
-ink: #000; --bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --\
-bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; -\
--bm-body: #1c7a6c;\n    font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout\
- { display: none !important; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; \
-}\n  .bm-card { border: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: \
-8pt; }\n  .bm .bm-scroll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one {\
- break-inside: avoid; }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+stroke-width: 1.3; stroke-dasharray: 3.5 2.5; }\n.bm-wanted circle { fill: none; stroke: var(--bm-wanted); stroke-width: 1.4; }\n.bm-wanted-path { fill: none; str\
+oke: var(--bm-wanted); stroke-width: 1.2; stroke-dasharray: 5 4; stroke-linejoin: round; opacity: 0.75; }\n.bm-achieved path { fill: none; stroke: var(--bm-ink);\
+ stroke-width: 1.1; }\n.bm-achieved circle { fill: var(--bm-ink); }\n.bm-elsewhere { opacity: 0.38; }\n.bm-errors path { fill: none; stroke: var(--bm-error); strok\
+e-width: 1.8; stroke-linejoin: round; stroke-linecap: round; }\n.bm .bm-pose-names text { font-weight: 600; fill: var(--bm-muted); paint-order: stroke; stroke: v\
+ar(--bm-panel); stroke-width: 3px; }\n.bm-bar { stroke-width: 11; stroke-linecap: round; fill: none; }\n.bm-core { stroke-width: 7.5; stroke-linecap: round; fill:\
+ none; }\n.bm-link.bm-side0 .bm-bar { stroke: var(--bm-driver); }\n.bm-link.bm-side0 .bm-core { stroke: var(--bm-driver-solid); }\n.bm-link.bm-side1 .bm-bar { stro\
+ke: var(--bm-follower); }\n.bm-link.bm-side1 .bm-core { stroke: var(--bm-panel); }\n.bm-inner .bm-bar { stroke: var(--bm-coupler); }\n.bm-inner .bm-core { stroke: \
+var(--bm-panel); }\n.bm-carried .bm-bar { stroke: var(--bm-coupler); stroke-width: 17; opacity: 0.9; }\n.bm-carried .bm-core { stroke: var(--bm-plate); stroke-wid\
+th: 14; }\n.bm-key .bm-carried .bm-bar { stroke-width: 13; }\n.bm-key .bm-carried .bm-core { stroke-width: 10; }\n.bm-ternary { opacity: 0.86; }\n.bm-ternary path {\
+ stroke-linejoin: round; }\n.bm-ternary.bm-side0 .bm-core { fill: var(--bm-driver-solid); fill-opacity: 0.45; }\n.bm-ternary.bm-side1 .bm-core { fill: var(--bm-fo\
+llower); fill-opacity: 0.12; }\n.bm-ternary.bm-inner .bm-core { fill: var(--bm-coupler); fill-opacity: 0.12; }\n.bm-ternary.bm-carried .bm-core { fill: var(--bm-p\
+late); }\n.bm-plate-rim { fill: none; stroke: var(--bm-coupler); stroke-width: 17; stroke-linejoin: round; stroke-linecap: round; opacity: 0.9; }\n.bm-plate { fil\
+l: var(--bm-plate); stroke: var(--bm-plate); stroke-width: 14; stroke-linejoin: round; stroke-linecap: round; }\n.bm-coupler { opacity: 0.86; }\n.bm-slot-rim { st\
+roke: var(--bm-coupler); stroke-width: 21; stroke-linecap: round; }\n.bm-slot-plate { stroke: var(--bm-plate); stroke-width: 18; stroke-linecap: round; }\n.bm-slo\
+t-edge { stroke: var(--bm-coupler); stroke-width: 12.5; }\n.bm-slot { stroke: var(--bm-panel); stroke-width: 10; }\n.bm-block rect { stroke-width: 1.6; }\n.bm-bloc\
+k.bm-side0 rect { fill: var(--bm-driver-solid); stroke: var(--bm-driver); }\n.bm-block.bm-side1 rect { fill: var(--bm-panel); stroke: var(--bm-follower); }\n.bm-p\
+in { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-origin { fill: var(--bm-ink); }\n.bm-body-frame { fill: none; stroke: var(--bm-ink); \
+stroke-width: 1.8; }\n.bm .bm-letter { font-weight: 700; font-style: italic; }\n.bm-far-mark { fill: none; stroke-width: 2.4; stroke-linecap: round; stroke-linejo\
+in: round; }\n.bm-far-mark.bm-side0 { stroke: var(--bm-driver); }\n.bm-far-mark.bm-side1 { stroke: var(--bm-follower); }\n.bm-drive-mark { fill: none; stroke: var(\
+--bm-driver); stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }\n\n.bm-controls { display: grid; gap: 6px; margin: 0 0 10px; }\n.bm-row { display\
+: flex; flex-wrap: wrap; gap: 8px; align-items: flex-start; }\n.bm-button { font: inherit; font-size: 0.9rem; color: inherit; background: var(--bm-panel); border\
+: 1px solid var(--bm-line); border-radius: 8px; padding: 5px 11px; min-height: 34px; cursor: pointer; display: inline-flex; gap: 7px; align-items: center; white\
+-space: nowrap; }\n.bm-button:hover { border-color: var(--bm-muted); }\n.bm-button:disabled { opacity: 0.45; cursor: default; }\n.bm-play { background: var(--bm-ac\
+cent); border-color: var(--bm-accent); color: var(--bm-panel); min-width: 92px; justify-content: center; font-weight: 600; }\n.bm-play svg { fill: currentColor; \
+}\n.bm-whole { display: inline-flex; gap: 6px; align-items: center; min-height: 34px; font-size: 0.9rem; white-space: nowrap; cursor: pointer; }\n.bm-whole input,\
+ .bm-far-pivots input { accent-color: var(--bm-accent); margin: 0; }\n.bm-whole:has(:disabled) { opacity: 0.45; cursor: default; }\n.bm-track { min-width: 0; }\n.b\
+m-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-color: var(--bm-accent); }\n.bm-stops { width: 100%; overflow: visible; }\n.bm-stops\
+ path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3p\
+x; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { display: inline-block; max-width: 100%; }\n.bm-under { display: flex; flex\
+-wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-top: 10px; }\n.bm-choose { display: flex; flex-wrap: wrap; gap: 4px 18p\
+x; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden] { display: none; }\n.bm-factor { white-space\
+: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel); border: 1px solid \
+var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: 1 1 260px; font-si\
+ze: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-stand { min-width: 0; }\
+\n.bm-view { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); align-content: start; }\n.bm-aside { display: grid; gap: 16px; grid-template-columns\
+: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content: space-between; gap: 14px; bord\
+er-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-note-text { font-size: \
+0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm table { border-colla\
+pse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-spac\
+e: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; font-weight: 600; paddi\
+ng: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top; white-space: nowrap\
+; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-align: bottom; }\n.bm tbody th { \
+text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-table td.bm-words { wh\
+ite-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td:nth-child(4) { white\
+-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbody th { position: sti\
+cky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-table) { max-height: 34\
+rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\n.bm .bm-dimensions t\
+d { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-top: 0; }\n.bm-numbers \
+.bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-every { margin-top: 12\
+px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid-template-columns: re\
+peat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: none; stroke: var(--bm-l\
+ine); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11\
+px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-m\
+uted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { \
+font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: va\
+r(--bm-follower); stroke-dasharray: 6 4; }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke:\
+ var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; borde\
+r: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0;\
+ width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke\
+: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { f\
+ill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map\
+-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-\
+template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-\
+rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { \
+outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-p\
+airs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: \
+var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-wid\
+th: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: \
+5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: v\
+ar(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-co\
+upler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm\
+-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-\
+pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-c\
+oupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical\
+-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margi\
+n-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(\
+--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; colo\
+r: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); bord\
+er-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { backg\
+round: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-sele\
+ct: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; heigh\
+t: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm\
+-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-othe\
+r { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); st\
+roke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width\
+: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto\
+; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  \
+.bm-stage, .bm-stand { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-\
+basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card \
+{ padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimens\
+ions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .b\
+m-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden\
+; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: fle\
+x; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .\
+bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-\
+muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  \
+.bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 95\
+9px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250\
+px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .\
+bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main, .bm-view { gr\
+id-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stand, .bm-curves, .bm-pair-box { grid-column: 1 / -1; }\n  .bm-stage, .bm-aside, .bm-family-curve, .bm-\
+pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plan\
+e { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-te\
+mplate-columns: minmax(0, 1fr); align-self: start; }\n  .bm-curves { grid-column: span 6; align-self: start; }\n  .bm-pair-box { grid-column: span 4; align-self: \
+start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted\
+: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b9\
+3dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c;\n  \
+  font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !imp\
+ortant; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border\
+: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scro\
+ll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid;\
+ }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -526,16 +527,17 @@ void 0||value===false)continue;if(name.startsWith("on"))node.addEventListener(na
 ...children.flat(Infinity).filter(child=>child!==null&&child!==void 0));return node}var h=(tag,attributes,...children)=>furnish(document.createElement(tag),attributes,
 children);var s=(tag,attributes,...children)=>furnish(document.createElementNS(SVG,tag),attributes,children);function put(node,name,value){const text=String(value);
 if(node.getAttribute(name)!==text)node.setAttribute(name,text)}function give(node,name,value){const next=typeof node[name]==="boolean"?Boolean(value):String(value);
-if(node[name]!==next)node[name]=next}function say(node,text){const next=String(text);if(node.textContent!==next)node.textContent=next}var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName=pose=>pose.label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var shortened=(text,most)=>text.
-length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit){if(position==="exact"&&angle==="exact")return"exact";if(position===
-"-")return"–";return`${position}${position==="exact"?"":unit} and ${angle}`}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembl\
+if(node[name]!==next)node[name]=next}function say(node,text){const next=String(text);if(node.textContent!==next)node.textContent=next}var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName=pose=>pose.label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var isPoint=pose=>pose.
+angle_deg===null;var nounOf=({poses})=>poses.length&&poses.every(isPoint)?"point":"pose";var calledOf=pose=>`${isPoint(pose)?"point":"pose"} ${poseName(pose)}`;var shortened=(text,most)=>text.length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit){
+if(position==="-")return"–";const[away,...share]=position.split(" (");const length=[away==="exact"?away:`${away}${unit}`,...share].join(" (");return angle==="\
+free"||position==="exact"&&angle==="exact"?length:`${length} and ${angle}`}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembl\
 y ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.join(", ")}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
 var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
 ...list.slice(0,index),value,...list.slice(index)];var withList=(document2,key,list)=>withKeys(document2,{[key]:list.length?list:void 0});var filled=table=>Object.
 keys(table).length?table:void 0;var EXACT={x:0,y:0,angle_deg:0};var FEWEST_TRACED=10;var isFree=(pose,key)=>Boolean(pose?.free?.includes(key))||pose?.tolerance?.[key]===
-"free";var isPoint=pose=>isFree(pose,"angle");var isOfPoints=({poses})=>poses.length>0&&poses.every(isPoint);var isPath=document2=>isOfPoints(document2)&&(document2.
+"free";var isPoint2=pose=>isFree(pose,"angle");var isOfPoints=({poses})=>poses.length>0&&poses.every(isPoint2);var isPath=document2=>isOfPoints(document2)&&(document2.
 path!==void 0||document2.poses.length>=FEWEST_TRACED);var setPath=(document2,changes)=>withKeys(document2,{path:withKeys(document2.path??{closed:false},changes)});var isExact=tolerance=>tolerance&&["x","y","angle_deg"].every(key=>!tolerance[key]);function settled(document2){const{poses,path,tolerance}=document2,some=poses.
-some(pose=>pose.free?.length);return withKeys(document2,{path:path&&poses.length&&!poses.every(isPoint)?void 0:path,tolerance:some?tolerance??EXACT:isExact(tolerance)?
+some(pose=>pose.free?.length);return withKeys(document2,{path:path&&poses.length&&!poses.every(isPoint2)?void 0:path,tolerance:some?tolerance??EXACT:isExact(tolerance)?
 void 0:tolerance})}var withCrank=(document2,change)=>document2.path?.crank_deg?setPath(document2,{crank_deg:change(document2.path.crank_deg)}):document2;function betweenCranks(angles,index){
 const[a,b]=[angles[index-1],angles[index]];if(a!==void 0&&b!==void 0)return(a+b)/2;return a===void 0?(b??0)-10:a+(a-(angles[index-2]??a-10))}var setPose=(document2,index,changes)=>withKeys(
 document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],changes))});var addPose=(document2,pose,index=document2.poses.length)=>settled(withCrank(
@@ -577,7 +579,7 @@ var figured=linkage=>Object.assign(linkage,{worst:linkage.position_error.max,lea
 linkage.dyads.map((dyad,k)=>[dyad.id,`P${k+1}`]));const named=dyad=>({...dyad,id:names.get(dyad.id)??dyad.id});const dimensions=linkage.said.dimensions.map(row=>({
 ...row,dyad:names.get(row.dyad)??row.dyad}));return{...linkage,dyads:linkage.dyads.map(named),led:linkage.led.map(named),said:{...linkage.said,dimensions}}}function posesOf({
 poses=[]}){const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME);return poses.map((pose,k)=>({...pose,
-angle_deg:isPoint(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.isArray(document2.body)?
+angle_deg:isPoint2(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.isArray(document2.body)?
 document2.body:document2.body===void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=each.worst;now.least=each.
 transmission_deg;now.reason=each.reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=now.ways??[];return}now.
 ways=each.ways;now.pose_errors=each.pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"-",turned:"-",transmission:"\
@@ -740,7 +742,7 @@ r:12}),s("circle",{class:"bs-tip",r:5}));const group=s("g",{class:"bs-pose"},s("
 k);for(const part of[origin,turn])part.addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydown",event=>this.key(
 event,k,false));turn.addEventListener("keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
 document,k),pose=store.document.poses[k];const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit=store.document.length_unit??"",name=poseName2(
-store.document,k);const point=isPoint(pose);if(!isOther(group,[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit,selected,point]))return;const[
+store.document,k);const point=isPoint2(pose);if(!isOther(group,[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit,selected,point]))return;const[
 arrow2,origin,turn]=group.children;put(group,"transform",transform(view.X(x),view.Y(y),point?0:radians(angle)));for(const part of[arrow2,turn])put(part,"display",
 point?"none":"inline");group.classList.toggle("bs-point",point);put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(this.length)} 0)`);group.
 classList.toggle("bs-selected",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const what=point?"Point":"Pose",called=pose.name?`${what} ${k+1}\
@@ -748,7 +750,7 @@ classList.toggle("bs-selected",selected);group.classList.toggle("bs-exact",Boole
  keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria-valuetext",
 `${angle}°`)}obstacles(){const{store,scene:{view},length}=this,boxes=[];for(const k of drawnPoses(store,view.scale)){const{x,y,angle}=standing(store.document,k),
 a=radians(angle),[c,d]=[Math.cos(a),Math.sin(a)];const at=(along2,across,size2)=>boxes.push([view.X(x)+along2*c-across*d,view.Y(y)-along2*d-across*c,size2,size2]);
-at(0,0,13);if(isPoint(store.document.poses[k]))continue;at(length,0,12);at(LETTER,-LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[
+at(0,0,13);if(isPoint2(store.document.poses[k]))continue;at(length,0,12);at(LETTER,-LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[
 .3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName2(
 store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(
 angle+215),NAME,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
@@ -903,60 +905,61 @@ at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.po
 way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
 const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";
 const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*
-.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}function wayStory(way,poses){const names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?"all poses":way.poses.length?`pose${way.
-poses.length>1?"s":""} ${runs(way.poses,names)}`:"no pose";const dead=way.dead.filter(Boolean).length;const ends=way.round?"turns round":dead===2?"between two d\
-ead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
+.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`all ${noun}s`:
+way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:`no ${noun}`;const dead=way.dead.filter(Boolean).length;const ends=way.round?"tu\
+rns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
 span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
-ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{static STOP="\
-pose";constructor(data,show,rebuild){this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.whole=false;this.stretch=
-{low:0,high:1};this.playing=false;this.remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}controls(){const stop=this.constructor.
-STOP,title=stop[0].toUpperCase()+stop.slice(1);const button2=(name,text,label,onclick)=>h("button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,
-onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","ari\
-a-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=
-h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"true"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("ou\
-tput",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,
-ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.shiftKey?10*step:step)});return h("div",{class:"bm-controls"},h("div",{class:"bm-tr\
-ack"},this.slider,this.stops),h("div",{class:"bm-row"},this.button,button2("bm-back",`◀ ${title}`,`Previous ${stop}`,()=>this.toPose(-1)),button2("bm-next",`${title}\
- ▶`,`Next ${stop}`,()=>this.toPose(1)),h("label",{class:"bm-whole",title:`Play all that the driver reaches, not only from the first ${stop} to the last`},this.
-box,this.boxName)),this.readout)}load(linkage){this.linkage=linkage;const counts=linkage.ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.
-max(...counts))))}take(index){this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){return this.linkage.pose_errors.map((row,k)=>({...row,
-k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path,slider}=this;if(!path)this.play(false);for(const each of[
-slider,this.button])give(each,"disabled",!path);const last=path?path.x.length-1:1;const frames=path?this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.
-reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};
-give(this.box,"disabled",!apart);say(this.boxName,path?.round?"Whole turn":"Whole branch");this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){
-this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path}=this,{low,high}=this.stretch;stops.replaceChildren();if(!path)return;const width=Math.max(60,this.
-slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.
-sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({x,text:shortened(poseName(
-pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.label})),width,rows.length>MANY_POSES?
-1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-pose":k+1},s("title",{},`pose ${poseName(pose)}`),...parts);
-rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,
-text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*
-deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===this.playing&&this.isDressed)return;this.isDressed=true;
-this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":
-"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;let before=null;const run=now=>{if(!this.playing)return;
-if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){
-if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.
-high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:
-TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*
-step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){
-if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.
-path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,
-k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??
-all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}
-this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.length)}nearest(place){let near2=0,least2=Infinity;this.
-data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.
-length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path}=this;if(!path){for(const part of this.
-parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path.drive,this.u),transmission=place.transmission??linear(path.transmission,
-this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,
-"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;return linkage.
-led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${fixed(drive,1)}°`}tell(place,drive,transmission,near2){const{data,linkage}=this;
-const unit=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.pose_errors[near2];const at=row?.
-at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit} from pose ${poseName(pose)}`;const missed2=()=>`\
-at pose ${poseName(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit)}`;const said=!pose?"between the poses":at?
-missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit}, ${fixed(((degrees(place.a)+180)%360+360)%360-
-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;
-if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){
+ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{constructor(data,show,rebuild){
+this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.whole=false;this.stretch={low:0,high:1};this.playing=false;this.
+remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){return nounOf(this.data)}controls(){const button2=(name,text,label,onclick)=>h(
+"button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));
+this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","aria-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",
+{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"tr\
+ue"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("output",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.
+addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.
+shiftKey?10*step:step)});this.steps=[button2("bm-back","","",()=>this.toPose(-1)),button2("bm-next","","",()=>this.toPose(1))];this.wholeLabel=h("label",{class:"\
+bm-whole"},this.box,this.boxName);this.nameStops();return h("div",{class:"bm-controls"},h("div",{class:"bm-track"},this.slider,this.stops),h("div",{class:"bm-ro\
+w"},this.button,this.steps,this.wholeLabel),this.readout)}nameStops(){const{stop}=this,title=stop[0].toUpperCase()+stop.slice(1);[[`◀ ${title}`,`Previous ${stop}`],
+[`${title} ▶`,`Next ${stop}`]].forEach(([text,label],k)=>{say(this.steps[k],text);put(this.steps[k],"aria-label",label);give(this.steps[k],"title",label)});give(
+this.wholeLabel,"title",`Play all that the driver reaches, not only from the first ${stop} to the last`)}load(linkage){this.linkage=linkage;const counts=linkage.
+ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){
+return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path,
+slider}=this;if(!path)this.play(false);this.nameStops();for(const each of[slider,this.button])give(each,"disabled",!path);const last=path?path.x.length-1:1;const frames=path?
+this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;
+this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);say(this.boxName,path?.round?"Whole turn":"Whole branch");this.heading=
+1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path}=this,{low,high}=this.stretch;
+stops.replaceChildren();if(!path)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.
+stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(
+rows.map(({x,pose})=>({x,text:shortened(poseName(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({
+x,text:pose.label})),width,rows.length>MANY_POSES?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-po\
+se":k+1},s("title",{},calledOf(pose)),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));
+rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},
+text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===
+this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?
+"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;
+let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(
+run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.goesRound?1:2)*(high-
+low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,high}=this.stretch;
+const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.play(false);
+this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.u<=low){this.heading=
+this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*Math.max(.001,(high-
+low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){
+const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.
+length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){
+this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.
+length)}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.
+hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){
+const{path}=this;if(!path){for(const part of this.parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path.drive,this.u),transmission=place.
+transmission??linear(path.transmission,this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"m\
+ax",this.stretch.high);give(this.slider,"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){
+const{data,linkage}=this;return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${fixed(drive,1)}°`}tell(place,drive,transmission,near2){
+const{data,linkage}=this;const unit=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.
+pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit} fro\
+m ${calledOf(pose)}`;const missed2=()=>`at ${calledOf(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit)}`;const said=!pose?
+"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit}, ${fixed(((degrees(place.
+a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?
+`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){
 const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(
 end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",
 {width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);const[x,y]=act(place,

@@ -164,53 +164,59 @@ var shown=new WeakMap;function isOther(element,facts){const before=shown.get(ele
 (fact,k)=>!Object.is(fact,before[k]))}var sights=new WeakMap;var callers=new WeakMap;var observer=null;function watch(element,fn){observer??=new IntersectionObserver(
 entries=>{for(const{target,isIntersecting}of entries){sights.set(target,isIntersecting);if(isIntersecting)callers.get(target)()}});callers.set(element,fn);observer.
 observe(element)}var isSeen=element=>printing||sights.get(element)===true;var paces=new Set;var printing=false;function catchUpForPrint(){addEventListener("befo\
-reprint",()=>{printing=true;for(const pace of paces)if(pace.wanted())pace.now()});addEventListener("afterprint",()=>printing=false)}var NONE="–";function table(caption,heads,rows,attributes){return h("div",{class:"bm-scroll",tabindex:"0",role:"region","aria-label":caption},h("table",attributes,
-h("caption",{},caption),h("thead",{},h("tr",{},heads.map(head=>h("th",{scope:"col",class:head.text?"bm-words":null},head.name??head)))),h("tbody",{},rows)))}var cells=(values,words=[],heads=[])=>values.
-map((value,k)=>k===0?h("th",{scope:"row"},value):h("td",{class:classes(words.includes(k)&&"bm-words",(value??NONE)===NONE&&"bm-none"),"data-head":heads[k]?.name??
-heads[k]},value??NONE));var classes=(...names)=>names.filter(Boolean).join(" ")||null;var unitOf=data=>data.unit?` (${data.unit})`:"";var decimalsOf=data=>clamp(
-4-Math.ceil(Math.log10(data.scene)),0,12);var poseName2=pose=>pose.label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var shortened=(text,most)=>text.length>
-most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position==="exact"&&angle==="exact")return"exact";if(position==="-")return"\
-–";return`${position}${position==="exact"?"":unit2} and ${angle}`}function verdictOf(linkage){return linkage.usable?"✓ usable":"✕ not usable"}function dyadTable(data){
-const heads=["",{name:"kind",text:true},"on the ground (F)","on the body (M)",`length${unitOf(data)}`,"rms miss","worst miss"];const rows=data.dyads.map(dyad=>h(
-"tr",{},cells([dyad.id,dyad.kind,dyad.said.ground,dyad.said.body,dyad.said.length,dyad.said.rms,dyad.said.worst],[1],heads)));return table(data.dyads_title,heads,
-rows,{class:"bm-stacks"})}function linkageTable(data){const names=["ground","driver","coupler","follower"];const heads=["",{name:"verdict",text:true},{name:"typ\
-e",text:true},{name:"dyads",text:true},{name:"driver",text:true},...names.map(name=>`${name} link`),"worst miss","worst angle","least transm.","extent","sens.",
-{name:"why not",text:true}];const rows=data.linkages.map(each=>h("tr",{},cells([each.id,verdictOf(each),each.type,each.dyads.map(dyad=>dyad.id).join(" "),each.led[0].
-id,...names.map(name=>each.said.links?.[name]??"–"),each.said.worst,each.said.angle,each.said.transmission,each.said.quality.extent?.split(" ")[0]??"–",each.
-said.quality.sensitivity??"–",each.said.reasons.join("; ")||"–"],[1,2,3,4,14],heads)));return table(`All linkages${unitOf(data)}`,heads,rows,{class:"bm-link\
-ages bm-stacks"})}function dimensionRows(linkage){const uncertain=linkage.said.dimensions.some(row=>row.give);let last=null;return linkage.said.dimensions.map(row=>{
-const name=row.dyad===last?"":row.dyad;last=row.dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{},h("th",{scope:"row",class:name?
-`bm-side${side}`:null},name),h("td",{class:"bm-words"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){
-return table(`Dimensions of ${linkage.id}${data.unit?`, in ${data.unit}`:""}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["±\
- (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data);const heads=["po\
-se",`wanted x`,`y${unit2}`,"angle"];if(linkage)heads.push("coupler x",`y${unit2}`,"angle","off by","turned by","transm.",{name:"where",text:true});const rows=data.
-poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exact)":""),fixed(pose.x,digits),fixed(pose.y,digits),pose.angle_deg===null?"free":`${fixed(pose.
-angle_deg,2)}°`];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,
-2)}°`,row.said.position,row.said.turned,row.said.transmission,row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(
-values,[10]))});return table(linkage?`Poses, and where ${linkage.id} takes the body`:"Poses",heads,rows,{class:data.poses.some(pose=>pose.label!==pose.name)?"bm\
--pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.map(pose=>{const c=Math.cos(pose.
-angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];return h("tr",{},cells([pose.label,...z.
-map((value,k)=>fixed(value,k<2?digits:5))]))});const points=table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows);
-if(!linkage)return[points];const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,
-8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[points,table(
-caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<
-2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
+reprint",()=>{printing=true;for(const pace of paces)if(pace.wanted())pace.now()});addEventListener("afterprint",()=>printing=false)}var MOST_NAMES=24;var NAME_STEP=5;var MOST_ROWS=40;var NONE="–";function table(caption,heads,rows,attributes){return h("div",{class:"bm-scroll",tabindex:"0",role:"\
+region","aria-label":caption},h("table",attributes,h("caption",{},caption),h("thead",{},h("tr",{},heads.map(head=>h("th",{scope:"col",class:head.text?"bm-words":
+null},head.name??head)))),h("tbody",{},rows)))}function longTable(caption,heads,rows,attributes){const first=table(caption,heads,rows.slice(0,MOST_ROWS),attributes),
+others=rows.slice(MOST_ROWS);if(!others.length)return first;return h("div",{class:"bm-long"},first,h("details",{class:"bm-every"},h("summary",{},`${others.length}\
+ more`),table(`${caption}, from ${MOST_ROWS+1}`,heads,others,attributes)))}var cells=(values,words=[],heads=[])=>values.map((value,k)=>k===0?h("th",{scope:"row"},
+value):h("td",{class:classes(words.includes(k)&&"bm-words",(value??NONE)===NONE&&"bm-none"),"data-head":heads[k]?.name??heads[k]},value??NONE));var classes=(...names)=>names.
+filter(Boolean).join(" ")||null;var unitOf=data=>data.unit?` (${data.unit})`:"";var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName2=pose=>pose.
+label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var isPoint2=pose=>pose.angle_deg===null;var nounOf=({poses})=>poses.length&&poses.every(isPoint2)?"po\
+int":"pose";var isNamed=({path:path2,poses},k)=>!path2||poses.length<=MOST_NAMES||k===0||(k+1)%NAME_STEP===0;var calledOf=pose=>`${isPoint2(pose)?"point":"pose"}\
+ ${poseName2(pose)}`;var shortened=(text,most)=>text.length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position===
+"-")return"–";const[away,...share]=position.split(" (");const length=[away==="exact"?away:`${away}${unit2}`,...share].join(" (");return angle==="free"||position===
+"exact"&&angle==="exact"?length:`${length} and ${angle}`}function verdictOf(linkage){return linkage.usable?"✓ usable":"✕ not usable"}function dyadTable(data){
+const misses=data.poses.some(isPoint2)?[]:["rms miss","worst miss"];const heads=["",{name:"kind",text:true},"on the ground (F)","on the body (M)",`length${unitOf(
+data)}`,...misses];const rows=data.dyads.map(dyad=>h("tr",{},cells([dyad.id,dyad.kind,dyad.said.ground,dyad.said.body,dyad.said.length,...misses.length?[dyad.said.
+rms,dyad.said.worst]:[]],[1],heads)));return longTable(data.dyads_title,heads,rows,{class:"bm-stacks"})}function linkageTable(data){const names=["ground","drive\
+r","coupler","follower"];const heads=["",{name:"verdict",text:true},{name:"type",text:true},{name:"dyads",text:true},{name:"driver",text:true},...names.map(name=>`${name}\
+ link`),"worst miss",...nounOf(data)==="point"?[]:["worst angle"],"least transm.","extent","sens.",{name:"why not",text:true}];const rows=data.linkages.map(each=>h(
+"tr",{},cells([each.id,verdictOf(each),each.type,each.dyads.map(dyad=>dyad.id).join(" "),each.led[0].id,...names.map(name=>each.said.links?.[name]??"–"),each.
+said.worst,...nounOf(data)==="point"?[]:[each.said.angle],each.said.transmission,each.said.quality.extent?.split(" ")[0]??"–",each.said.quality.sensitivity??"\
+–",each.said.reasons.join("; ")||"–"],[1,2,3,4,heads.length-1],heads)));return longTable(`All linkages${unitOf(data)}`,heads,rows,{class:"bm-linkages bm-sta\
+cks"})}function dimensionRows(linkage){const uncertain=linkage.said.dimensions.some(row=>row.give);let last=null;return linkage.said.dimensions.map(row=>{const name=row.
+dyad===last?"":row.dyad;last=row.dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{},h("th",{scope:"row",class:name?`bm-side${side}`:
+null},name),h("td",{class:"bm-words"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){return table(`D\
+imensions of ${linkage.id}${data.unit?`, in ${data.unit}`:""}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],
+dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data),noun=nounOf(data),turned=noun!==
+"point";const ifTurned=value=>turned?[value]:[];const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];if(linkage)heads.push("coupler x",`y${unit2}`,"an\
+gle","off by",...ifTurned("turned by"),"transm.",{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exa\
+ct)":""),fixed(pose.x,digits),fixed(pose.y,digits),...ifTurned(isPoint2(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];
+values.push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,...ifTurned(row.said.turned),row.
+said.transmission,row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,[heads.length-1]))});const what=turned?
+"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.poses.some(pose=>pose.label!==pose.name)?"bm\
+-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.filter(pose=>!isPoint2(pose)).map(
+pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];return h("t\
+r",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image points of the poses${unitOf(data)}, Z3² + Z4²\
+ = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.said.manifolds[k]])));
+const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + \
+p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];
+if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
 x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
-poses.map((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return{x:at.x,y:at.y,a:radians(at.angle_deg)}});function ghosts(data,linkage,view){
-const group=s("g",{class:"bm-ghosts"});if(!data.body)return group;const places=placesAtPoses(data,linkage),last=Math.max(1,places.length-1);places.forEach(({x,y,
-a},k)=>{const opacity=(PALEST+(1-PALEST)*k/last).toFixed(3);group.append(s("path",{class:"bm-ghost",d:bodyOutline(data,view),"data-pose":k+1,opacity,transform:transform(
-view.X(x),view.Y(y),a)}))});return group}function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm\
--hatch-${patterns+=1}`;group.append(s("defs",{},s("pattern",{id,width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{
-class:"bm-hatch",d:`M0 0V${HATCH}`}))));for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"b\
-m-region"},s("title",{},region.name||"keep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){
-return data.keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME);labels.block(view.X(x),view.Y(y),7.2*text.length,14);
-return s("text",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)
-return[];const some=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES)===0);return[...placesAtPoses(data,linkage),...some].flatMap(place=>data.body.map(
-corner=>act(place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),
-Math.max(u,a),Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(
-withBody,data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;
-const inner=sizeOf(withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+
-reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;function mechanism(data,linkage,view,places){
+poses.flatMap((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return isPoint2(at)?[]:[{x:at.x,y:at.y,a:radians(at.angle_deg),k}]});function ghosts(data,linkage,view){
+const group=s("g",{class:"bm-ghosts"});if(!data.body)return group;const last=Math.max(1,data.poses.length-1);for(const{x,y,a,k}of placesAtPoses(data,linkage)){const opacity=(PALEST+
+(1-PALEST)*k/last).toFixed(3);group.append(s("path",{class:"bm-ghost",d:bodyOutline(data,view),"data-pose":k+1,opacity,transform:transform(view.X(x),view.Y(y),a)}))}
+return group}function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm-hatch-${patterns+=1}`;group.
+append(s("defs",{},s("pattern",{id,width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`M0 0V${HATCH}`}))));
+for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"bm-region"},s("title",{},region.name||"ke\
+ep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){return data.
+keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME);labels.block(view.X(x),view.Y(y),7.2*text.length,14);return s("t\
+ext",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)return[];
+const some=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES)===0);return[...placesAtPoses(data,linkage),...some].flatMap(place=>data.body.map(corner=>act(
+place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),Math.max(u,a),
+Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(withBody,
+data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;const inner=sizeOf(
+withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;function mechanism(data,linkage,view,places){
 const drawn=new Mechanism(linkage);drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=
 s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"b\
 m-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-\
@@ -796,44 +802,46 @@ bounds(far);const width=Math.max(260,this.parent.clientWidth);const box=widened(
 this.places,width,true).some((each,k)=>each!==box[k]);const shape=(box[3]-box[1])/(box[2]-box[0]);const own=clamp(width*clamp(shape,.45,1),260,clamp(.62*window.
 innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(box,width,height,width<500?34:42);this.view=view;svg.setAttribute(
 "viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;svg.dataset.left=view.left;svg.dataset.top=view.top;svg.replaceChildren();
-svg.append(this.grid(),keepOut(data,view),this.ghosts());if(linkage)svg.append(this.paths());const labels=new Labels(view);this.names=s("g",{class:"bm-names"},keepOutNames(
-data,view,labels));if(linkage)svg.append(this.ground(labels));for(const pose of data.poses){const x=view.X(pose.x),y=view.Y(pose.y),angle=radians(pose.angle_deg);
-const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(x,y,12,12);for(const share of[.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-
-.6*share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?this.mechanism():null;if(this.moving)svg.append(this.moving.group);
-if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}placesOf(way,stretch){return placesOf(this.data,this.linkage,way,stretch)}bounds(far){return boundsOf(
-this.data,this.linkage,this.places,far)}ghosts(){return ghosts(this.data,this.linkage,this.view)}mechanism(){return mechanism(this.data,this.linkage,this.view,this.
-places)}grid(){const{view}=this,group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.unit?` ${this.data.unit}`:"";const across=ticks(-view.
-left/view.scale,(view.width-view.left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/view.scale,view.top/view.scale,view.height/80);for(const{
-at,text}of across){const x=px(view.X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.width-(unit2?54:30)){group.append(s("text",{x,y:view.
-height-6,"text-anchor":"middle"},text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(s("path",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-
-24)group.append(s("text",{x:6,y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));
-return group}paths(){const{view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.ways.forEach((way,k)=>{const same=way.circuit===linkage.ways[this.way]?.
-circuit;const kind=k===this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=this.placesOf(way,{low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,
-y})=>[x,y]),view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const{side,points}of this.pivotPaths()){group.append(s("path",{class:`bm-pivot-p\
-ath bm-side${side}`,d:polyline(points,view)}))}const d=polyline(places.map(({x,y})=>[x,y]),view);group.append(s("path",{class:"bm-curve bm-here",d}));return group}pivotPaths(){
-const drawn=[...this.linkage.led.entries()].filter(([,dyad])=>dyad.moving_pivot&&dyad.kind!=="PR");return drawn.map(([side,dyad])=>({side,points:this.places.map(
-place=>act(place,dyad.moving_pivot))}))}ground(labels){const group=s("g",{class:"bm-grounds"});this.linkage.led.forEach((dyad,side)=>{if(dyad.kind==="PR")this.rail(
-group,labels,dyad,side);else if(dyad.fixed_pivot)this.fixedPivot(group,labels,dyad,side)});return group}rail(group,labels,dyad,side){if(!this.places.length)return;
-const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,"data-dyad":dyad.id,transform:transform(
-x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=14)labels.block(x-k*ny,y-k*
-nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.view.X(dyad.fixed_pivot[0]),
-y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute("transform",`translate(${px(x)} ${px(
-y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){const{data,view}=this,isFar=farFrom(data),
-digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);if(!at||!isFar(at))return;const[x,y]=[view.X(at[0]),view.Y(at[1])];
-const cx=view.width/2,cy=view.height/2,size2=Math.hypot(x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.min((cx-12)/Math.abs(u),(cy-12)/Math.abs(
-v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(each,digits)).join(", ")})`;labels.
-block(ex,ey,20,20);this.names.append(s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(ex,ey,Math.atan2(-v,u))}),labels.put(ex,
-ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}poses(linkage,factor,labels){const{data,view}=this,group=s("g",{class:"bm-poses"});const small=data.
-poses.length>24?.6:1;const arrows=this.errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});data.poses.forEach((pose,k)=>{const x=view.X(pose.
-x),y=view.Y(pose.y);group.append(s("g",{class:"bm-wanted",transform:transform(x,y,radians(pose.angle_deg)),"data-pose":k+1},s("path",{d:axes(AXIS*small)}),s("ci\
-rcle",{r:4.5*small})));if(data.poses.length<=60)names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===null)return;const elsewhere=row.
-way===this.way?"":" bm-elsewhere";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg))},s(
-"path",{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){const{data,view}=this,arrows=s(
-"g",{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.
-x),y=view.Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.
-min(7,.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;
-arrows.append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});
-return arrows}show(place){this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
+svg.append(this.grid(),keepOut(data,view),this.ghosts());svg.append(...[this.wantedPath(),linkage?this.paths():null].filter(Boolean));const labels=new Labels(view);
+this.names=s("g",{class:"bm-names"},keepOutNames(data,view,labels));if(linkage)svg.append(this.ground(labels));for(const pose of data.poses){const x=view.X(pose.
+x),y=view.Y(pose.y),angle=radians(pose.angle_deg);const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(x,y,12,12);if(isPoint2(pose))continue;for(const share of[
+.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-.6*share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?this.
+mechanism():null;if(this.moving)svg.append(this.moving.group);if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}placesOf(way,stretch){return placesOf(
+this.data,this.linkage,way,stretch)}bounds(far){return boundsOf(this.data,this.linkage,this.places,far)}ghosts(){return ghosts(this.data,this.linkage,this.view)}mechanism(){
+return mechanism(this.data,this.linkage,this.view,this.places)}grid(){const{view}=this,group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.
+unit?` ${this.data.unit}`:"";const across=ticks(-view.left/view.scale,(view.width-view.left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/view.
+scale,view.top/view.scale,view.height/80);for(const{at,text}of across){const x=px(view.X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.
+width-(unit2?54:30)){group.append(s("text",{x,y:view.height-6,"text-anchor":"middle"},text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(s("pa\
+th",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-24)group.append(s("text",{x:6,y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.
+width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));return group}paths(){const{view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.ways.forEach(
+(way,k)=>{const same=way.circuit===linkage.ways[this.way]?.circuit;const kind=k===this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=this.placesOf(way,{
+low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,y})=>[x,y]),view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const{side,points}of this.
+pivotPaths()){group.append(s("path",{class:`bm-pivot-path bm-side${side}`,d:polyline(points,view)}))}const d=polyline(places.map(({x,y})=>[x,y]),view);group.append(
+s("path",{class:"bm-curve bm-here",d}));return group}pivotPaths(){const drawn=[...this.linkage.led.entries()].filter(([,dyad])=>dyad.moving_pivot&&dyad.kind!=="\
+PR");return drawn.map(([side,dyad])=>({side,points:this.places.map(place=>act(place,dyad.moving_pivot))}))}ground(labels){const group=s("g",{class:"bm-grounds"});
+this.linkage.led.forEach((dyad,side)=>{if(dyad.kind==="PR")this.rail(group,labels,dyad,side);else if(dyad.fixed_pivot)this.fixedPivot(group,labels,dyad,side)});
+return group}rail(group,labels,dyad,side){if(!this.places.length)return;const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);
+group.append(s("g",{class:`bm-rail bm-side${side}`,"data-dyad":dyad.id,transform:transform(x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"\
+bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=14)labels.block(x-k*ny,y-k*nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name \
+bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.view.X(dyad.fixed_pivot[0]),y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)
+labels.block(x,y,40,40);const at=foot();at.setAttribute("transform",`translate(${px(x)} ${px(y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.id,
+27,{class:`bm-name bm-side${side}`}))}farPivots(labels){const{data,view}=this,isFar=farFrom(data),digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{
+const at=standing2(dyad,this.places);if(!at||!isFar(at))return;const[x,y]=[view.X(at[0]),view.Y(at[1])];const cx=view.width/2,cy=view.height/2,size2=Math.hypot(
+x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.min((cx-12)/Math.abs(u),(cy-12)/Math.abs(v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.
+id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(each,digits)).join(", ")})`;labels.block(ex,ey,20,20);this.names.append(s("path",{class:`\
+bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(ex,ey,Math.atan2(-v,u))}),labels.put(ex,ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}wantedPath(){
+const{data,view}=this;if(!data.path)return null;const points=data.poses.map(({x,y})=>[x,y]);return s("path",{class:"bm-wanted-path",d:`${polyline(points,view)}${data.
+path.closed?"Z":""}`})}poses(linkage,factor,labels){const{data,view}=this,group=s("g",{class:"bm-poses"});const small=data.poses.length>24?.6:1;const arrows=this.
+errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});data.poses.forEach((pose,k)=>{const x=view.X(pose.x),y=view.Y(pose.y);group.append(s("g",
+{class:"bm-wanted",transform:transform(x,y,isPoint2(pose)?0:radians(pose.angle_deg)),"data-pose":k+1},isPoint2(pose)?null:s("path",{d:axes(AXIS*small)}),s("circ\
+le",{r:4.5*small})));if(data.poses.length<=60&&isNamed(data,k))names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===
+null)return;const elsewhere=row.way===this.way?"":" bm-elsewhere";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.
+y),radians(row.angle_deg))},isPoint2(pose)?null:s("path",{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){
+const{data,view}=this,arrows=s("g",{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.
+poses[k],x=view.X(pose.x),y=view.Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<
+1.5)return;const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(
+y+dy-head*(uy+sign*.5*ux))}`;arrows.append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(
+x+share*dx,y+share*dy,8,8)});return arrows}show(place){this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
@@ -925,26 +933,27 @@ event=>event.buttons&1&&go(event))}build(linkage,index,stretch){const{data,svg}=
 if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: ${this.constructor.TITLE.toLowerCase()} along the driver`);const width=this.width=Math.max(260,this.
 parent.clientWidth);const poses=linkage.pose_errors.map((row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.some(
 ({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+
-6:0);const height=this.top+this.constructor.HEIGHT+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);const[driver]=linkage.
-led,slides=driver.kind==="PR";this.stretch=stretch;this.low=linear(way.drive,stretch.low);this.high=linear(way.drive,stretch.high);this.X=drive=>LEFT+INSET+(drive-
-this.low)/(this.high-this.low)*(width-LEFT-RIGHT-2*INSET);this.across=slides?ticks(this.low,this.high,width/90):angleTicks(this.low,this.high,Math.max(3,width/70));
-const rows=poses.map(row=>({...row,drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";const base=this.panels(rows,unit2);if(upright)
-this.uprightNames(rows);const title=slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;svg.append(s("text",{class:"bm-title",x:(LEFT+
-width-RIGHT)/2,y:height-6,"text-anchor":"middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.mark=s("circle",{r:4.5});
-this.cursor.append(this.mark);svg.append(this.cursor)}panels(rows,unit2){this.errors(0,`position error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);
-this.errors(1,"angle error (°)",rows,row=>row.turned_deg,1e-9);return this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,y0=this.top+
-k*(PANEL+GAP),base=y0+PANEL;const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*greatest:
-1;const Y=v=>base-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, up to roun\
-ding":"no pose is on this assembly"))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT-6,y:base+
-4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[...rows].sort((a,b)=>a.
-drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s("circle",{class:"bm-do\
-t",cx:x,cy:y,r:3.5},s("title",{},`pose ${poseName2(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.length<=MANY_POSES||
-greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{svg,way,width,X}=this,
-y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const Y=this.Y=v=>base-v/90*PANEL;this.panel("transmission angle (°)",y0,base,true);for(const at of[0,30,60,90])this.rule(
-Y(at),at);const asked=this.data.asked_transmission_deg,limit=asked??USUAL_LIMIT;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}H${width-RIGHT}`}));
-const below=limit>15&&(linear(way.transmission,this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-4,y:px(Y(limit))+(below?
-12:-4),"text-anchor":"end"},`${figure(limit)}°, ${asked?"asked":"a usual limit"}`);this.curve(way.transmission,Y,"bm-line");for(const row of rows){if(row.transmission_deg===
-null)continue;svg.append(s("circle",{class:"bm-dot",cx:px(X(row.drive)),cy:px(Y(row.transmission_deg)),r:3}))}svg.append(limitName2);return base}curve(values,Y,name){
+6:0);const height=this.top+this.height+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);const[driver]=linkage.led,slides=driver.
+kind==="PR";this.stretch=stretch;this.low=linear(way.drive,stretch.low);this.high=linear(way.drive,stretch.high);this.X=drive=>LEFT+INSET+(drive-this.low)/(this.
+high-this.low)*(width-LEFT-RIGHT-2*INSET);this.across=slides?ticks(this.low,this.high,width/90):angleTicks(this.low,this.high,Math.max(3,width/70));const rows=poses.
+map(row=>({...row,drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";const base=this.panels(rows,unit2);if(upright)this.uprightNames(
+rows);const title=slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/
+2,y:height-6,"text-anchor":"middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.mark=s("circle",{r:4.5});this.cursor.
+append(this.mark);svg.append(this.cursor)}get height(){return this.constructor.HEIGHT-(nounOf(this.data)==="point"?PANEL+GAP:0)}panels(rows,unit2){this.errors(0,
+`position error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);if(nounOf(this.data)==="point")return this.transmission(1,rows);this.errors(1,"angle e\
+rror (°)",rows.filter(({pose})=>!isPoint2(pose)),row=>row.turned_deg,1e-9);return this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,
+y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*
+greatest:1;const Y=v=>base-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, u\
+p to rounding":`no ${nounOf(this.data)} is on this assembly`))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"\
+bm-tick",x:LEFT-6,y:base+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[
+...rows].sort((a,b)=>a.drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s(
+"circle",{class:"bm-dot",cx:x,cy:y,r:3.5},s("title",{},`${calledOf(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.
+length<=MANY_POSES||greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{
+svg,way,width,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const Y=this.Y=v=>base-v/90*PANEL;this.panel("transmission angle (°)",y0,base,true);for(const at of[
+0,30,60,90])this.rule(Y(at),at);const asked=this.data.asked_transmission_deg,limit=asked??USUAL_LIMIT;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}\
+H${width-RIGHT}`}));const below=limit>15&&(linear(way.transmission,this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-
+4,y:px(Y(limit))+(below?12:-4),"text-anchor":"end"},`${figure(limit)}°, ${asked?"asked":"a usual limit"}`);this.curve(way.transmission,Y,"bm-line");for(const row of rows){
+if(row.transmission_deg===null)continue;svg.append(s("circle",{class:"bm-dot",cx:px(X(row.drive)),cy:px(Y(row.transmission_deg)),r:3}))}svg.append(limitName2);return base}curve(values,Y,name){
 const{low,high}=this.stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const value=linear(
 values,u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen="L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){
 let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=this.X(row.drive),y=this.top-20;if(x-last<NAME_WIDTH)continue;last=x;const text=s("\
@@ -1022,16 +1031,17 @@ join(", ")}) of the body`;put(point2.handle,"aria-label",`${name}. Drag it, or u
 button",class:"bs-small","aria-label":`Remove point ${k+1}`,onclick:()=>this.remove(point2)},"Remove"))}))}};function storyOf(linkage){const{said}=linkage;const met=`${linkage.usable?"Usable":"Not usable"}: it ${said.met}`;if(!linkage.ways.length)return`${met}. It cann\
 ot be shown moving: ${said.reasons.join("; ")||"its motion is not known"}.`;if(linkage.type==="change-point"){return`${met}, driven by ${linkage.led[0].id}. At \
 a change point, where all links lie in one line, it may go on either way.`}return linkage.usable?`${met}, driven by ${linkage.led[0].id}.`:`Not usable: it ${said.
-in_short}.`}function wayStory(way,poses){const names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?"all poses":way.poses.
-length?`pose${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:"no pose";const dead=way.dead.filter(Boolean).length;const ends=way.round?"turns round":dead===
-2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}function factsOf(data,linkage){const{said}=linkage,unit2=data.unit?` ${data.
-unit}`:"";const rows=[["verdict",verdictOf(linkage)],...Object.entries(said.links??{}).map(([name,value])=>[`${name} link`,`${value}${unit2}`]),["worst miss",missOf(
-said.worst,said.angle,unit2)],["rms miss",missOf(said.rms,said.rms_angle,unit2)],["least transmission angle",said.transmission==="-"?"–":said.transmission],...Object.
-entries(said.quality),["driver",`${linkage.led[0].id}${said.turns_fully?", turns fully":""}`],...said.freedom?[["pivots",said.freedom.replace("pivots ","")]]:[]];
-return h("dl",{class:"bm-facts"},rows.map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))))}function spaceStory(linkage){const plain="Every place o\
-f the body is one point of this space; numbered points are the poses.";if(!linkage)return[plain];const surface=side=>h("b",{class:`bm-side${side}`},linkage.led[side].
-id);return[plain," The surfaces are all places that dyad ",surface(0)," (driver) and dyad ",surface(1)," (follower) allow; where they meet, the line, the couple\
-r moves."]}function table2(caption,heads,rows){return h("div",{class:"bm-scroll",tabindex:0,role:"region","aria-label":caption},h("table",{},h("caption",{},caption),h("the\
+in_short}.`}function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`\
+all ${noun}s`:way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:`no ${noun}`;const dead=way.dead.filter(Boolean).length;const ends=way.
+round?"turns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}function factsOf(data,linkage){const{said}=linkage,
+unit2=data.unit?` ${data.unit}`:"";const rows=[["verdict",verdictOf(linkage)],...Object.entries(said.links??{}).map(([name,value])=>[`${name} link`,`${value}${unit2}`]),
+["worst miss",missOf(said.worst,said.angle,unit2)],["rms miss",missOf(said.rms,said.rms_angle,unit2)],["least transmission angle",said.transmission==="-"?"–":
+said.transmission],...Object.entries(said.quality),["driver",`${linkage.led[0].id}${said.turns_fully?", turns fully":""}`],...said.freedom?[["pivots",said.freedom.
+replace("pivots ","")]]:[]];return h("dl",{class:"bm-facts"},rows.map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))))}function spaceStory(data,linkage){
+const some=data.poses.some(isPoint2),every=nounOf(data)==="point";const taken=some&&linkage?`the places that ${linkage.id} takes at ${every?"the":"its"} points`:
+"";const marked=[every?"":"the poses",taken].filter(Boolean).join(" and ");const plain=`Every place of the body is one point of this space${marked?`; numbered p\
+oints are ${marked}`:""}.`;if(!linkage)return[plain];const surface=side=>h("b",{class:`bm-side${side}`},linkage.led[side].id);return[plain," The surfaces are al\
+l places that dyad ",surface(0)," (driver) and dyad ",surface(1)," (follower) allow; where they meet, the line, the coupler moves."]}function table2(caption,heads,rows){return h("div",{class:"bm-scroll",tabindex:0,role:"region","aria-label":caption},h("table",{},h("caption",{},caption),h("the\
 ad",{},h("tr",{},heads.map(head=>h("th",{scope:"col"},head)))),h("tbody",{},rows.map(row=>h("tr",{},row.map((text,k)=>k?h("td",{},text):h("th",{scope:"row"},text)))))))}
 var point=(at,digits)=>`(${at.map(value=>fixed(value,digits)).join(", ")})`;function poseFacts(linkage,data,points){const digits=decimalsOf(data);return linkage.
 pose_errors.map((row,k)=>{const name=data.poses[k]?poseName2(data.poses[k]):String(k+1);if(row.x===null)return[name,"–",...points.map(()=>"–")];const place=placeOf(
@@ -1203,59 +1213,60 @@ toUpperCase()}${message.slice(1)}.`)].join(" ");const both=linkage.usable?`usabl
 join(" ")} Together a ${linkage.type}: ${both}.`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
 span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
-ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{static STOP="\
-pose";constructor(data,show,rebuild){this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.whole=false;this.stretch=
-{low:0,high:1};this.playing=false;this.remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}controls(){const stop=this.constructor.
-STOP,title=stop[0].toUpperCase()+stop.slice(1);const button2=(name,text,label,onclick)=>h("button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,
-onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","ari\
-a-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=
-h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"true"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("ou\
-tput",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,
-ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.shiftKey?10*step:step)});return h("div",{class:"bm-controls"},h("div",{class:"bm-tr\
-ack"},this.slider,this.stops),h("div",{class:"bm-row"},this.button,button2("bm-back",`◀ ${title}`,`Previous ${stop}`,()=>this.toPose(-1)),button2("bm-next",`${title}\
- ▶`,`Next ${stop}`,()=>this.toPose(1)),h("label",{class:"bm-whole",title:`Play all that the driver reaches, not only from the first ${stop} to the last`},this.
-box,this.boxName)),this.readout)}load(linkage){this.linkage=linkage;const counts=linkage.ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.
-max(...counts))))}take(index){this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){return this.linkage.pose_errors.map((row,k)=>({...row,
-k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path:path2,slider}=this;if(!path2)this.play(false);for(const each of[
-slider,this.button])give(each,"disabled",!path2);const last=path2?path2.x.length-1:1;const frames=path2?this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[
-frames.reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;this.stretch=apart&&!this.whole?{low,high}:{low:0,
-high:last};give(this.box,"disabled",!apart);say(this.boxName,path2?.round?"Whole turn":"Whole branch");this.heading=1;this.u=clamp(this.u,this.stretch.low,this.
-stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,{low,high}=this.stretch;stops.replaceChildren();if(!path2)
-return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.stopsOnWay.filter(row=>this.
-data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(rows.map(({
-x,pose})=>({x,text:shortened(poseName2(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.
-label})),width,rows.length>MANY_POSES2?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-pose":k+1},s(
-"title",{},`pose ${poseName2(pose)}`),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));
-rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},
-text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===
-this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?
-"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;
-let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(
-run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.goesRound?1:2)*(high-
-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,high}=this.stretch;
-const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.play(false);
-this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.u<=low){this.heading=
-this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*Math.max(.001,(high-
-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){
-const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.
-length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){
-this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.
-length)}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.
-hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){
-const{path:path2}=this;if(!path2){for(const part of this.parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path2.drive,this.u),
-transmission=place.transmission??linear(path2.transmission,this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);
-give(this.slider,"max",this.stretch.high);give(this.slider,"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){
-const{data,linkage}=this;return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${fixed(drive,1)}°`}tell(place,drive,transmission,near2){
-const{data,linkage}=this;const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.
-pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit2} fr\
-om pose ${poseName2(pose)}`;const missed2=()=>`at pose ${poseName2(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,
-unit2)}`;const said=!pose?"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit2}\
-, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{
-const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-valuetext",`driver ${driver}\
-, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,left=clamp(x-size2/
-2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%
-turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H\
-7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
+ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{constructor(data,show,rebuild){
+this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.whole=false;this.stretch={low:0,high:1};this.playing=false;this.
+remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){return nounOf(this.data)}controls(){const button2=(name,text,label,onclick)=>h(
+"button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));
+this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","aria-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",
+{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"tr\
+ue"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("output",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.
+addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.
+shiftKey?10*step:step)});this.steps=[button2("bm-back","","",()=>this.toPose(-1)),button2("bm-next","","",()=>this.toPose(1))];this.wholeLabel=h("label",{class:"\
+bm-whole"},this.box,this.boxName);this.nameStops();return h("div",{class:"bm-controls"},h("div",{class:"bm-track"},this.slider,this.stops),h("div",{class:"bm-ro\
+w"},this.button,this.steps,this.wholeLabel),this.readout)}nameStops(){const{stop}=this,title=stop[0].toUpperCase()+stop.slice(1);[[`◀ ${title}`,`Previous ${stop}`],
+[`${title} ▶`,`Next ${stop}`]].forEach(([text,label],k)=>{say(this.steps[k],text);put(this.steps[k],"aria-label",label);give(this.steps[k],"title",label)});give(
+this.wholeLabel,"title",`Play all that the driver reaches, not only from the first ${stop} to the last`)}load(linkage){this.linkage=linkage;const counts=linkage.
+ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){
+return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path:path2,
+slider}=this;if(!path2)this.play(false);this.nameStops();for(const each of[slider,this.button])give(each,"disabled",!path2);const last=path2?path2.x.length-1:1;
+const frames=path2?this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-
+low>LEAST_STRETCH;this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);say(this.boxName,path2?.round?"Whole turn":"Whol\
+e branch");this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,
+{low,high}=this.stretch;stops.replaceChildren();if(!path2)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-
+2*inset);const known=this.stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.
+data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({x,text:shortened(poseName2(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=
+0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.label})),width,rows.length>MANY_POSES2?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s(
+"g",{"data-pose":k+1},s("title",{},calledOf(pose)),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].
+at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"\
+middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;
+if(on===this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(
+on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)
+return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=
+requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.
+goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,
+high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
+0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.
+u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*
+Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.
+high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.
+atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.
+play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.
+linkage,this.path,u,this.data.chart.length)}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.
+a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)
+[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2}=this;if(!path2){for(const part of this.parts)part.textContent="";return}const place=this.
+placeAt(this.u);const drive=linear(path2.drive,this.u),transmission=place.transmission??linear(path2.transmission,this.u);const near2=this.atPose=this.nearest(place);
+if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,"value",this.u);this.tell(place,drive,transmission,
+near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.
+unit?` ${data.unit}`:""}`:`${fixed(drive,1)}°`}tell(place,drive,transmission,near2){const{data,linkage}=this;const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(
+data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(
+Math.hypot(place.x-pose.x,place.y-pose.y))}${unit2} from ${calledOf(pose)}`;const missed2=()=>`at ${calledOf(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(
+row.said.position,row.said.turned,unit2)}`;const said=!pose?"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}\
+, ${fixed(place.y,digits)})${unit2}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}\
+°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.
+slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*
+text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/
+2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?
+"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
 !linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=linkage.
 pose_errors.map(()=>null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,led,piece,
 chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.ways[row.
@@ -1580,39 +1591,40 @@ event.ctrlKey||event.metaKey||event.altKey)return;event.preventDefault();event.s
 this.turn.above,-1.5,1.5);this.turn.zoom=clamp(this.turn.zoom,.6,4);cancelAnimationFrame(this.waiting);this.waiting=requestAnimationFrame(()=>this.draw(turning))}point(place){
 const{chart}=this.data,{centre,half}=this.space;const x=(place.x-chart.origin[0])/chart.length,y=(place.y-chart.origin[1])/chart.length;const t=Math.tan((place.
 a-chart.angle)/2);return[(x*t-y)/2,(x+y*t)/2,t].map((value,k)=>(value-centre[k])/half[k])}build(linkage,index,quick=false){this.linkage=linkage;this.space=linkage?.
-space??this.data.space;this.poses=this.data.poses.map(pose=>this.point({x:pose.x,y:pose.y,a:radians(pose.angle_deg)}));this.curves=(linkage?.ways??[]).map((way,k)=>({
-here:k===index,points:Array.from(way.x,(x,i)=>this.point({x,y:way.y[i],a:way.angle[i]}))}));const{centre,half}=this.space;const angleOf=q=>degrees(2*Math.atan(centre[2]+
-half[2]*q)+this.data.chart.angle);this.marks=angleTicks(angleOf(-1),angleOf(1),7);const width=Math.max(240,this.parent.clientWidth);this.width=width;this.height=
-Math.round(clamp(.8*width,240,520));this.svg.setAttribute("viewBox",`0 0 ${width} ${this.height}`);this.box.style.height=`${this.height}px`;this.draw(quick)}camera(){
-const{around:around3,above,zoom}=this.turn;const ahead=[-Math.cos(above)*Math.sin(around3),Math.cos(above)*Math.cos(around3),-Math.sin(above)];const right=[Math.
-cos(around3),Math.sin(around3),0];const up=cross2(right,ahead);const eye=scaled(ahead,-EYE_DISTANCE);const least2=Math.min(this.width,this.height);const focal=least2/
-2*FOCAL_LENGTH*zoom*1.02;return{ahead,right,up,eye,focal,reach:[this.width/2/focal,this.height/2/focal]}}draw(turning){this.view=this.camera();const scene=this.
-sceneOf(this.view);if(this.shader)this.shader.draw(scene,this,turning);else drawStill(this.canvas,scene,this,turning);this.overlay();if(this.place)this.show(this.
-place)}sceneOf(camera){const style=getComputedStyle(this.parent);const paint=["--bm-driver-solid","--bm-follower-solid"].map(name=>rgb(style.getPropertyValue(name)).
-map(v=>v/255));return{...camera,paint,quadrics:this.space.quadrics,angles:this.angles()}}angles(){const{centre,half}=this.space,{marks}=this;const step=marks.length>
-1?radians(marks[1].at-marks[0].at):Math.PI;return[centre[2],half[2],this.data.chart.angle,step]}project(point2){const{eye,ahead,right,up,focal}=this.view;const to=[
-0,1,2].map(k=>point2[k]-eye[k]),depth=dot(to,ahead);return[this.width/2+focal*dot(to,right)/depth,this.height/2-focal*dot(to,up)/depth]}sheetsBefore(point2){const to=plus(
-this.view.eye,scaled(point2,-1)),d=unit(to);let leave=Infinity;for(let k=0;k<3;k+=1)leave=Math.min(leave,((d[k]>0?1:-1)-point2[k])/d[k]);let count=0;for(const c of this.
-space.quadrics)for(const t of intersections(c,point2,d))if(t>.02&&t<leave)count+=1;return count}overlay(){const{svg}=this;const back2=this.view.ahead.map(value=>value>
-0?1:-1);svg.replaceChildren(...this.edges(back2),...this.axisNames(back2),...this.angleMarks(),...this.motions());this.images();this.runner=s("circle",{class:"b\
-m-runner",r:6,visibility:"hidden"});svg.append(this.runner)}edges(back2){let front="",behind="";for(let axis=0;axis<3;axis+=1){for(const[b,c]of[[-1,-1],[-1,1],[
-1,-1],[1,1]]){const one=[0,0,0],[j,k]=[(axis+1)%3,(axis+2)%3];[one[j],one[k],one[axis]]=[b,c,-1];const other=[...one];other[axis]=1;const d=`M${this.project(one).
-map(px).join(" ")}L${this.project(other).map(px).join(" ")}`;if(b===back2[j]&&c===back2[k])behind+=d;else front+=d}}return[s("path",{class:"bm-box bm-behind",d:behind}),
-s("path",{class:"bm-box",d:front})]}axisNames(back2){const name=(point2,text)=>{const[x,y]=this.project(point2),[cx,cy]=[x-this.width/2,y-this.height/2];const size2=Math.
-hypot(cx,cy)||1;return s("text",{class:"bm-axis",x:px(x+14*cx/size2),y:px(y+14*cy/size2+4),"text-anchor":"middle"},text)};const base=this.turn.above>=0?-1:1;return[
-name([0,-back2[1],base],"Z1"),name([-back2[0],0,base],"Z2")]}angleMarks(){const upright=[[-1,-1],[-1,1],[1,-1],[1,1]].map(([a,b])=>({a,b,x:this.project([a,b,0])[0]}));
-const edge=upright.reduce((one,other)=>other.x<one.x?other:one);const{centre,half}=this.space;return this.marks.flatMap(({at,text})=>{const t=Math.tan((radians(
-at)-this.data.chart.angle)/2),q=(t-centre[2])/half[2];const[x,y]=this.project([edge.a,edge.b,q]);return[s("path",{class:"bm-box",d:`M${px(x)} ${px(y)}h-5`}),s("\
-text",{class:"bm-axis",x:px(x-8),y:px(y+4),"text-anchor":"end"},text)]})}motions(){return this.curves.flatMap(({here,points})=>{const paths=["",""];let last=null;
-for(let k=0;k<points.length;k+=1){const p=points[k];if(!inside(p)||k&&Math.hypot(...plus(p,scaled(points[k-1],-1)))>.6)last=null;if(!inside(p))continue;const at=this.
-project(p),hidden=this.sheetsBefore(p)>0?1:0;if(last)paths[hidden]+=`M${last.map(px).join(" ")}L${at.map(px).join(" ")}`;last=at}const kind=here?"bm-here":"bm-o\
-ther";return[s("path",{class:`bm-motion bm-hidden ${kind}`,d:paths[1]}),s("path",{class:`bm-motion ${kind}`,d:paths[0]})]})}images(){const{svg,data}=this;const labels=new Labels(
-{width:this.width,height:this.height});const shown2=this.poses.map((point2,k)=>({point:point2,k})).filter(({point:point2})=>inside(point2));for(const{point:point2}of shown2)
-labels.block(...this.project(point2),10,10);for(const{point:point2,k}of shown2){const[x,y]=this.project(point2),hidden=this.sheetsBefore(point2)>0;svg.append(s(
-"circle",{class:`bm-image-point${hidden?" bm-hidden":""}`,cx:px(x),cy:px(y),r:4}));if(shown2.length<=MANY_POSES3)svg.append(labels.put(x,y,data.poses[k].label,12,
-{class:"bm-image-name"}))}}hide(){this.place=null;this.runner.setAttribute("visibility","hidden")}show(place){this.place=place;const point2=this.point(place);const inside2=point2.
-every(value=>Math.abs(value)<=1.02);this.runner.setAttribute("visibility",inside2?"visible":"hidden");if(!inside2)return;const[x,y]=this.project(point2);this.runner.
-setAttribute("transform",`translate(${px(x)} ${px(y)})`)}};function coefficients(dyad,{origin,angle,length}){const c=Math.cos(angle),d=Math.sin(angle);const hand=dyad.moving_pivot&&[(c*dyad.moving_pivot[0]-d*dyad.moving_pivot[1])/
+space??this.data.space;this.poses=this.data.poses.map((pose,k)=>{const at=isPoint2(pose)?linkage?.pose_errors[k]:pose;return at&&at.x!==null?this.point({x:at.x,
+y:at.y,a:radians(at.angle_deg)}):null});this.curves=(linkage?.ways??[]).map((way,k)=>({here:k===index,points:Array.from(way.x,(x,i)=>this.point({x,y:way.y[i],a:way.
+angle[i]}))}));const{centre,half}=this.space;const angleOf=q=>degrees(2*Math.atan(centre[2]+half[2]*q)+this.data.chart.angle);this.marks=angleTicks(angleOf(-1),
+angleOf(1),7);const width=Math.max(240,this.parent.clientWidth);this.width=width;this.height=Math.round(clamp(.8*width,240,520));this.svg.setAttribute("viewBox",
+`0 0 ${width} ${this.height}`);this.box.style.height=`${this.height}px`;this.draw(quick)}camera(){const{around:around3,above,zoom}=this.turn;const ahead=[-Math.
+cos(above)*Math.sin(around3),Math.cos(above)*Math.cos(around3),-Math.sin(above)];const right=[Math.cos(around3),Math.sin(around3),0];const up=cross2(right,ahead);
+const eye=scaled(ahead,-EYE_DISTANCE);const least2=Math.min(this.width,this.height);const focal=least2/2*FOCAL_LENGTH*zoom*1.02;return{ahead,right,up,eye,focal,
+reach:[this.width/2/focal,this.height/2/focal]}}draw(turning){this.view=this.camera();const scene=this.sceneOf(this.view);if(this.shader)this.shader.draw(scene,
+this,turning);else drawStill(this.canvas,scene,this,turning);this.overlay();if(this.place)this.show(this.place)}sceneOf(camera){const style=getComputedStyle(this.
+parent);const paint=["--bm-driver-solid","--bm-follower-solid"].map(name=>rgb(style.getPropertyValue(name)).map(v=>v/255));return{...camera,paint,quadrics:this.
+space.quadrics,angles:this.angles()}}angles(){const{centre,half}=this.space,{marks}=this;const step=marks.length>1?radians(marks[1].at-marks[0].at):Math.PI;return[
+centre[2],half[2],this.data.chart.angle,step]}project(point2){const{eye,ahead,right,up,focal}=this.view;const to=[0,1,2].map(k=>point2[k]-eye[k]),depth=dot(to,ahead);
+return[this.width/2+focal*dot(to,right)/depth,this.height/2-focal*dot(to,up)/depth]}sheetsBefore(point2){const to=plus(this.view.eye,scaled(point2,-1)),d=unit(to);
+let leave=Infinity;for(let k=0;k<3;k+=1)leave=Math.min(leave,((d[k]>0?1:-1)-point2[k])/d[k]);let count=0;for(const c of this.space.quadrics)for(const t of intersections(
+c,point2,d))if(t>.02&&t<leave)count+=1;return count}overlay(){const{svg}=this;const back2=this.view.ahead.map(value=>value>0?1:-1);svg.replaceChildren(...this.edges(
+back2),...this.axisNames(back2),...this.angleMarks(),...this.motions());this.images();this.runner=s("circle",{class:"bm-runner",r:6,visibility:"hidden"});svg.append(
+this.runner)}edges(back2){let front="",behind="";for(let axis=0;axis<3;axis+=1){for(const[b,c]of[[-1,-1],[-1,1],[1,-1],[1,1]]){const one=[0,0,0],[j,k]=[(axis+1)%
+3,(axis+2)%3];[one[j],one[k],one[axis]]=[b,c,-1];const other=[...one];other[axis]=1;const d=`M${this.project(one).map(px).join(" ")}L${this.project(other).map(px).
+join(" ")}`;if(b===back2[j]&&c===back2[k])behind+=d;else front+=d}}return[s("path",{class:"bm-box bm-behind",d:behind}),s("path",{class:"bm-box",d:front})]}axisNames(back2){
+const name=(point2,text)=>{const[x,y]=this.project(point2),[cx,cy]=[x-this.width/2,y-this.height/2];const size2=Math.hypot(cx,cy)||1;return s("text",{class:"bm-\
+axis",x:px(x+14*cx/size2),y:px(y+14*cy/size2+4),"text-anchor":"middle"},text)};const base=this.turn.above>=0?-1:1;return[name([0,-back2[1],base],"Z1"),name([-back2[0],
+0,base],"Z2")]}angleMarks(){const upright=[[-1,-1],[-1,1],[1,-1],[1,1]].map(([a,b])=>({a,b,x:this.project([a,b,0])[0]}));const edge=upright.reduce((one,other)=>other.
+x<one.x?other:one);const{centre,half}=this.space;return this.marks.flatMap(({at,text})=>{const t=Math.tan((radians(at)-this.data.chart.angle)/2),q=(t-centre[2])/
+half[2];const[x,y]=this.project([edge.a,edge.b,q]);return[s("path",{class:"bm-box",d:`M${px(x)} ${px(y)}h-5`}),s("text",{class:"bm-axis",x:px(x-8),y:px(y+4),"te\
+xt-anchor":"end"},text)]})}motions(){return this.curves.flatMap(({here,points})=>{const paths=["",""];let last=null;for(let k=0;k<points.length;k+=1){const p=points[k];
+if(!inside(p)||k&&Math.hypot(...plus(p,scaled(points[k-1],-1)))>.6)last=null;if(!inside(p))continue;const at=this.project(p),hidden=this.sheetsBefore(p)>0?1:0;if(last)
+paths[hidden]+=`M${last.map(px).join(" ")}L${at.map(px).join(" ")}`;last=at}const kind=here?"bm-here":"bm-other";return[s("path",{class:`bm-motion bm-hidden ${kind}`,
+d:paths[1]}),s("path",{class:`bm-motion ${kind}`,d:paths[0]})]})}images(){const{svg,data}=this;const labels=new Labels({width:this.width,height:this.height});const shown2=this.
+poses.map((point2,k)=>({point:point2,k})).filter(({point:point2})=>point2&&inside(point2));for(const{point:point2}of shown2)labels.block(...this.project(point2),
+10,10);for(const{point:point2,k}of shown2){const[x,y]=this.project(point2),hidden=this.sheetsBefore(point2)>0;svg.append(s("circle",{class:`bm-image-point${hidden?
+" bm-hidden":""}`,cx:px(x),cy:px(y),r:4}));if(shown2.length<=MANY_POSES3&&isNamed(data,k))svg.append(labels.put(x,y,data.poses[k].label,12,{class:"bm-image-name"}))}}hide(){
+this.place=null;this.runner.setAttribute("visibility","hidden")}show(place){this.place=place;const point2=this.point(place);const inside2=point2.every(value=>Math.
+abs(value)<=1.02);this.runner.setAttribute("visibility",inside2?"visible":"hidden");if(!inside2)return;const[x,y]=this.project(point2);this.runner.setAttribute(
+"transform",`translate(${px(x)} ${px(y)})`)}};function coefficients(dyad,{origin,angle,length}){const c=Math.cos(angle),d=Math.sin(angle);const hand=dyad.moving_pivot&&[(c*dyad.moving_pivot[0]-d*dyad.moving_pivot[1])/
 length,(d*dyad.moving_pivot[0]+c*dyad.moving_pivot[1])/length];const foot2=dyad.fixed_pivot&&dyad.fixed_pivot.map((value,k)=>(value-origin[k])/length);if(dyad.kind===
 "RR"){const[x,y]=hand,[xc,yc]=foot2,squared=(dyad.radius/length)**2/4;const s1=-(x+xc)/2,s2=-(y+yc)/2,t1=-(y-yc)/2,t2=(x-xc)/2;return[1,s1*s1+s2*s2-squared,2*s1,
 2*s2,2*t1,2*t2,2*(s1*t1+s2*t2),t1*t1+t2*t2-squared]}const normal=radians(dyad.line.normal_deg);if(dyad.kind==="PR"){const n=[Math.cos(normal),Math.sin(normal)];
@@ -1630,8 +1642,8 @@ this.space.show(place)});new ResizeObserver(()=>this.ask()).observe(fill);watch(
 dyads;return linkage?.led??[]}build(quick){const{answers,playing,space,dyads}=this,{data}=answers,{linkage}=playing;if(!data.poses.length)return;const box=linkage?.
 space??data.space;const quadrics=dyads.map(dyad=>quadricOf(dyad,data.chart,box));if(quadrics.length===1)quadrics.push(quadrics[0]);const shown2={...linkage&&!linkage.
 gone?linkage:{ways:[],led:dyads},space:{...box,quadrics}};const key=dyads.map(dyad=>dyad.id).join();if(key!==this.told){this.told=key;this.story.replaceChildren(
-...spaceStory(linkage&&dyads.length===2?{led:dyads}:null))}space.build(shown2,playing.player.way,quick);if(playing.path&&playing.here)space.show(playing.here.place);else
-space.hide()}};var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);
+...spaceStory(data,linkage&&dyads.length===2?{id:linkage.id,led:dyads}:null))}space.build(shown2,playing.player.way,quick);if(playing.path&&playing.here)space.show(
+playing.here.place);else space.hide()}};var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);
 function addResults(store,scene,{player,results,panels}){const answers=new Answers(store),playing=new Playing(store,answers);const live=new LiveLinkage(answers,
 playing,scene),surface=new PivotSurface(store,answers,playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(answers,playing,
 scene);const cards=new Results(store,answers),charts=new Charts(answers,playing),space=new SpacePanel(answers,playing);const cognates=new CognatePanel(store,answers);

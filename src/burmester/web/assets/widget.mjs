@@ -85,6 +85,9 @@ function runs(numbers, names) {
 }
 
 // src/burmester/web/widget/tables.mjs
+var MOST_NAMES = 24;
+var NAME_STEP = 5;
+var MOST_ROWS = 40;
 var NONE = "–";
 function table(caption, heads, rows, attributes) {
   return h(
@@ -99,6 +102,11 @@ function table(caption, heads, rows, attributes) {
     )
   );
 }
+function longTable(caption, heads, rows, attributes) {
+  const first = table(caption, heads, rows.slice(0, MOST_ROWS), attributes), others = rows.slice(MOST_ROWS);
+  if (!others.length) return first;
+  return h("div", { class: "bm-long" }, first, h("details", { class: "bm-every" }, h("summary", {}, `${others.length} more`), table(`${caption}, from ${MOST_ROWS + 1}`, heads, others, attributes)));
+}
 var cells = (values, words = [], heads = []) => values.map(
   (value, k) => k === 0 ? h("th", { scope: "row" }, value) : h("td", { class: classes(words.includes(k) && "bm-words", (value ?? NONE) === NONE && "bm-none"), "data-head": heads[k]?.name ?? heads[k] }, value ?? NONE)
 );
@@ -106,21 +114,27 @@ var classes = (...names) => names.filter(Boolean).join(" ") || null;
 var unitOf = (data) => data.unit ? ` (${data.unit})` : "";
 var decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)), 0, 12);
 var poseName = (pose) => pose.label === pose.name ? pose.name : `${pose.label}: ${pose.name}`;
+var isPoint = (pose) => pose.angle_deg === null;
+var nounOf = ({ poses }) => poses.length && poses.every(isPoint) ? "point" : "pose";
+var isNamed = ({ path, poses }, k) => !path || poses.length <= MOST_NAMES || k === 0 || (k + 1) % NAME_STEP === 0;
+var calledOf = (pose) => `${isPoint(pose) ? "point" : "pose"} ${poseName(pose)}`;
 var shortened = (text, most) => text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
 function missOf(position, angle, unit2) {
-  if (position === "exact" && angle === "exact") return "exact";
   if (position === "-") return "–";
-  return `${position}${position === "exact" ? "" : unit2} and ${angle}`;
+  const [away, ...share] = position.split(" (");
+  const length = [away === "exact" ? away : `${away}${unit2}`, ...share].join(" (");
+  return angle === "free" || position === "exact" && angle === "exact" ? length : `${length} and ${angle}`;
 }
 function verdictOf(linkage) {
   return linkage.usable ? "✓ usable" : "✕ not usable";
 }
 function dyadTable(data) {
-  const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, "rms miss", "worst miss"];
+  const misses = data.poses.some(isPoint) ? [] : ["rms miss", "worst miss"];
+  const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, ...misses];
   const rows = data.dyads.map(
-    (dyad) => h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1], heads))
+    (dyad) => h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, ...misses.length ? [dyad.said.rms, dyad.said.worst] : []], [1], heads))
   );
-  return table(data.dyads_title, heads, rows, { class: "bm-stacks" });
+  return longTable(data.dyads_title, heads, rows, { class: "bm-stacks" });
 }
 function linkageTable(data) {
   const names = ["ground", "driver", "coupler", "follower"];
@@ -132,7 +146,7 @@ function linkageTable(data) {
     { name: "driver", text: true },
     ...names.map((name) => `${name} link`),
     "worst miss",
-    "worst angle",
+    ...nounOf(data) === "point" ? [] : ["worst angle"],
     "least transm.",
     "extent",
     "sens.",
@@ -151,18 +165,18 @@ function linkageTable(data) {
           each.led[0].id,
           ...names.map((name) => each.said.links?.[name] ?? "–"),
           each.said.worst,
-          each.said.angle,
+          ...nounOf(data) === "point" ? [] : [each.said.angle],
           each.said.transmission,
           each.said.quality.extent?.split(" ")[0] ?? "–",
           each.said.quality.sensitivity ?? "–",
           each.said.reasons.join("; ") || "–"
         ],
-        [1, 2, 3, 4, 14],
+        [1, 2, 3, 4, heads.length - 1],
         heads
       )
     )
   );
-  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
+  return longTable(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
 }
 function dimensionRows(linkage) {
   const uncertain = linkage.said.dimensions.some((row) => row.give);
@@ -190,15 +204,16 @@ function dimensionTable(data, linkage) {
   );
 }
 function poseTable(data, linkage) {
-  const digits = decimalsOf(data), unit2 = unitOf(data);
-  const heads = ["pose", `wanted x`, `y${unit2}`, "angle"];
-  if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", "turned by", "transm.", { name: "where", text: true });
+  const digits = decimalsOf(data), unit2 = unitOf(data), noun = nounOf(data), turned = noun !== "point";
+  const ifTurned = (value) => turned ? [value] : [];
+  const heads = [noun, `wanted x`, `y${unit2}`, ...ifTurned("angle")];
+  if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", ...ifTurned("turned by"), "transm.", { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
       poseName(pose) + (pose.exact ? " (exact)" : ""),
       fixed(pose.x, digits),
       fixed(pose.y, digits),
-      pose.angle_deg === null ? "free" : `${fixed(pose.angle_deg, 2)}°`
+      ...ifTurned(isPoint(pose) ? "free" : `${fixed(pose.angle_deg, 2)}°`)
     ];
     if (linkage) {
       const row = linkage.pose_errors[k];
@@ -207,28 +222,29 @@ function poseTable(data, linkage) {
         fixed(row.y, digits),
         row.angle_deg === null ? "–" : `${fixed(row.angle_deg, 2)}°`,
         row.said.position,
-        row.said.turned,
+        ...ifTurned(row.said.turned),
         row.said.transmission,
         row.way === null ? "–" : wayName(linkage.ways[row.way], linkage)
       );
     }
-    return h("tr", { "data-pose": k + 1 }, cells(values, [10]));
+    return h("tr", { "data-pose": k + 1 }, cells(values, [heads.length - 1]));
   });
-  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
+  const what = turned ? "Poses" : "Points";
+  return table(linkage ? `${what}, and where ${linkage.id} takes the body` : what, heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
 }
 function imageTables(data, linkage) {
   const digits = decimalsOf(data);
-  const rows = data.poses.map((pose) => {
+  const rows = data.poses.filter((pose) => !isPoint(pose)).map((pose) => {
     const c = Math.cos(pose.angle_deg * Math.PI / 360), d = Math.sin(pose.angle_deg * Math.PI / 360);
     const z = [(pose.x * d - pose.y * c) / 2, (pose.x * c + pose.y * d) / 2, d, c];
     return h("tr", {}, cells([pose.label, ...z.map((value, k) => fixed(value, k < 2 ? digits : 5))]));
   });
-  const points = table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`, ["pose", "Z1", "Z2", "Z3", "Z4"], rows);
-  if (!linkage) return [points];
+  const points = rows.length ? [table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`, ["pose", "Z1", "Z2", "Z3", "Z4"], rows)] : [];
+  if (!linkage) return points;
   const surfaces = linkage.led.map((dyad, k) => h("tr", {}, cells([dyad.id, ...linkage.said.manifolds[k]])));
   const heads = ["", ...[1, 2, 3, 4, 5, 6, 7, 8].map((k) => `p${k}`)];
   const caption = "Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";
-  return [points, table(caption, heads, surfaces)];
+  return [...points, table(caption, heads, surfaces)];
 }
 function wayName(way, linkage) {
   const circuits = new Set(linkage.ways.map((each) => each.circuit)).size;
@@ -650,8 +666,6 @@ var ROW = 13;
 var LONGEST_TICK = 18;
 var STEPS = 360;
 var Player = class {
-  static STOP = "pose";
-  // what a place to stop at is called
   constructor(data, show, rebuild) {
     this.data = data;
     this.draw = { show, rebuild };
@@ -669,8 +683,11 @@ var Player = class {
   get path() {
     return this.linkage?.ways[this.way];
   }
+  /** What a place to stop at is called. */
+  get stop() {
+    return nounOf(this.data);
+  }
   controls() {
-    const stop = this.constructor.STOP, title = stop[0].toUpperCase() + stop.slice(1);
     const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
     this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
     this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
@@ -685,6 +702,9 @@ var Player = class {
       event.preventDefault();
       this.step(event.shiftKey ? 10 * step : step);
     });
+    this.steps = [button("bm-back", "", "", () => this.toPose(-1)), button("bm-next", "", "", () => this.toPose(1))];
+    this.wholeLabel = h("label", { class: "bm-whole" }, this.box, this.boxName);
+    this.nameStops();
     return h(
       "div",
       { class: "bm-controls" },
@@ -693,12 +713,21 @@ var Player = class {
         "div",
         { class: "bm-row" },
         this.button,
-        button("bm-back", `◀ ${title}`, `Previous ${stop}`, () => this.toPose(-1)),
-        button("bm-next", `${title} ▶`, `Next ${stop}`, () => this.toPose(1)),
-        h("label", { class: "bm-whole", title: `Play all that the driver reaches, not only from the first ${stop} to the last` }, this.box, this.boxName)
+        this.steps,
+        this.wholeLabel
       ),
       this.readout
     );
+  }
+  /** What the buttons call the places to stop at. */
+  nameStops() {
+    const { stop } = this, title = stop[0].toUpperCase() + stop.slice(1);
+    [[`◀ ${title}`, `Previous ${stop}`], [`${title} ▶`, `Next ${stop}`]].forEach(([text, label], k) => {
+      say(this.steps[k], text);
+      put(this.steps[k], "aria-label", label);
+      give(this.steps[k], "title", label);
+    });
+    give(this.wholeLabel, "title", `Play all that the driver reaches, not only from the first ${stop} to the last`);
   }
   /** Another linkage, on the way with most poses, at the first of them. */
   load(linkage) {
@@ -723,6 +752,7 @@ var Player = class {
   rebuild() {
     const { path, slider } = this;
     if (!path) this.play(false);
+    this.nameStops();
     for (const each of [slider, this.button]) give(each, "disabled", !path);
     const last = path ? path.x.length - 1 : 1;
     const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
@@ -751,7 +781,7 @@ var Player = class {
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
     const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES ? 1 : NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
-    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
+    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, calledOf(pose)), ...parts);
     rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
     rows.forEach(({ k, pose }, i) => {
       const { at, middle, text } = texts[i];
@@ -882,8 +912,8 @@ var Player = class {
     const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data), driver = this.driverText(drive);
     const pose = data.poses[near2], row = linkage.pose_errors[near2];
     const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
-    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from pose ${poseName(pose)}`;
-    const missed = () => `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
+    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from ${calledOf(pose)}`;
+    const missed = () => `at ${calledOf(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
     const said = !pose ? "between the poses" : at ? missed() : away();
     const texts = [
       `driver ${driver}`,
@@ -919,7 +949,9 @@ function icon(pause) {
 // src/burmester/web/widget/generator_player.mjs
 var near = (angle, other) => angle - 360 * Math.round((angle - other) / 360);
 var GeneratorPlayer = class extends Player {
-  static STOP = "place";
+  get stop() {
+    return "place";
+  }
   constructor(data, show, rebuild, generator) {
     super(data, show, rebuild);
     this.generator = generator;
@@ -1139,18 +1171,18 @@ var MOST_PLACES = 400;
 var patterns = 0;
 var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
 var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
-var placesAtPoses = (data, linkage) => data.poses.map((pose, k) => {
+var placesAtPoses = (data, linkage) => data.poses.flatMap((pose, k) => {
   const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
-  return { x: at.x, y: at.y, a: radians(at.angle_deg) };
+  return isPoint(at) ? [] : [{ x: at.x, y: at.y, a: radians(at.angle_deg), k }];
 });
 function ghosts(data, linkage, view) {
   const group = s("g", { class: "bm-ghosts" });
   if (!data.body) return group;
-  const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
-  places.forEach(({ x, y, a }, k) => {
+  const last = Math.max(1, data.poses.length - 1);
+  for (const { x, y, a, k } of placesAtPoses(data, linkage)) {
     const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
     group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
-  });
+  }
   return group;
 }
 function keepOut(data, view) {
@@ -1416,7 +1448,7 @@ var Plane = class {
     svg.dataset.top = view.top;
     svg.replaceChildren();
     svg.append(this.grid(), keepOut(data, view), this.ghosts());
-    if (linkage) svg.append(this.paths());
+    svg.append(...[this.wantedPath(), linkage ? this.paths() : null].filter(Boolean));
     const labels = new Labels(view);
     this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
     if (linkage) svg.append(this.ground(labels));
@@ -1424,6 +1456,7 @@ var Plane = class {
       const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
       const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
       labels.block(x, y, 12, 12);
+      if (isPoint(pose)) continue;
       for (const share of [0.35, 0.65, 1]) {
         labels.block(x + share * c, y - share * d, 6, 6);
         labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
@@ -1548,7 +1581,17 @@ var Plane = class {
       );
     });
   }
-  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */
+  /** The path that is to be traced, straight from point to point. */
+  wantedPath() {
+    const { data, view } = this;
+    if (!data.path) return null;
+    const points = data.poses.map(({ x, y }) => [x, y]);
+    return s("path", { class: "bm-wanted-path", d: `${polyline(points, view)}${data.path.closed ? "Z" : ""}` });
+  }
+  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged.
+   *
+   * At a point there are no axes: how the body turns there is not asked for.
+   */
   poses(linkage, factor, labels) {
     const { data, view } = this, group = s("g", { class: "bm-poses" });
     const small = data.poses.length > 24 ? 0.6 : 1;
@@ -1559,12 +1602,12 @@ var Plane = class {
       group.append(
         s(
           "g",
-          { class: "bm-wanted", transform: transform(x, y, radians(pose.angle_deg)), "data-pose": k + 1 },
-          s("path", { d: axes(AXIS * small) }),
+          { class: "bm-wanted", transform: transform(x, y, isPoint(pose) ? 0 : radians(pose.angle_deg)), "data-pose": k + 1 },
+          isPoint(pose) ? null : s("path", { d: axes(AXIS * small) }),
           s("circle", { r: 4.5 * small })
         )
       );
-      if (data.poses.length <= 60) names.append(labels.put(x, y, pose.label, 13, {}));
+      if (data.poses.length <= 60 && isNamed(data, k)) names.append(labels.put(x, y, pose.label, 13, {}));
       const row = linkage?.pose_errors[k];
       if (!row || row.x === null) return;
       const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
@@ -1572,7 +1615,7 @@ var Plane = class {
         s(
           "g",
           { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
-          s("path", { d: axes(0.72 * AXIS * small) }),
+          isPoint(pose) ? null : s("path", { d: axes(0.72 * AXIS * small) }),
           s("circle", { r: 2.2 * small })
         )
       );
@@ -1613,9 +1656,9 @@ function storyOf(linkage) {
   return linkage.usable ? `${met}, driven by ${linkage.led[0].id}.` : `Not usable: it ${said.in_short}.`;
 }
 function wayStory(way, poses) {
-  const names = poses.map((pose) => pose.label);
+  const noun = nounOf({ poses }), names = poses.map((pose) => pose.label);
   const all = way.poses.length === names.length;
-  const here = all ? "all poses" : way.poses.length ? `pose${way.poses.length > 1 ? "s" : ""} ${runs(way.poses, names)}` : "no pose";
+  const here = all ? `all ${noun}s` : way.poses.length ? `${noun}${way.poses.length > 1 ? "s" : ""} ${runs(way.poses, names)}` : `no ${noun}`;
   const dead = way.dead.filter(Boolean).length;
   const ends = way.round ? "turns round" : dead === 2 ? "between two dead points" : dead ? "up to a dead point" : "open";
   return `${here}; ${ends}`;
@@ -1634,8 +1677,11 @@ function factsOf(data, linkage) {
   ];
   return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
-function spaceStory(linkage) {
-  const plain = "Every place of the body is one point of this space; numbered points are the poses.";
+function spaceStory(data, linkage) {
+  const some = data.poses.some(isPoint), every = nounOf(data) === "point";
+  const taken = some && linkage ? `the places that ${linkage.id} takes at ${every ? "the" : "its"} points` : "";
+  const marked = [every ? "" : "the poses", taken].filter(Boolean).join(" and ");
+  const plain = `Every place of the body is one point of this space${marked ? `; numbered points are ${marked}` : ""}.`;
   if (!linkage) return [plain];
   const surface = (side) => h("b", { class: `bm-side${side}` }, linkage.led[side].id);
   return [plain, " The surfaces are all places that dyad ", surface(0), " (driver) and dyad ", surface(1), " (follower) allow; where they meet, the line, the coupler moves."];
@@ -1643,10 +1689,15 @@ function spaceStory(linkage) {
 function keyOf(data, hasLinkages) {
   const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
   const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
-  const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
+  const posed = data.poses.some((pose) => !isPoint(pose)) || !data.poses.length, some = data.poses.some(isPoint);
+  const frame = (name, axis, r, text) => posed ? [one(s("g", { class: name }, s("path", { d: axes(axis) }), s("circle", { r })), text)] : [];
+  const dot3 = (name, r, text) => some ? [one(s("g", { class: name }, s("circle", { cx: 11, cy: -3, r })), text)] : [];
+  const items = [...frame("bm-wanted", 22, 4, "wanted pose"), ...dot3("bm-wanted", 4, "wanted point")];
+  if (data.path) items.push(one(s("path", { class: "bm-wanted-path", d: "M-2 2C6 -16 18 -10 28 -4" }), "wanted path"));
   if (hasLinkages) {
     items.push(
-      one(s("g", { class: "bm-achieved" }, s("path", { d: axes(17) }), s("circle", { r: 2.2 })), "achieved pose"),
+      ...frame("bm-achieved", 17, 2.2, "achieved pose"),
+      ...dot3("bm-achieved", 2.2, "achieved point"),
       one(s("g", { class: "bm-errors" }, s("path", { d: "M0 0L22 -6L15 -7.5M22 -6L17 -0.8" })), "error, enlarged"),
       one(link(0), "driver (filled)"),
       one(link(1), "follower (hollow)"),
@@ -2428,7 +2479,10 @@ var ImageSpace = class {
   build(linkage, index, quick = false) {
     this.linkage = linkage;
     this.space = linkage?.space ?? this.data.space;
-    this.poses = this.data.poses.map((pose) => this.point({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
+    this.poses = this.data.poses.map((pose, k) => {
+      const at = isPoint(pose) ? linkage?.pose_errors[k] : pose;
+      return at && at.x !== null ? this.point({ x: at.x, y: at.y, a: radians(at.angle_deg) }) : null;
+    });
     this.curves = (linkage?.ways ?? []).map((way, k) => ({
       here: k === index,
       points: Array.from(way.x, (x, i) => this.point({ x, y: way.y[i], a: way.angle[i] }))
@@ -2565,12 +2619,12 @@ var ImageSpace = class {
   images() {
     const { svg, data } = this;
     const labels = new Labels({ width: this.width, height: this.height });
-    const shown = this.poses.map((point, k) => ({ point, k })).filter(({ point }) => inside(point));
+    const shown = this.poses.map((point, k) => ({ point, k })).filter(({ point }) => point && inside(point));
     for (const { point } of shown) labels.block(...this.project(point), 10, 10);
     for (const { point, k } of shown) {
       const [x, y] = this.project(point), hidden = this.sheetsBefore(point) > 0;
       svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));
-      if (shown.length <= MANY_POSES2) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
+      if (shown.length <= MANY_POSES2 && isNamed(data, k)) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
     }
   }
   /** No place of the body is known. */
@@ -2835,7 +2889,7 @@ var Plots = class {
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME2).length));
     this.top = TOP2 + (upright ? 6.2 * longest + 6 : 0);
-    const height = this.top + this.constructor.HEIGHT + BOTTOM2;
+    const height = this.top + this.height + BOTTOM2;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
@@ -2855,10 +2909,15 @@ var Plots = class {
     this.cursor.append(this.mark);
     svg.append(this.cursor);
   }
+  /** The height of all panels; points alone have no angle errors. */
+  get height() {
+    return this.constructor.HEIGHT - (nounOf(this.data) === "point" ? PANEL + GAP2 : 0);
+  }
   /** Draw the panels; returns the base of the last one. */
   panels(rows, unit2) {
     this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * this.data.scene);
-    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
+    if (nounOf(this.data) === "point") return this.transmission(1, rows);
+    this.errors(1, "angle error (°)", rows.filter(({ pose }) => !isPoint(pose)), (row) => row.turned_deg, 1e-9);
     return this.transmission(2, rows);
   }
   /** The errors of the poses as stems; below `rounding` they are zero. */
@@ -2870,7 +2929,7 @@ var Plots = class {
     const Y = (v) => base - v / high * PANEL;
     this.panel(title, y0, base);
     if (!visible) {
-      svg.append(s("text", { class: "bm-note", x: LEFT2 + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : "no pose is on this assembly"));
+      svg.append(s("text", { class: "bm-note", x: LEFT2 + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : `no ${nounOf(this.data)} is on this assembly`));
     } else {
       for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
       svg.append(s("text", { class: "bm-tick", x: LEFT2 - 6, y: base + 4, "text-anchor": "end" }, "0"));
@@ -2881,7 +2940,7 @@ var Plots = class {
       const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
       svg.append(
         s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
-        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${poseName(row.pose)}: ${figure(value(row))}`))
+        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `${calledOf(row.pose)}: ${figure(value(row))}`))
       );
       const { label } = row.pose;
       if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES3 || greatestThree.has(row))) {
@@ -3023,7 +3082,7 @@ var Report = class {
     const family = data.family_map ? this.familyMap() : null;
     main.append(...this.family?.isCurve ? [family, this.imageSpace()] : [this.imageSpace(), ...family ? [family] : []]);
     if (data.pivot_map) main.append(this.pivotMap());
-    this.poses = section("pose-box", "Pose by pose");
+    this.poses = section("pose-box", nounOf(data) === "point" ? "Point by point" : "Pose by pose");
     main.append(this.poses);
     if (linkages.length) main.append(section("all", "All linkages", linkageTable(data), this.everyDimension()));
     if (data.dyads.length) main.append(section("dyads", "Dyads", dyadTable(data)));
@@ -3132,7 +3191,7 @@ var Report = class {
     }
     this.poses.replaceChildren(this.poses.querySelector("h2"), poseTable(data, linkage));
     this.rows = [...this.poses.querySelectorAll("tbody tr")];
-    this.spaceStory.replaceChildren(...spaceStory(linkage));
+    this.spaceStory.replaceChildren(...spaceStory(data, linkage));
     this.spaceNumbers.replaceChildren(this.spaceNumbers.firstChild, ...imageTables(data, linkage));
     this.draw();
   }

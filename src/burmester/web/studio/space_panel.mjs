@@ -50,7 +50,7 @@ export class SpacePanel {
     const key = dyads.map((dyad) => dyad.id).join();
     if (key !== this.told) {
       this.told = key;
-      this.story.replaceChildren(...spaceStory(linkage && dyads.length === 2 ? { led: dyads } : null));
+      this.story.replaceChildren(...spaceStory(data, linkage && dyads.length === 2 ? { id: linkage.id, led: dyads } : null));
     }
     space.build(shown, playing.player.way, quick);
     if (playing.path && playing.here) space.show(playing.here.place);

@@ -10,7 +10,9 @@ import { poseName } from "./tables.mjs";
 const near = (angle, other) => angle - 360 * Math.round((angle - other) / 360);
 
 export class GeneratorPlayer extends Player {
-  static STOP = "place";
+  get stop() {
+    return "place";
+  }
 
   constructor(data, show, rebuild, generator) {
     super(data, show, rebuild);

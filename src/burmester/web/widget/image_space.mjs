@@ -5,6 +5,7 @@ import { Labels } from "./labels.mjs";
 import { angleTicks, clamp, degrees, px, radians } from "./numbers.mjs";
 import { drawStill } from "./ray_casting.mjs";
 import { Shader } from "./shader.mjs";
+import { isNamed, isPoint } from "./tables.mjs";
 import { cross, dot, intersections, plus, scaled, unit } from "./vectors.mjs";
 
 const FOCAL_LENGTH = 2.3; // halves of the box's edge, for zoom 1: the larger, the flatter
@@ -109,7 +110,10 @@ export class ImageSpace {
   build(linkage, index, quick = false) {
     this.linkage = linkage;
     this.space = linkage?.space ?? this.data.space;
-    this.poses = this.data.poses.map((pose) => this.point({ x: pose.x, y: pose.y, a: radians(pose.angle_deg) }));
+    this.poses = this.data.poses.map((pose, k) => {
+      const at = isPoint(pose) ? linkage?.pose_errors[k] : pose; // a point of the body is no point here before a linkage turns it
+      return at && at.x !== null ? this.point({ x: at.x, y: at.y, a: radians(at.angle_deg) }) : null;
+    });
     this.curves = (linkage?.ways ?? []).map((way, k) => ({
       here: k === index,
       points: Array.from(way.x, (x, i) => this.point({ x, y: way.y[i], a: way.angle[i] })),
@@ -257,12 +261,12 @@ export class ImageSpace {
   images() {
     const { svg, data } = this;
     const labels = new Labels({ width: this.width, height: this.height });
-    const shown = this.poses.map((point, k) => ({ point, k })).filter(({ point }) => inside(point));
+    const shown = this.poses.map((point, k) => ({ point, k })).filter(({ point }) => point && inside(point));
     for (const { point } of shown) labels.block(...this.project(point), 10, 10);
     for (const { point, k } of shown) {
       const [x, y] = this.project(point), hidden = this.sheetsBefore(point) > 0;
       svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));
-      if (shown.length <= MANY_POSES) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
+      if (shown.length <= MANY_POSES && isNamed(data, k)) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
     }
   }
 

@@ -4,7 +4,7 @@ import { s } from "./dom.mjs";
 import { transform } from "./drawing.mjs";
 import { act } from "./kinematics.mjs";
 import { px, radians } from "./numbers.mjs";
-import { shortened } from "./tables.mjs";
+import { isPoint, shortened } from "./tables.mjs";
 
 const HATCH = 9; // pixels between the lines of a hatch
 const PALEST = 0.45; // how strong the outline is at the first pose, of its strength at the last
@@ -21,22 +21,22 @@ const closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view
 /** The outline of the body as a path, in pixels from the origin of M. */
 export const bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
 
-/** Where the body is at every pose: the place that a linkage takes for it, or else the pose itself. */
+/** Where the body is at every pose k: the place that a linkage takes for it, or else the pose itself, if it has an angle. */
 const placesAtPoses = (data, linkage) =>
-  data.poses.map((pose, k) => {
+  data.poses.flatMap((pose, k) => {
     const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
-    return { x: at.x, y: at.y, a: radians(at.angle_deg) };
+    return isPoint(at) ? [] : [{ x: at.x, y: at.y, a: radians(at.angle_deg), k }];
   });
 
 /** The body at every pose, the paler the earlier. */
 export function ghosts(data, linkage, view) {
   const group = s("g", { class: "bm-ghosts" });
   if (!data.body) return group;
-  const places = placesAtPoses(data, linkage), last = Math.max(1, places.length - 1);
-  places.forEach(({ x, y, a }, k) => {
+  const last = Math.max(1, data.poses.length - 1);
+  for (const { x, y, a, k } of placesAtPoses(data, linkage)) {
     const opacity = (PALEST + ((1 - PALEST) * k) / last).toFixed(3);
     group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
-  });
+  }
   return group;
 }
 

@@ -7,7 +7,7 @@ import { Labels } from "./labels.mjs";
 import { mechanism } from "./mechanism.mjs";
 import { clamp, fixed, px, radians, ticks } from "./numbers.mjs";
 import { ghosts, keepOut, keepOutNames, widened } from "./outlines.mjs";
-import { decimalsOf } from "./tables.mjs";
+import { decimalsOf, isNamed, isPoint } from "./tables.mjs";
 import { railOf } from "./rail.mjs";
 import { placesOf, pointOnLine, travelOf } from "./travel.mjs";
 
@@ -67,7 +67,7 @@ export class Plane {
     svg.dataset.top = view.top;
     svg.replaceChildren();
     svg.append(this.grid(), keepOut(data, view), this.ghosts());
-    if (linkage) svg.append(this.paths());
+    svg.append(...[this.wantedPath(), linkage ? this.paths() : null].filter(Boolean));
     const labels = new Labels(view);
     this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
     if (linkage) svg.append(this.ground(labels));
@@ -75,6 +75,7 @@ export class Plane {
       const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
       const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
       labels.block(x, y, 12, 12);
+      if (isPoint(pose)) continue;
       for (const share of [0.35, 0.65, 1]) {
         labels.block(x + share * c, y - share * d, 6, 6);
         labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
@@ -211,7 +212,18 @@ export class Plane {
     });
   }
 
-  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged. */
+  /** The path that is to be traced, straight from point to point. */
+  wantedPath() {
+    const { data, view } = this;
+    if (!data.path) return null;
+    const points = data.poses.map(({ x, y }) => [x, y]);
+    return s("path", { class: "bm-wanted-path", d: `${polyline(points, view)}${data.path.closed ? "Z" : ""}` });
+  }
+
+  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged.
+   *
+   * At a point there are no axes: how the body turns there is not asked for.
+   */
   poses(linkage, factor, labels) {
     const { data, view } = this, group = s("g", { class: "bm-poses" });
     const small = data.poses.length > 24 ? 0.6 : 1;
@@ -222,12 +234,12 @@ export class Plane {
       group.append(
         s(
           "g",
-          { class: "bm-wanted", transform: transform(x, y, radians(pose.angle_deg)), "data-pose": k + 1 },
-          s("path", { d: axes(AXIS * small) }),
+          { class: "bm-wanted", transform: transform(x, y, isPoint(pose) ? 0 : radians(pose.angle_deg)), "data-pose": k + 1 },
+          isPoint(pose) ? null : s("path", { d: axes(AXIS * small) }),
           s("circle", { r: 4.5 * small }),
         ),
       );
-      if (data.poses.length <= 60) names.append(labels.put(x, y, pose.label, 13, {}));
+      if (data.poses.length <= 60 && isNamed(data, k)) names.append(labels.put(x, y, pose.label, 13, {}));
       const row = linkage?.pose_errors[k];
       if (!row || row.x === null) return;
       const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
@@ -235,7 +247,7 @@ export class Plane {
         s(
           "g",
           { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
-          s("path", { d: axes(0.72 * AXIS * small) }),
+          isPoint(pose) ? null : s("path", { d: axes(0.72 * AXIS * small) }),
           s("circle", { r: 2.2 * small }),
         ),
       );

@@ -3,7 +3,7 @@
 import { give, h, put, s, say } from "./dom.mjs";
 import { linear, placeAt } from "./kinematics.mjs";
 import { clamp, degrees, figure, fixed, px, radians } from "./numbers.mjs";
-import { decimalsOf, missOf, poseName, shortened } from "./tables.mjs";
+import { calledOf, decimalsOf, missOf, nounOf, poseName, shortened } from "./tables.mjs";
 
 const TURN_SECONDS = 7; // a whole turn of the driver, or a way there and back
 const LEAST_STRETCH = 1e-6; // frames: poses closer together than that are no stretch to play
@@ -20,8 +20,6 @@ const STEPS = 360; // of a key along what is played
  * transmission angle there, and the index of the nearest pose; rebuild() draws another way.
  */
 export class Player {
-  static STOP = "pose"; // what a place to stop at is called
-
   constructor(data, show, rebuild) {
     this.data = data;
     this.draw = { show, rebuild };
@@ -41,8 +39,12 @@ export class Player {
     return this.linkage?.ways[this.way];
   }
 
+  /** What a place to stop at is called. */
+  get stop() {
+    return nounOf(this.data);
+  }
+
   controls() {
-    const stop = this.constructor.STOP, title = stop[0].toUpperCase() + stop.slice(1);
     const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
     this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
     this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
@@ -57,6 +59,9 @@ export class Player {
       event.preventDefault();
       this.step(event.shiftKey ? 10 * step : step);
     });
+    this.steps = [button("bm-back", "", "", () => this.toPose(-1)), button("bm-next", "", "", () => this.toPose(1))];
+    this.wholeLabel = h("label", { class: "bm-whole" }, this.box, this.boxName);
+    this.nameStops();
     return h(
       "div",
       { class: "bm-controls" },
@@ -65,12 +70,22 @@ export class Player {
         "div",
         { class: "bm-row" },
         this.button,
-        button("bm-back", `◀ ${title}`, `Previous ${stop}`, () => this.toPose(-1)),
-        button("bm-next", `${title} ▶`, `Next ${stop}`, () => this.toPose(1)),
-        h("label", { class: "bm-whole", title: `Play all that the driver reaches, not only from the first ${stop} to the last` }, this.box, this.boxName),
+        this.steps,
+        this.wholeLabel,
       ),
       this.readout,
     );
+  }
+
+  /** What the buttons call the places to stop at. */
+  nameStops() {
+    const { stop } = this, title = stop[0].toUpperCase() + stop.slice(1);
+    [[`◀ ${title}`, `Previous ${stop}`], [`${title} ▶`, `Next ${stop}`]].forEach(([text, label], k) => {
+      say(this.steps[k], text);
+      put(this.steps[k], "aria-label", label);
+      give(this.steps[k], "title", label);
+    });
+    give(this.wholeLabel, "title", `Play all that the driver reaches, not only from the first ${stop} to the last`);
   }
 
   /** Another linkage, on the way with most poses, at the first of them. */
@@ -100,6 +115,7 @@ export class Player {
   rebuild() {
     const { path, slider } = this;
     if (!path) this.play(false);
+    this.nameStops();
     for (const each of [slider, this.button]) give(each, "disabled", !path);
     const last = path ? path.x.length - 1 : 1;
     const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
@@ -131,7 +147,7 @@ export class Player {
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
     const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES ? 1 : NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
-    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, `pose ${poseName(pose)}`), ...parts);
+    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, calledOf(pose)), ...parts);
     rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
     rows.forEach(({ k, pose }, i) => {
       const { at, middle, text } = texts[i];
@@ -276,8 +292,8 @@ export class Player {
     const pose = data.poses[near], row = linkage.pose_errors[near];
     const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
     // A task may lose poses before it is solved again.
-    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit} from pose ${poseName(pose)}`;
-    const missed = () => `at pose ${poseName(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit)}`;
+    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit} from ${calledOf(pose)}`;
+    const missed = () => `at ${calledOf(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit)}`;
     const said = !pose ? "between the poses" : at ? missed() : away();
     const texts = [
       `driver ${driver}`,

@@ -3,7 +3,7 @@
 import { s } from "./dom.mjs";
 import { frameAt, linear } from "./kinematics.mjs";
 import { angleTicks, clamp, figure, px, ticks } from "./numbers.mjs";
-import { poseName, shortened } from "./tables.mjs";
+import { calledOf, isPoint, nounOf, poseName, shortened } from "./tables.mjs";
 
 export const LEFT = 62, RIGHT = 14; // pixels beside the panels
 const TOP = 22, BOTTOM = 44; // pixels over and under them
@@ -52,7 +52,7 @@ export class Plots {
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
-    const height = this.top + this.constructor.HEIGHT + BOTTOM;
+    const height = this.top + this.height + BOTTOM;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
@@ -75,10 +75,16 @@ export class Plots {
     svg.append(this.cursor);
   }
 
+  /** The height of all panels; points alone have no angle errors. */
+  get height() {
+    return this.constructor.HEIGHT - (nounOf(this.data) === "point" ? PANEL + GAP : 0);
+  }
+
   /** Draw the panels; returns the base of the last one. */
   panels(rows, unit) {
     this.errors(0, `position error (${unit})`, rows, (row) => row.position, 1e-11 * this.data.scene);
-    this.errors(1, "angle error (°)", rows, (row) => row.turned_deg, 1e-9);
+    if (nounOf(this.data) === "point") return this.transmission(1, rows);
+    this.errors(1, "angle error (°)", rows.filter(({ pose }) => !isPoint(pose)), (row) => row.turned_deg, 1e-9);
     return this.transmission(2, rows);
   }
 
@@ -91,7 +97,7 @@ export class Plots {
     const Y = (v) => base - (v / high) * PANEL;
     this.panel(title, y0, base);
     if (!visible) {
-      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : "no pose is on this assembly"));
+      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : `no ${nounOf(this.data)} is on this assembly`));
     } else {
       for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
       svg.append(s("text", { class: "bm-tick", x: LEFT - 6, y: base + 4, "text-anchor": "end" }, "0"));
@@ -102,7 +108,7 @@ export class Plots {
       const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
       svg.append(
         s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
-        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `pose ${poseName(row.pose)}: ${figure(value(row))}`)),
+        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `${calledOf(row.pose)}: ${figure(value(row))}`)),
       );
       const { label } = row.pose;
       if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES || greatestThree.has(row))) {

@@ -12,7 +12,7 @@ import { FACTORS, Plane, factorFor, hasFarPivots } from "./plane.mjs";
 import { Player } from "./player.mjs";
 import { Plots } from "./plots.mjs";
 import { unfoldForPrint } from "./printing.mjs";
-import { dimensionTable, dyadTable, imageTables, linkageTable, poseTable } from "./tables.mjs";
+import { dimensionTable, dyadTable, imageTables, linkageTable, nounOf, poseTable } from "./tables.mjs";
 import { factsOf, keyOf, spaceStory, storyOf } from "./words.mjs";
 
 const REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
@@ -62,7 +62,7 @@ export class Report {
     const family = data.family_map ? this.familyMap() : null;
     main.append(...(this.family?.isCurve ? [family, this.imageSpace()] : [this.imageSpace(), ...(family ? [family] : [])]));
     if (data.pivot_map) main.append(this.pivotMap());
-    this.poses = section("pose-box", "Pose by pose");
+    this.poses = section("pose-box", nounOf(data) === "point" ? "Point by point" : "Pose by pose");
     main.append(this.poses);
     if (linkages.length) main.append(section("all", "All linkages", linkageTable(data), this.everyDimension()));
     if (data.dyads.length) main.append(section("dyads", "Dyads", dyadTable(data)));
@@ -184,7 +184,7 @@ export class Report {
     }
     this.poses.replaceChildren(this.poses.querySelector("h2"), poseTable(data, linkage));
     this.rows = [...this.poses.querySelectorAll("tbody tr")];
-    this.spaceStory.replaceChildren(...spaceStory(linkage));
+    this.spaceStory.replaceChildren(...spaceStory(data, linkage));
     this.spaceNumbers.replaceChildren(this.spaceNumbers.firstChild, ...imageTables(data, linkage));
     this.draw();
   }

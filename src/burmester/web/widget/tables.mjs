@@ -3,6 +3,9 @@
 import { h } from "./dom.mjs";
 import { clamp, fixed } from "./numbers.mjs";
 
+const MOST_NAMES = 24; // points of a path that all have names in a drawing
+const NAME_STEP = 5; // of longer paths the first has one, and then each fifth
+const MOST_ROWS = 40; // of a long table; the others are folded
 const NONE = "–"; // what stands where there is nothing
 
 /** A table that scrolls sideways.  heads: names, or { name, text } for columns of words. */
@@ -18,6 +21,13 @@ export function table(caption, heads, rows, attributes) {
       h("tbody", {}, rows),
     ),
   );
+}
+
+/** The same; of very many rows the last ones are folded. */
+function longTable(caption, heads, rows, attributes) {
+  const first = table(caption, heads, rows.slice(0, MOST_ROWS), attributes), others = rows.slice(MOST_ROWS);
+  if (!others.length) return first;
+  return h("div", { class: "bm-long" }, first, h("details", { class: "bm-every" }, h("summary", {}, `${others.length} more`), table(`${caption}, from ${MOST_ROWS + 1}`, heads, others, attributes)));
 }
 
 /** The cells of a row, the first one its head; words: columns of words; heads: for tables that stack. */
@@ -39,33 +49,48 @@ export const decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)),
 /** The number and the name of a pose, or its name alone where drawings have room for that. */
 export const poseName = (pose) => (pose.label === pose.name ? pose.name : `${pose.label}: ${pose.name}`);
 
+/** Whether a pose is a point of the body, whose angle is free. */
+export const isPoint = (pose) => pose.angle_deg === null;
+
+/** What the rows of a task are: points where no angle counts, else poses. */
+export const nounOf = ({ poses }) => (poses.length && poses.every(isPoint) ? "point" : "pose");
+
+/** Whether pose k has its name in a drawing: the points of a long path are close together. */
+export const isNamed = ({ path, poses }, k) => !path || poses.length <= MOST_NAMES || k === 0 || (k + 1) % NAME_STEP === 0;
+
+/** A pose as a sentence calls it: "pose 3", "point 4: lift". */
+export const calledOf = (pose) => `${isPoint(pose) ? "point" : "pose"} ${poseName(pose)}`;
+
 /** A text cut to a number of characters. */
 export const shortened = (text, most) => (text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text);
 
-/** A position error and an angle error in one phrase. */
+/** A position error and an angle error in one phrase; shares of tolerances stand in brackets. */
 export function missOf(position, angle, unit) {
-  if (position === "exact" && angle === "exact") return "exact";
   if (position === "-") return "–";
-  return `${position}${position === "exact" ? "" : unit} and ${angle}`;
+  const [away, ...share] = position.split(" (");
+  const length = [away === "exact" ? away : `${away}${unit}`, ...share].join(" (");
+  return angle === "free" || (position === "exact" && angle === "exact") ? length : `${length} and ${angle}`;
 }
 
 export function verdictOf(linkage) {
   return linkage.usable ? "✓ usable" : "✕ not usable";
 }
 
+/** All dyads, with their misses; of a point alone a dyad misses nothing. */
 export function dyadTable(data) {
-  const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, "rms miss", "worst miss"];
+  const misses = data.poses.some(isPoint) ? [] : ["rms miss", "worst miss"];
+  const heads = ["", { name: "kind", text: true }, "on the ground (F)", "on the body (M)", `length${unitOf(data)}`, ...misses];
   const rows = data.dyads.map((dyad) =>
-    h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst], [1], heads)),
+    h("tr", {}, cells([dyad.id, dyad.kind, dyad.said.ground, dyad.said.body, dyad.said.length, ...(misses.length ? [dyad.said.rms, dyad.said.worst] : [])], [1], heads)),
   );
-  return table(data.dyads_title, heads, rows, { class: "bm-stacks" });
+  return longTable(data.dyads_title, heads, rows, { class: "bm-stacks" });
 }
 
 export function linkageTable(data) {
   const names = ["ground", "driver", "coupler", "follower"];
   const heads = [
     "", { name: "verdict", text: true }, { name: "type", text: true }, { name: "dyads", text: true }, { name: "driver", text: true }, ...names.map((name) => `${name} link`),
-    "worst miss", "worst angle", "least transm.", "extent", "sens.", { name: "why not", text: true },
+    "worst miss", ...(nounOf(data) === "point" ? [] : ["worst angle"]), "least transm.", "extent", "sens.", { name: "why not", text: true },
   ];
   const rows = data.linkages.map((each) =>
     h(
@@ -75,15 +100,15 @@ export function linkageTable(data) {
         [
           each.id, verdictOf(each), each.type, each.dyads.map((dyad) => dyad.id).join(" "), each.led[0].id,
           ...names.map((name) => each.said.links?.[name] ?? "–"),
-          each.said.worst, each.said.angle, each.said.transmission,
+          each.said.worst, ...(nounOf(data) === "point" ? [] : [each.said.angle]), each.said.transmission,
           each.said.quality.extent?.split(" ")[0] ?? "–", each.said.quality.sensitivity ?? "–", each.said.reasons.join("; ") || "–",
         ],
-        [1, 2, 3, 4, 14],
+        [1, 2, 3, 4, heads.length - 1],
         heads,
       ),
     ),
   );
-  return table(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
+  return longTable(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
 }
 
 function dimensionRows(linkage) {
@@ -113,41 +138,44 @@ export function dimensionTable(data, linkage) {
   );
 }
 
+/** The poses, and where a linkage takes the body; of points alone without what is asked of the angle. */
 export function poseTable(data, linkage) {
-  const digits = decimalsOf(data), unit = unitOf(data);
-  const heads = ["pose", `wanted x`, `y${unit}`, "angle"];
-  if (linkage) heads.push("coupler x", `y${unit}`, "angle", "off by", "turned by", "transm.", { name: "where", text: true });
+  const digits = decimalsOf(data), unit = unitOf(data), noun = nounOf(data), turned = noun !== "point";
+  const ifTurned = (value) => (turned ? [value] : []);
+  const heads = [noun, `wanted x`, `y${unit}`, ...ifTurned("angle")];
+  if (linkage) heads.push("coupler x", `y${unit}`, "angle", "off by", ...ifTurned("turned by"), "transm.", { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
-      poseName(pose) + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), pose.angle_deg === null ? "free" : `${fixed(pose.angle_deg, 2)}°`,
+      poseName(pose) + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), ...ifTurned(isPoint(pose) ? "free" : `${fixed(pose.angle_deg, 2)}°`),
     ];
     if (linkage) {
       const row = linkage.pose_errors[k];
       values.push(
         fixed(row.x, digits), fixed(row.y, digits), row.angle_deg === null ? "–" : `${fixed(row.angle_deg, 2)}°`,
-        row.said.position, row.said.turned, row.said.transmission,
+        row.said.position, ...ifTurned(row.said.turned), row.said.transmission,
         row.way === null ? "–" : wayName(linkage.ways[row.way], linkage),
       );
     }
-    return h("tr", { "data-pose": k + 1 }, cells(values, [10]));
+    return h("tr", { "data-pose": k + 1 }, cells(values, [heads.length - 1]));
   });
-  return table(linkage ? `Poses, and where ${linkage.id} takes the body` : "Poses", heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
+  const what = turned ? "Poses" : "Points";
+  return table(linkage ? `${what}, and where ${linkage.id} takes the body` : what, heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
 }
 
-/** The image points of the poses, Z3² + Z4² = 1, and the manifolds' eight coefficients. */
+/** The image points of the poses, Z3² + Z4² = 1, and the manifolds' eight coefficients; a point of the body has none. */
 export function imageTables(data, linkage) {
   const digits = decimalsOf(data);
-  const rows = data.poses.map((pose) => {
+  const rows = data.poses.filter((pose) => !isPoint(pose)).map((pose) => {
     const c = Math.cos((pose.angle_deg * Math.PI) / 360), d = Math.sin((pose.angle_deg * Math.PI) / 360);
     const z = [(pose.x * d - pose.y * c) / 2, (pose.x * c + pose.y * d) / 2, d, c];
     return h("tr", {}, cells([pose.label, ...z.map((value, k) => fixed(value, k < 2 ? digits : 5))]));
   });
-  const points = table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`, ["pose", "Z1", "Z2", "Z3", "Z4"], rows);
-  if (!linkage) return [points];
+  const points = rows.length ? [table(`Image points of the poses${unitOf(data)}, Z3² + Z4² = 1`, ["pose", "Z1", "Z2", "Z3", "Z4"], rows)] : [];
+  if (!linkage) return points;
   const surfaces = linkage.led.map((dyad, k) => h("tr", {}, cells([dyad.id, ...linkage.said.manifolds[k]])));
   const heads = ["", ...[1, 2, 3, 4, 5, 6, 7, 8].map((k) => `p${k}`)];
   const caption = "Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";
-  return [points, table(caption, heads, surfaces)];
+  return [...points, table(caption, heads, surfaces)];
 }
 
 /** The name of a way: as short as it stays different from the others. */

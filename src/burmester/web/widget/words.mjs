@@ -3,7 +3,7 @@
 import { h, s } from "./dom.mjs";
 import { axes } from "./drawing.mjs";
 import { runs } from "./numbers.mjs";
-import { missOf, verdictOf } from "./tables.mjs";
+import { isPoint, missOf, nounOf, verdictOf } from "./tables.mjs";
 
 /** The sentence under the linkage's name. */
 export function storyOf(linkage) {
@@ -18,9 +18,9 @@ export function storyOf(linkage) {
 
 /** The poses of a way and how it ends, behind its name. */
 export function wayStory(way, poses) {
-  const names = poses.map((pose) => pose.label);
+  const noun = nounOf({ poses }), names = poses.map((pose) => pose.label);
   const all = way.poses.length === names.length;
-  const here = all ? "all poses" : way.poses.length ? `pose${way.poses.length > 1 ? "s" : ""} ${runs(way.poses, names)}` : "no pose";
+  const here = all ? `all ${noun}s` : way.poses.length ? `${noun}${way.poses.length > 1 ? "s" : ""} ${runs(way.poses, names)}` : `no ${noun}`;
   const dead = way.dead.filter(Boolean).length;
   const ends = way.round ? "turns round" : dead === 2 ? "between two dead points" : dead ? "up to a dead point" : "open";
   return `${here}; ${ends}`;
@@ -43,8 +43,11 @@ export function factsOf(data, linkage) {
 }
 
 /** What image space shows. */
-export function spaceStory(linkage) {
-  const plain = "Every place of the body is one point of this space; numbered points are the poses.";
+export function spaceStory(data, linkage) {
+  const some = data.poses.some(isPoint), every = nounOf(data) === "point";
+  const taken = some && linkage ? `the places that ${linkage.id} takes at ${every ? "the" : "its"} points` : "";
+  const marked = [every ? "" : "the poses", taken].filter(Boolean).join(" and ");
+  const plain = `Every place of the body is one point of this space${marked ? `; numbered points are ${marked}` : ""}.`;
   if (!linkage) return [plain];
   const surface = (side) => h("b", { class: `bm-side${side}` }, linkage.led[side].id);
   return [plain, " The surfaces are all places that dyad ", surface(0), " (driver) and dyad ", surface(1), " (follower) allow; where they meet, the line, the coupler moves."];
@@ -54,10 +57,15 @@ export function spaceStory(linkage) {
 export function keyOf(data, hasLinkages) {
   const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
   const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
-  const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
+  const posed = data.poses.some((pose) => !isPoint(pose)) || !data.poses.length, some = data.poses.some(isPoint);
+  const frame = (name, axis, r, text) => (posed ? [one(s("g", { class: name }, s("path", { d: axes(axis) }), s("circle", { r })), text)] : []);
+  const dot = (name, r, text) => (some ? [one(s("g", { class: name }, s("circle", { cx: 11, cy: -3, r })), text)] : []);
+  const items = [...frame("bm-wanted", 22, 4, "wanted pose"), ...dot("bm-wanted", 4, "wanted point")];
+  if (data.path) items.push(one(s("path", { class: "bm-wanted-path", d: "M-2 2C6 -16 18 -10 28 -4" }), "wanted path"));
   if (hasLinkages) {
     items.push(
-      one(s("g", { class: "bm-achieved" }, s("path", { d: axes(17) }), s("circle", { r: 2.2 })), "achieved pose"),
+      ...frame("bm-achieved", 17, 2.2, "achieved pose"),
+      ...dot("bm-achieved", 2.2, "achieved point"),
       one(s("g", { class: "bm-errors" }, s("path", { d: "M0 0L22 -6L15 -7.5M22 -6L17 -0.8" })), "error, enlarged"),
       one(link(0), "driver (filled)"),
       one(link(1), "follower (hollow)"),

@@ -1,7 +1,7 @@
 """Poses in Parquet: columns as in the header of a CSV file, and every number as it is stored.
 
-Integers, floats and decimals are numbers; text is for names alone.  A resolution is taken from
-the shortest decimals that a number can be printed with.
+Integers, floats and decimals are numbers, and so is a column without any value; text is for names
+alone.  A resolution is taken from the shortest decimals that a number can be printed with.
 The errors are those that `burmester.io.reading.poses` lists.
 """
 
@@ -164,7 +164,7 @@ def _numbers(column: Any, name: str, where: str) -> tuple[FloatArray, list[str |
             short = np.float32 if types.is_float32(kind) else np.float16
             return doubles, [None if v is None else _short(str(short(v))) for v in values]
         return doubles, [None if v is None else _short(repr(v)) for v in values]
-    if types.is_integer(kind) or types.is_decimal(kind):
+    if types.is_integer(kind) or types.is_decimal(kind) or types.is_null(kind):
         texts = [None if v is None else _short(str(v)) for v in column.to_pylist()]
         return np.array([np.nan if text is None else float(text) for text in texts]), texts
     message = f"the column {pose_table.shown(name)} holds {kind}, not numbers"

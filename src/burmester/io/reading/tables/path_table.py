@@ -1,5 +1,7 @@
 """A path as a table: points x,y in the order in which they are traced, no angle of the body.
 
+A column of angles may be there, if all of its cells are blank.
+
 A column crank_deg or crank_rad says by how much the crank has turned at each point.  The path is
 closed where its last point repeats its first.
 
@@ -48,9 +50,13 @@ _CRANK = re.compile(r"crank(?:[ _-]?angle)?[ _]*[(\[]?(deg|°|degrees|rad|radian
 
 
 class _Columns(NamedTuple):
-    """Where x, y, weight and the crank angle stand in a row, and their units."""
+    """Where x, y, weight and the crank angle stand in a row, and their units.
+
+    angle: where the angle of the body stands, which no row may have.
+    """
 
     indices: dict[str, int]
+    angle: int | None
     width: int
     separator: str
     length_unit: str | None
@@ -61,13 +67,14 @@ class _Columns(NamedTuple):
 def read_path_table(source: Source, *, closed: bool = False) -> PoseTable | None:
     """The table of a path; None where the text is none.
 
-    That is where the header has an angle of the body, or other columns than x, y, weight, numbers,
-    times and crank angles; and of fewer than LEAST_POINTS points that are neither timed nor closed.
+    That is where a row has an angle of the body, or the header other columns than x, y, weight,
+    numbers, times and crank angles; and of fewer than LEAST_POINTS points that are neither timed
+    nor closed.
     """
     lines = ROW_LINE.finditer(source.text, len(SHEET_HEAD) if source.sheet else 0)
     head = next(lines, None)
     columns = None if head is None else _columns(head[0])
-    if columns is None:
+    if columns is None or head is None or _has_angles(source.text, head.end(), columns):
         return None
     rows: list[list[float]] = []
     starts: list[re.Match[str]] = []
@@ -109,7 +116,7 @@ def read_path_table(source: Source, *, closed: bool = False) -> PoseTable | None
         Rows(np.concatenate(numbers, axis=1), (digits, 0.0), [], [], tolerances=free),
         length_unit=columns.length_unit,
         angle_unit="deg",
-        where=source.where(head.start(), len(head[0])) if head else source.label,
+        where=source.where(head.start(), len(head[0])),
         say_unit="",
         locate_row=functools.partial(_locate, source, starts),
         notes=(*source.notes, *notes),
@@ -136,13 +143,22 @@ def _columns(line: str) -> _Columns | None:
             indices[role], units[role] = k, unit
         else:
             wanted = {"x", "y"} <= indices.keys()
-            beside = indices.keys() - {"x", "y", "weight", "crank", "number", "time"}
+            beside = indices.keys() - {"x", "y", "angle", "weight", "crank", "number", "time"}
             if wanted and not beside and units["x"] == units["y"]:
                 roles: tuple[str, ...] = ("x", "y", "weight", "crank")
                 chosen = {role: indices[role] for role in roles if role in indices}
                 told = tuple(printable(names[at].strip()) for at in sorted(chosen.values()))
-                return _Columns(chosen, len(names), separator, units["x"], crank_unit, told)
+                angle, width = indices.get("angle"), len(names)
+                return _Columns(chosen, angle, width, separator, units["x"], crank_unit, told)
     return None
+
+
+def _has_angles(text: str, begin: int, columns: _Columns) -> bool:
+    """Whether some row below the header, which ends at `begin`, has an angle, or too few cells."""
+    if (angle := columns.angle) is None:
+        return False
+    rows = (split_cells(line[0], columns.separator) for line in ROW_LINE.finditer(text, begin))
+    return any(len(cells) <= angle or unquoted(cells[angle]) for cells in rows)
 
 
 def _numbers(
