@@ -162,7 +162,7 @@ def notebook(chromium, folder, code, *, width=1000, height=900, before=None, **o
         options.setdefault("reduced_motion", "reduce")
         context = chromium.new_context(viewport={"width": width, "height": height}, **options)
         context.set_default_timeout(1000 * SECONDS)
-        page, wrong = context.new_page(), []
+        page, wrong, answered = context.new_page(), [], []
         page.on("console", lambda said: wrong.append(said.text) if said.type == "error" else None)
         page.on("pageerror", lambda error: wrong.append(str(error)))
         if before:
@@ -172,14 +172,14 @@ def notebook(chromium, folder, code, *, width=1000, height=900, before=None, **o
             page.wait_for_selector(".jp-Notebook .jp-CodeCell .cm-content")
             # Before the kernel is there nothing is run; and it is to be run once.
             while not page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').count():
-                _answer_dialogs(page, wrong)
+                _answer_dialogs(page, answered)
                 page.wait_for_timeout(200)
             # It may be called idle before it takes cells: then nothing is run, and it is run again.
             prompt = page.locator(".jp-CodeCell .jp-InputPrompt").first
             end = time.monotonic() + SECONDS
             while prompt.inner_text() in ("[ ]:", ""):
                 assert time.monotonic() < end, "the cell was not run"
-                _answer_dialogs(page, wrong)
+                _answer_dialogs(page, answered)
                 try:
                     page.locator(".jp-CodeCell .cm-content").click(timeout=3000)
                 except playwright_error():
@@ -194,21 +194,21 @@ def notebook(chromium, folder, code, *, width=1000, height=900, before=None, **o
             client.load_connection_file()
             client.start_channels()
             client.wait_for_ready(timeout=SECONDS)
-            page.wrong = [each for each in wrong if not each.startswith("a dialog was")]
+            page.wrong = wrong
             yield Notebook(page, client)
             client.stop_channels()
         except Exception:
-            print(wrong)
+            print(wrong, answered)
             raise
         finally:
             context.close()
 
 
-def _answer_dialogs(page, said):
+def _answer_dialogs(page, answered):
     """Accept what JupyterLab asks, such as which kernel it is to be; what it asked is noted."""
-    for dialog in page.locator("dialog.jp-Dialog, .jp-Dialog").all():
+    for dialog in page.locator(".jp-Dialog").all():
         try:
-            said.append(f"a dialog was answered: {dialog.inner_text(timeout=1000)}")
+            answered.append(dialog.inner_text(timeout=1000))
             dialog.locator("button.jp-mod-accept").first.click(timeout=3000)
         except playwright_error():
             continue  # it has gone of itself
