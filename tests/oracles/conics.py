@@ -32,5 +32,5 @@ def in_fifty_digits(start, rows):
             ]
 
         begin = [mpmath.mpf(float(v)) for v in (*start[:4], start[4] ** 2)]
-        root = mpmath.findroot(equations, begin, tol=1e-35)
+        root = mpmath.findroot(equations, begin, tol=1e-35, maxsteps=50)
         return np.array([*(float(v) for v in root[:4]), float(mpmath.sqrt(root[4]))])

@@ -291,7 +291,8 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
     d1, d2 = (poses.translation[..., k].reshape(-1, 5)[task].astype(long) for k in (0, 1))
     angle = poses.angle.astype(long).reshape(-1, 5)
     c, s = np.cos(angle)[task], np.sin(angle)[task]
-    x, least, ends = best[run].astype(long), np.full(len(run), np.inf), np.zeros(len(run), bool)
+    x, least = best[run].astype(long), np.full(len(run), np.inf)
+    ends = failed = np.zeros(len(run), dtype=bool)
     for _ in range(SHARPENING_STEPS):
         c1, c2, m1, m2 = x.T[..., None]
         a1, a2 = c * m1 - s * m2 + (d1 - c1), s * m1 + c * m2 + (d2 - c2)
@@ -301,7 +302,9 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
         worst = np.abs(residual).max(axis=-1)
         gains = worst < least
         best[run[gains]], radius[run[gains]] = x[gains], np.sqrt(mean[gains])
-        on = np.flatnonzero(gains & ~ends)
+        # Near a double root the square of a step may be more than the residual was; the next step
+        # puts that right.
+        on = np.flatnonzero((gains | ~failed) & ~ends)
         x1, x2, cos, sin = (np.asarray(each[on], dtype=np.float64) for each in (a1, a2, c, s))
         jacobian = np.full((len(on), 5, 5), -1.0)
         jacobian[..., 0], jacobian[..., 1] = -2 * x1, -2 * x2
@@ -311,7 +314,8 @@ def _sharpened(dyads: RR, poses: Displacement, length: FloatArray) -> RR:
         if not len(on):
             break
         step = step[regular, :4]
-        run, d1, d2, c, s, least = run[on], d1[on], d2[on], c[on], s[on], worst[on]
+        run, d1, d2, c, s = run[on], d1[on], d2[on], c[on], s[on]
+        least, failed = np.minimum(worst, least)[on], ~gains[on]
         length = np.abs(step).max(axis=-1) / size[run]
         small, ends = length < MAX_SHARPENING, length < LAST_SHARPENING
         x = x[on] - np.where(small[:, None], step, 0.0)
