@@ -22,6 +22,7 @@ from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 from burmester.web.data import report_data
 from tests.oracles import printed, witness
+from tests.samples import some_of
 
 GROWTH = 1.1
 ROUNDING = 1e-14  # relative; the last bits of an error that is none
@@ -98,7 +99,9 @@ def in_another_unit(task, factor, shift):
 
 
 @pytest.mark.parametrize("name", ["ge2012-approximate", "motiongen-rrpr", "motiongen-rrrp"])
-@pytest.mark.parametrize(("factor", "shift"), [(1e-3, 0.0), (1e-9, 0.0), (1.0, 1e6), (1e5, -1e8)])
+@pytest.mark.parametrize(
+    ("factor", "shift"), some_of([(1e-9, 0.0), (1e-3, 0.0), (1e5, -1e8), (1.0, 1e6)], 2)
+)
 def test_in_any_unit_and_far_from_the_origin(name, factor, shift):
     synthesis = synthesize(in_another_unit(read_task(f"case:{name}"), factor, shift))
     assert synthesis.usable

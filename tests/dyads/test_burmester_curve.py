@@ -12,6 +12,7 @@ from burmester.dyads.burmester_curve import dyad_curve
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from tests.oracles.witness import random_four_bar, random_poses
+from tests.samples import samples
 
 
 def curve_of(rows, samples=400):
@@ -151,7 +152,7 @@ def assert_whole(rows, curve, rng, lines):
 @pytest.mark.slow
 def test_every_sample_of_two_hundred_tasks_meets_the_four_poses():
     rng = np.random.default_rng(0)
-    for _ in range(200):
+    for _ in samples(200, 60):
         rows = np.column_stack([rng.normal(size=(4, 2)) * 3, rng.uniform(-3.1, 3.1, 4)])
         size = np.ptp(rows[:, :2], axis=0).max()
         for dyads in curve_of(rows, 100).components:

@@ -24,6 +24,7 @@ from tests.oracles.bilinear_systems import (
     with_twins,
 )
 from tests.oracles.witness import random_four_bar, random_poses
+from tests.samples import some_of
 
 
 def tracked(shape, p):
@@ -59,7 +60,7 @@ def require_the_points_of_paths(shape, p, found):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
+@pytest.mark.parametrize("shape", some_of(SHAPES, 16), ids=lambda shape: shape.name)
 def test_the_points_are_those_that_paths_find(shape):
     rng = np.random.default_rng(7)
     systems = [of_poses(shape, rng) for _ in range(2)]
@@ -147,7 +148,7 @@ def test_a_soft_length_on_a_line_is_a_cubic(name):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("shape", SHAPES, ids=lambda shape: shape.name)
+@pytest.mark.parametrize("shape", some_of(SHAPES, 16), ids=lambda shape: shape.name)
 def test_minima_are_those_of_the_lagrangian_where_the_conditions_hold(shape):
     rng, n = np.random.default_rng(6), shape.unknowns
     for _ in range(4):

@@ -8,19 +8,21 @@ from burmester import Displacement, Task, synthesize
 from burmester.dyads import local_minima
 from burmester.synthesis import motion_generation
 from tests.oracles.small_turns import any_four_bar, driven, small_turn
+from tests.samples import samples
 
 
 @pytest.mark.slow
 def test_no_dyad_is_lost_in_silence():
     """Twenty-four planted four-bars, two dyads each."""
     words, carried = [], []
-    for k in range(24):
+    every = samples(24, 10)
+    for k in every:
         found, all_digits, *_ = judged(small_turn(np.random.default_rng([20, k])))
         words += found
         carried += found if all_digits else []
     assert "SILENT" not in words
     assert set(carried) <= {"listed", "as good"}
-    assert words.count("listed") > 24  # most are found, not told
+    assert words.count("listed") > len(every)  # most are found, not told
 
 
 def nine_poses(sweep):
