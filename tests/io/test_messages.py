@@ -1456,28 +1456,36 @@ def folder(tmp_path, monkeypatch):
 
 
 SOLVED = {}  # what came of a command line on the files of a folder
+SOLVERS = (
+    "synthesis.motion_generation.synthesize",
+    "synthesis.function_generation.generate_function",
+    "synthesis.six_bars.synthesize_six_bars",
+)
 
 
 @pytest.fixture
-def run(folder, monkeypatch, capsys):
+def run(folder, monkeypatch, capsys, left_out):
     """Run a command line in the folder.  What was solved once is not solved again."""
-    synthesis = import_module("burmester.synthesis.motion_generation")
-    solve = synthesis.synthesize
+    solvers = {name: api(name) for name in SOLVERS}
 
     def run(line, width=80, **environment):
         arguments = shlex.split(line)
         files = [(each.name, each.read_bytes()) for each in sorted(folder.iterdir())]
         lacks = sys.modules.get("flint", 0) is None
-        key = (*(word for word in arguments if word != "--json"), *files, lacks)
+        key = (*(word for word in arguments if word != "--json"), *files, lacks, *left_out)
 
-        def remembered(*given, **more):
-            if key not in SOLVED:
-                SOLVED[key] = solve(*given, **more)
-            return SOLVED[key]
+        def remembered(solve):
+            def solved(*given, **more):
+                if key not in SOLVED:
+                    SOLVED[key] = solve(*given, **more)
+                return SOLVED[key]
+
+            return solved
 
         with monkeypatch.context() as patch:
-            if synthesis.synthesize is solve:
-                patch.setattr(synthesis, "synthesize", remembered)
+            for name, solve in solvers.items():
+                if api(name) is solve:  # else it is broken
+                    patch.setattr(f"burmester.{name}", remembered(solve))
             patch.setenv("COLUMNS", str(width))
             for name, value in environment.items():
                 patch.setenv(name, value)
@@ -1490,16 +1498,30 @@ def run(folder, monkeypatch, capsys):
 
 
 @pytest.fixture
-def hurried(monkeypatch):
+def left_out():
+    """Names of the searches that `hurried` leaves out."""
+    return []
+
+
+@pytest.fixture
+def hurried(monkeypatch, left_out):
     """Leave out the last search, a long one, for linkages that work where those found do not.
 
-    Paths end early for the message on paths that were lost.
+    Families hardly evolve where the message comes before any search.  Paths end early for the
+    message on paths that were lost.
     """
 
     def hurried(case):
+        if case.exit > 1:
+            left_out.append("evolution")
+            for name in ("GENERATIONS", "MOST_GENERATIONS", "SLIDER_GENERATIONS"):
+                few = {} if name == "GENERATIONS" else 2
+                monkeypatch.setattr(f"burmester.families.family.{name}", few)
         if case.code == "W230":
+            left_out.append("ends of paths")
             monkeypatch.setattr("burmester.functions.critical_generators.MAX_STEPS", 40)
         if case.code not in ("R301", "R305", "R307"):
+            left_out.append("last search")
             monkeypatch.setattr(
                 "burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None
             )
