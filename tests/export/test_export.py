@@ -39,6 +39,7 @@ from tests.oracles.handed_over import (
     span_of,
     written,
 )
+from tests.samples import some_of
 
 SPANS = 1e-9
 MERE = "visual|collision|geom|site size|statistic|light|text|svg|desc|style|position|polygon"
@@ -514,7 +515,7 @@ def test_a_file_that_is_not_the_linkage_is_told(name, to, tmp_path):
         )
     ]
     wrong, codes = 0, set()
-    picked = found[:: max(len(found) // 25, 1)]
+    picked = some_of(found, 25)
     for number in picked:
         value = float(number[0])
         changed = value + max(abs(value), 0.01 * span_of(chosen, 1.0)) * 1e-4
