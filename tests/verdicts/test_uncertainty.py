@@ -35,10 +35,14 @@ def in_use(kinds):
     return np.concatenate([5 * side + np.arange(USED[kind]) for side, kind in enumerate(kinds)])
 
 
-def ours(dyads, rows, weights=None, held=None, sigma=SIGMA, *, open_=None):
+def ours(dyads, rows, weights=None, held=None, sigma=SIGMA, *, free=None):
     batch = LinkageBatch.of([Linkage(*dyads)])
     at = Displacement.from_poses(rows[None])
-    return batch, at, covariance(batch, at, LENGTH, sigma, weights=weights, fixed=held, open_=open_)
+    return (
+        batch,
+        at,
+        covariance(batch, at, LENGTH, sigma, weights=weights, fixed=held, free_directions=free),
+    )
 
 
 @pytest.mark.parametrize(
@@ -65,7 +69,7 @@ def test_the_covariance_is_that_of_refits(seed, second, weighted):
 
 
 @pytest.mark.parametrize(("seed", "second"), [(6, RR), (7, PR)])
-def test_what_poses_leave_open_tells_nothing(seed, second):
+def test_what_is_free_at_poses_tells_nothing(seed, second):
     """Angles of three of them, and x of one."""
     dyads, rows, drive = case(seed, second, 8)
     counts = np.ones((8, 3))
@@ -73,7 +77,7 @@ def test_what_poses_leave_open_tells_nothing(seed, second):
     counts[3, 0] = 0
     slope = slopes(dyads, rows, drive, counts=counts) * [SIGMA[0], SIGMA[0], SIGMA[1]]
     told = np.einsum("anc,bnc->ab", slope, slope)
-    _, _, found = ours(dyads, rows, open_=np.eye(3) * (1 - counts)[..., None])
+    _, _, found = ours(dyads, rows, free=np.eye(3) * (1 - counts)[..., None])
     use = in_use([type(d) for d in dyads])
     size = np.sqrt(np.diag(told))
     assert np.abs(found[0][np.ix_(use, use)] - told).max() < 1e-5 * np.abs(told).max()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import TypeAlias, overload
+from typing import TypeAlias, TypedDict, Unpack, overload
 
 from numpy.typing import ArrayLike
 
@@ -39,20 +39,25 @@ SixBar: TypeAlias = WattLinkage | FoundSixBar | SavedSixBar
 LinkageFile: TypeAlias = str | os.PathLike[str]
 
 
+class _How(TypedDict, total=False):
+    """What `judge` takes by name, for its types alone."""
+
+    improve: bool
+    id: str | None
+    angle_unit: AngleUnit | None
+    length_unit: str | None
+    norm: Norm
+    length_per_radian: float | None
+    manufacturing_tolerance: float | None
+    time_limit: float | None
+    progress: Listener | None
+
+
 @overload
 def judge(
     poses: Task | Displacement | ArrayLike,
     linkage: FourBar,
-    *,
-    improve: bool = ...,
-    id: str | None = ...,
-    angle_unit: AngleUnit | None = ...,
-    length_unit: str | None = ...,
-    norm: Norm = ...,
-    length_per_radian: float | None = ...,
-    manufacturing_tolerance: float | None = ...,
-    time_limit: float | None = ...,
-    progress: Listener | None = ...,
+    **how: Unpack[_How],
 ) -> Result: ...
 
 
@@ -60,16 +65,7 @@ def judge(
 def judge(
     poses: Task | Displacement | ArrayLike,
     linkage: SixBar,
-    *,
-    improve: bool = ...,
-    id: str | None = ...,
-    angle_unit: AngleUnit | None = ...,
-    length_unit: str | None = ...,
-    norm: Norm = ...,
-    length_per_radian: float | None = ...,
-    manufacturing_tolerance: float | None = ...,
-    time_limit: float | None = ...,
-    progress: Listener | None = ...,
+    **how: Unpack[_How],
 ) -> SixBarResult: ...
 
 
@@ -77,16 +73,7 @@ def judge(
 def judge(
     poses: Task | Displacement | ArrayLike,
     linkage: LinkageFile,
-    *,
-    improve: bool = ...,
-    id: str | None = ...,
-    angle_unit: AngleUnit | None = ...,
-    length_unit: str | None = ...,
-    norm: Norm = ...,
-    length_per_radian: float | None = ...,
-    manufacturing_tolerance: float | None = ...,
-    time_limit: float | None = ...,
-    progress: Listener | None = ...,
+    **how: Unpack[_How],
 ) -> Result | SixBarResult: ...
 
 

@@ -105,9 +105,8 @@ def _inside(rows: FloatArray, target: Target) -> NDArray[np.bool_]:
     asked = target.requirements
     if asked.within is None:
         return np.ones(len(rows), dtype=bool)
-    reach, length = asked.within / float(target.frames.length), target.length
-    if asked.within_deg is not None:
-        length = reach / math.radians(asked.within_deg)
+    unit = float(target.frames.length)
+    reach, length = (each / unit for each in asked.reach(asked.within, target.length * unit))
     away = rows - rows_of(target.poses, target.length)
     gap = np.abs(away if target.boxes is None else target.boxes.counted(rows))
     missed = np.maximum(np.hypot(gap[..., 0], gap[..., 1]), length / target.length * gap[..., 2])

@@ -286,10 +286,8 @@ class Evaluation:
         shape = (len(own), self.task.poses.shape[0])
         position = np.array([error.position for error in errors]).reshape(shape)
         turn = np.array([error.angle for error in errors]).reshape(shape)
-        asked, length = self.task.requirements, self.problem.length_per_radian
-        reach = asked.within or DEFAULT_TOLERANCE * float(self.target.frames.length)
-        if asked.within_deg is not None:
-            length = reach / math.radians(asked.within_deg)
+        asked, usual = self.task.requirements, DEFAULT_TOLERANCE * float(self.target.frames.length)
+        reach, length = asked.reach(usual, self.problem.length_per_radian)
         missed = np.maximum(position, length * turn)
         slack = None
         shares, tolerances = None, self.task.tolerances
@@ -394,6 +392,7 @@ class Evaluation:
         active = _active_limits(self.target, batch[sound], rows[sound])
         count, most = places.shape[1], MAX_PLACES_OF_QUALITY
         some = even_numbers(count, count if self.task.exact is not None else most)
+        boxes = self.target.boxes
         spreads = covariance(
             batch[sound],
             places[:, some],
@@ -401,7 +400,7 @@ class Evaluation:
             (position / unit, angle),
             weights=None if weights is None else weights[some],
             fixed=active,
-            open_=None if self.target.boxes is None else self.target.boxes.free_directions[some],
+            free_directions=None if boxes is None else boxes.free_directions[some],
         )
         spreads = spreads * len(some) / count
         size = self.problem.motion_size

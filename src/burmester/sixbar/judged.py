@@ -6,7 +6,6 @@ on it as near to each pose as it comes.
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple, final
 
 import numpy as np
@@ -176,10 +175,7 @@ def _missed(
     task, asked = problem.given, problem.given.requirements
     position = np.array([each.position for each in errors])
     turn = np.array([each.angle for each in errors])
-    reach = asked.within or DEFAULT_TOLERANCE * problem.length
-    length = problem.length_per_radian
-    if asked.within_deg is not None:
-        length = reach / math.radians(asked.within_deg)
+    reach, length = asked.reach(DEFAULT_TOLERANCE * problem.length, problem.length_per_radian)
     missed = np.maximum(position, length * turn)
     if not _by_tolerances(problem):
         return missed / reach, None, 2 * np.minimum(missed, reach).max(axis=-1)

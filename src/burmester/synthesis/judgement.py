@@ -20,6 +20,7 @@ from burmester.linkages.nearby_linkages import greatest_move, nearby_linkages
 from burmester.progress import limited, step, time_for
 from burmester.synthesis.given_linkage import GivenDyad, dyads_at_poses, require_linkage
 from burmester.synthesis.outcome import linkage_advice
+from burmester.synthesis.point_approximation import with_nearest_angles
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
 from burmester.tasks.motion_task import Task
@@ -112,11 +113,7 @@ def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, t
         given, note = with_tolerance(task, options)
         return SynthesisProblem.of(given, None, options), tuple(note)
     step(f"looking at {task.poses.shape[0]} poses")
-    note = list[Advice]()
-    if task.free_angles.any():
-        from burmester.synthesis.point_approximation import with_nearest_angles  # noqa: PLC0415  few
-
-        task, note = with_nearest_angles(task, options)
+    task, note = with_nearest_angles(task, options)
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
     return problem, (*note, *diagnosis.findings)

@@ -17,7 +17,6 @@ from burmester.dyads.local_minima import BestDyads, best_dyads
 from burmester.dyads.selection import FoundDyad, found_dyads
 from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import Dyad
-from burmester.fourbar.linkage import Linkage
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import limited, step, time_for
@@ -32,6 +31,7 @@ from burmester.synthesis.outcome import (
     summary,
     undetermined,
 )
+from burmester.synthesis.point_approximation import with_nearest_angles
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
 from burmester.synthesis.within_digits import tolerances_of_digits, with_linkages_within_digits
@@ -42,7 +42,7 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.special_motions import CircularTranslation
 from burmester.tasks.traced_path import TracedPath
-from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.found_linkage import FoundLinkage, Pair, numbered_pair
 
 if TYPE_CHECKING:  # loaded where a task asks for it
     from burmester.certificates.certificate import Certificate
@@ -90,11 +90,7 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
 
         return near_points(task, options, task.notes)
     step(f"looking at {task.poses.shape[0]} poses")
-    note = list[Advice]()
-    if task.free_angles.any():
-        from burmester.synthesis.point_approximation import with_nearest_angles  # noqa: PLC0415  few
-
-        task, note = with_nearest_angles(task, options)
+    task, note = with_nearest_angles(task, options)
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options)
     known = (*task.notes, *note, *diagnosis.findings)
@@ -165,14 +161,14 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     from burmester.families.family import best_of_family  # noqa: PLC0415  few tasks need it
     from burmester.synthesis.family_outcome import family_summary  # noqa: PLC0415  the same
 
-    task, target = problem.task, target_of(problem)
+    target = target_of(problem)
     step("looking at the linkages of the family")
     found = best_of_family(problem, target)
     if found is None:
         return None
     evaluation = Evaluation(problem, target)
     own, searched = found.batch.from_canonical(target.frames), np.ones(len(found.batch), dtype=bool)
-    pairs = [_numbered(own.linkage(k), 2 * k + 1, task) for k in range(len(own))]
+    pairs = [numbered_pair(own.linkage(k), 2 * k + 1) for k in range(len(own))]
     members = evaluation.members(
         Candidates(found.batch, found.rows, pairs, searched, own, found.drivers)
     )
@@ -215,15 +211,6 @@ def _within_digits(problem: SynthesisProblem, findings: Sequence[Advice]) -> Syn
         *sample_advice(problem, linkages),
     )
     return Synthesis(problem, outcome, search.dyads, linkages, warnings, search.fits)
-
-
-def _numbered(linkage: Linkage, number: int, task: Task) -> Pair:
-    """The dyads of a linkage, numbered from `number`."""
-    first, second = (
-        FoundDyad(f"D{number + k}", dyad, *_miss(dyad, task))
-        for k, dyad in enumerate((linkage.first, linkage.second))
-    )
-    return first, second
 
 
 def _miss(dyad: Dyad, task: Task) -> tuple[float, float]:

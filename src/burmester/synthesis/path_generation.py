@@ -14,7 +14,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -33,7 +32,7 @@ from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.explanation import in_short
-from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 from burmester.verdicts.ranking import ranked
 from burmester.wording import count
 
@@ -107,15 +106,8 @@ def _once(task: Task) -> Task:
         return task
     index, group = np.flatnonzero(new), np.cumsum(new) - 1
     weights = np.ones(len(points)) if task.weights is None else task.weights
-    return replace(
-        task,
-        poses=task.poses[index],
-        weights=np.asarray(np.bincount(group, weights=weights), dtype=np.float64),
-        names=None if task.names is None else tuple(task.names[k] for k in index.tolist()),
-        exact=None,
-        tolerances=None if task.tolerances is None else task.tolerances.at(index),
-        path=task.path or TracedPath(),
-    )
+    total = np.asarray(np.bincount(group, weights=weights), dtype=np.float64)
+    return replace(task.at(index, total), exact=None, path=task.path or TracedPath())
 
 
 def _with_tolerance(task: Task, found: PathLinkages, path: TracedPath) -> tuple[Task, list[Advice]]:
@@ -199,7 +191,7 @@ def _members(
         return []
     target, some = evaluation.target, take(found, index)
     places = Displacement(some.places[..., :2], some.places[..., 2])
-    pairs = [_numbered(found.batch, k, evaluation.task) for k in index.tolist()]
+    pairs = [numbered_pair(found.batch.linkage(k), 2 * k + 1) for k in index.tolist()]
     candidates = Candidates(
         some.batch.to_canonical(target.frames),
         target.rows_at(places),
@@ -208,16 +200,6 @@ def _members(
         some.batch,
     )
     return evaluation.members(candidates)
-
-
-def _numbered(batch: LinkageBatch, k: int, task: Task) -> Pair:
-    """The dyads of a linkage, numbered by it."""
-    linkage, out = batch.linkage(k), []
-    for side, dyad in enumerate((linkage.first, linkage.second), start=1):
-        miss = np.abs(dyad.residual(task.poses))
-        rms, worst = float(np.sqrt((miss**2).mean())), float(miss.max())
-        out.append(FoundDyad(f"D{2 * k + side}", dyad, rms, worst))
-    return out[0], out[1]
 
 
 def _front(found: Sequence[FoundLinkage]) -> list[FoundLinkage]:

@@ -15,7 +15,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -36,7 +35,7 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import worst_miss
-from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 
 __all__ = ["nearest_linkage", "with_nearest_angles"]
 
@@ -117,7 +116,7 @@ def _best(evaluation: Evaluation, batch: LinkageBatch, rows: FloatArray) -> Foun
     if not len(batch):
         return None
     own, none = batch.from_canonical(evaluation.target.frames), np.zeros(len(batch), dtype=bool)
-    pairs = [_pair(own, k) for k in range(len(own))]
+    pairs = [numbered_pair(own.linkage(k), 1) for k in range(len(own))]
     judged = evaluation.members(Candidates(batch, rows, pairs, none, own), quality=False)
     first = min(judged, key=lambda each: (not each.usable, each.combined_error), default=None)
     sound = [
@@ -140,14 +139,7 @@ def _few_rows(task: Task) -> Task:
     index = np.unique(np.concatenate(some))
     if task.exact is not None:
         index = np.union1d(index, np.flatnonzero(task.exact))
-    return replace(
-        task,
-        poses=task.poses[index],
-        weights=None if task.weights is None else task.weights[index],
-        names=None if task.names is None else tuple(task.names[k] for k in index.tolist()),
-        exact=None if task.exact is None else task.exact[index],
-        tolerances=None if task.tolerances is None else task.tolerances.at(index),
-    )
+    return task.at(index)
 
 
 def _refined(problem: SynthesisProblem, target: Target) -> Refined | None:
@@ -168,12 +160,6 @@ def _refined(problem: SynthesisProblem, target: Target) -> Refined | None:
         constrained_steps=STEPS,
         selection=CHOICE,
     )
-
-
-def _pair(batch: LinkageBatch, k: int) -> Pair:
-    """The dyads of a linkage; their errors follow."""
-    linkage = batch.linkage(k)
-    return FoundDyad("D1", linkage.first, 0.0, 0.0), FoundDyad("D2", linkage.second, 0.0, 0.0)
 
 
 def _through_some(task: Task, size: float) -> Iterator[LinkageBatch]:
@@ -215,8 +201,8 @@ def _with_tolerance(
     problem, asked = SynthesisProblem.of(task, None, options), task.requirements
     length = problem.length_per_radian
     if asked.within is not None:
-        degrees = asked.within_deg or math.degrees(asked.within / length)
-        return replace(task, tolerances=_tolerances(task, asked.within, degrees)), []
+        reach, length = asked.reach(asked.within, length)
+        return replace(task, tolerances=_tolerances(task, reach, math.degrees(reach / length))), []
     away = np.abs(nearest.error.places.translation - task.poses.translation).max()
     turn = np.where(task.free_angles, 0.0, nearest.error.angle).max()
     worst = max(float(away), length * float(turn), LEAST_ASSUMED * problem.motion_size)

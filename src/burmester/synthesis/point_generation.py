@@ -11,9 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice
-from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
@@ -29,7 +27,7 @@ from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import length_of
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import in_short
-from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.found_linkage import FoundLinkage, Pair, numbered_pair
 from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.ranking import ranked
 from burmester.wording import count
@@ -68,7 +66,7 @@ def _judged(
     step(f"judging {count(len(found.batch), 'linkage')}")
     own, places = _in_order_of_limits(found.batch, asked, problem), found.places
     rows = target.rows_at(Displacement(places[..., :2], places[..., 2]))
-    pairs = [_numbered(own.linkage(k), 2 * k + 1) for k in range(len(own))]
+    pairs = [numbered_pair(own.linkage(k), 2 * k + 1) for k in range(len(own))]
     searched = np.zeros(len(own), dtype=bool)
     candidates = Candidates(own.to_canonical(target.frames), rows, pairs, searched, own)
     members = ranked(evaluation.members(candidates), problem)
@@ -97,14 +95,6 @@ def _in_order_of_limits(
 
     exchanges = np.array(broken(batch)) > np.array(broken(other))
     return where(exchanges, other, batch)
-
-
-def _numbered(linkage: Linkage, number: int) -> Pair:
-    """The dyads of a linkage, numbered from `number`; their errors follow."""
-    return (
-        FoundDyad(f"D{number}", linkage.first, 0.0, 0.0),
-        FoundDyad(f"D{number + 1}", linkage.second, 0.0, 0.0),
-    )
 
 
 def _renumbered(dyads: Pair, number: int) -> Pair:

@@ -21,7 +21,7 @@ from burmester.tasks.motion_task import MOST, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.explanation import above, nearness
+from burmester.verdicts.explanation import above, error_bounds, nearness
 from burmester.wording import figure, listed
 
 __all__ = ["judge_six_bar"]
@@ -136,7 +136,7 @@ def _options(found: FoundSixBar, problem: SynthesisProblem) -> tuple[str, ...]:
         if defect.kind == "order":
             options.append("--any-order")
         elif defect.kind == "assembly" and task.tolerances is None:
-            options += _bounds(found, problem)
+            options += error_bounds(found, problem)
         else:
             return ()
     for each in found.violations:
@@ -150,13 +150,3 @@ def _options(found: FoundSixBar, problem: SynthesisProblem) -> tuple[str, ...]:
         else:
             return ()
     return tuple(sorted(set(options), reverse=True))
-
-
-def _bounds(found: FoundSixBar, problem: SynthesisProblem) -> list[str]:
-    """The options that bound both errors from above."""
-    within, turned = above(found.error.worst), math.degrees(float(found.error.angle.max()))
-    bound = problem.given.requirements.within_deg
-    if bound is None:
-        bound = math.degrees(float(within) / problem.length_per_radian)
-    options = [f"--within {within}"]
-    return options if turned <= bound else [*options, f"--within-angle {above(turned)}"]

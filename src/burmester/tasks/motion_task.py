@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal, TypeAlias, final, get_args
 
 import numpy as np
@@ -147,6 +147,20 @@ class Task:
     def angles_are_free(self) -> bool:
         """Whether only points of the body are asked for, and no angle anywhere."""
         return bool(self.free_angles.all())
+
+    def at(self, index: NDArray[np.intp], weights: FloatArray | None = None) -> Task:
+        """The task of some of its poses, by default with their weights."""
+        if weights is None and self.weights is not None:
+            weights = self.weights[index]
+        return replace(
+            self,
+            poses=self.poses[index],
+            weights=weights,
+            names=None if self.names is None else tuple(self.names[k] for k in index.tolist()),
+            exact=None if self.exact is None else self.exact[index],
+            tolerances=None if self.tolerances is None else self.tolerances.at(index),
+            path=None if self.path is None else self.path.at(index),
+        )
 
     def __post_init__(self) -> None:
         self._own_values()

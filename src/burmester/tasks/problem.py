@@ -122,15 +122,6 @@ class SynthesisProblem:
 
         The worst error is that of single poses: for it they keep their own weights.
         """
-        index, task = sample.index, self.task
-        weights = None if task.weights is None else task.weights[index]
-        tolerances = task.tolerances
-        some = replace(
-            task,
-            poses=task.poses[index],
-            weights=weights if self.options.norm == "worst" else sample.cells,
-            names=None if task.names is None else tuple(task.names[i] for i in index.tolist()),
-            exact=None if task.exact is None else task.exact[index],
-            tolerances=None if tolerances is None else tolerances.at(index),
-        )
+        weights = None if self.options.norm == "worst" else sample.cells
+        some = self.task.at(sample.index, weights)
         return replace(self, task=some, sample=sample)

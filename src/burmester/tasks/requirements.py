@@ -174,6 +174,16 @@ class Requirements:
         """The least transmission angle in radians."""
         return math.radians(self.transmission_deg)
 
+    def reach(self, usual: float, length: float) -> tuple[float, float]:
+        """The greatest acceptable position error, and the length that a radian counts as by it.
+
+        usual, length: both, in the same unit, where nothing is asked for.
+        """
+        reach = self.within or usual
+        if self.within_deg is not None:
+            length = reach / math.radians(self.within_deg)
+        return reach, length
+
     @property
     def has_any(self) -> bool:
         """Whether there is any requirement at all."""

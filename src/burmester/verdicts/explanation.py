@@ -22,6 +22,7 @@ __all__ = [
     "above",
     "asked_for",
     "by_nearness",
+    "error_bounds",
     "hints",
     "in_short",
     "meets_exactly",
@@ -175,7 +176,7 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
         if defect.kind == "order" and not asked.any_order:
             options.append("--any-order")
         elif defect.kind == "assembly" and math.isfinite(found.error.worst):
-            options += _bounds(found, problem)
+            options += error_bounds(found, problem)
         else:
             return ()
     links = found.linkage.links
@@ -196,7 +197,7 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
     return tuple(sorted(set(options), reverse=True))  # --within first
 
 
-def _bounds(found: FoundLinkage, problem: SynthesisProblem) -> list[str]:
+def error_bounds(found: HasError, problem: SynthesisProblem) -> list[str]:
     """The options that bound both errors of a linkage from above."""
     asked = problem.given.requirements
     within = above(max(found.error.worst, ROUNDING * problem.length))

@@ -18,10 +18,18 @@ from burmester.verdicts.uncertainty import DyadUncertainty
 if TYPE_CHECKING:  # it imports Shapely, which only tasks with surroundings need
     from burmester.clearance.least_clearance import Clearance
 
-__all__ = ["FoundLinkage", "Pair", "Side", "with_driver_first"]
+__all__ = ["FoundLinkage", "Pair", "Side", "numbered_pair", "with_driver_first"]
 
 Pair: TypeAlias = tuple[FoundDyad, FoundDyad]
 Side: TypeAlias = Literal["first", "second"]
+
+
+def numbered_pair(linkage: Linkage, number: int) -> Pair:
+    """The dyads of a linkage, numbered from `number`; an evaluation tells their errors."""
+    return (
+        FoundDyad(f"D{number}", linkage.first, 0.0, 0.0),
+        FoundDyad(f"D{number + 1}", linkage.second, 0.0, 0.0),
+    )
 
 
 def with_driver_first(linkage: Linkage, driver: Side) -> Linkage:

@@ -213,7 +213,7 @@ def covariance(
     *,
     weights: FloatArray | None = None,
     fixed: FloatArray | None = None,
-    open_: FloatArray | None = None,
+    free_directions: FloatArray | None = None,
 ) -> FloatArray:
     """Covariances (k, 10, 10) of the dimensions of linkages fitted to poses with errors.
 
@@ -224,7 +224,7 @@ def covariance(
         met nearly exactly, and its errors are passed on whole.
     fixed: (k, m, 10), derivatives of quantities that do not change, such as active limits; zero
         rows are left out.  An exact pose has a large weight instead, as its own errors count.
-    open_: (N, *, 3), directions of x, y and length x angle, orthonormal or zero, along which a pose
+    free_directions: (N, *, 3), of x, y and length x angle, orthonormal or zero; along these a pose
         asks for nothing.
     Order of the dimensions: dyad by dyad as in `LinkageBatch`; unused slots are zero.  All in one
     frame and unit, where lengths are about 1: `pose_error.error_frames` with
@@ -244,8 +244,8 @@ def covariance(
     a[..., 1, 1, :] = by_dimension[:, 1] / plane.second[..., None]
     a = a.reshape(len(batch), count, 2, 2 * DIMENSIONS)
     noise = plane.normals * [sigma[0], sigma[0], length * sigma[1]]
-    if open_ is not None:
-        asked = _asked(plane.normals, open_)
+    if free_directions is not None:
+        asked = _asked(plane.normals, free_directions)
         a, noise = asked @ a, asked @ noise
     known = np.asarray(np.isfinite(a).all(axis=(-2, -1)))
     share = np.sqrt(weights_or_ones(weights, (count,))) * known
@@ -275,13 +275,13 @@ def covariance(
     return np.asarray(root @ root.swapaxes(1, 2))
 
 
-def _asked(normals: FloatArray, open_: FloatArray) -> FloatArray:
+def _asked(normals: FloatArray, free: FloatArray) -> FloatArray:
     """Projectors (k, N, 2, 2), across the coupler's curve, on what poses ask for there.
 
-    normals: (k, N, 2, 3); open_: (N, *, 3).  Where a pose is open along a direction, its part
+    normals: (k, N, 2, 3); free: (N, *, 3).  Where a pose is free along a direction, its part
     across the curve counts as the curve itself does: not at all.
     """
-    part = normals @ open_.swapaxes(-1, -2)
+    part = normals @ free.swapaxes(-1, -2)
     values, axes = np.linalg.eigh(np.nan_to_num(part @ part.swapaxes(-1, -2)))
     asked = axes * (values < DEPENDENT)[..., None, :]
     return np.asarray(asked @ axes.swapaxes(-1, -2))
