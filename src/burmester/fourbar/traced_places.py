@@ -33,7 +33,7 @@ MOST_LAID: Final = 60  # points that are laid by the shortest path; others go be
 ANCHORS: Final = 4  # places on a closed circuit at which the first point may be
 CLEAR_RATIO: Final = 2.0  # a way clear of dead points may miss the points by so much more
 ROUNDING: Final = 1e-9  # lengths, root mean square; ways that miss by less miss by nothing
-ROUNDS, TRIED = 15, 9  # of narrowing brackets: to a quarter in each round
+ROUNDS, TRIED = 19, 9  # of narrowing brackets: to a quarter in each round, and so to rounding
 BESIDE: Final = 2.0  # distances of a point from the curve; a place in its box is looked for so far
 WAYS_AT_ONCE: Final = 128  # bounds the memory
 

@@ -74,7 +74,7 @@ def _are_too_many(task: Task, stated: PoseTolerances) -> bool:
         return False
     free = stated.free
     mixed = free[:, 2].any() and not free[:, 2].all() and not free[:, :2].any()
-    return bool(mixed) and stated.asked + task.pivot_conditions > 2 * CONDITIONS
+    return bool(mixed) and stated.constraints + task.pivot_conditions > 2 * CONDITIONS
 
 
 def nearest_linkage(task: Task, options: SynthesisOptions) -> FoundLinkage | None:

@@ -133,7 +133,7 @@ class PoseTolerances:
         return bool(self.exact[:, :2].all() and self.free[:, 2].all())
 
     @property
-    def asked(self) -> int:
+    def constraints(self) -> int:
         """How many equations or bounds the components that are not free are for a linkage."""
         return int(np.maximum((~self.free).sum(axis=1) - 1, 0).sum())
 

@@ -82,7 +82,7 @@ class SynthesisProblem:
         stated = self.given.tolerances
         if stated is None or not stated.free.any():
             return False
-        return stated.asked + self.given.pivot_conditions < 2 * CONDITIONS
+        return stated.constraints + self.given.pivot_conditions < 2 * CONDITIONS
 
     @property
     def pose_numbers(self) -> list[int]:
