@@ -6,6 +6,7 @@ few of them arrive, further ones are drawn near those that did.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Final, final
@@ -25,6 +26,7 @@ __all__ = ["DyadSamples", "drawn_dyads"]
 FEW: Final = 0.3  # share of the draws; where fewer arrive, their neighbours are drawn too
 NEAR: Final = 0.1  # lengths; how far such a neighbour starts from a dyad that arrived
 SAME: Final = 1e-7  # lengths; dyads whose dimensions differ by less are one
+MOST_MORE: Final = 2.5  # times as many draws at most where regions are wide
 LONGEST: Final = 1e3  # lengths; a longer link is no link
 
 
@@ -55,7 +57,7 @@ def drawn_dyads(
     poses = task.places(offsets[None])[0]
     out = []
     for kind in side.kinds:
-        count = counts.get(kind, 0)
+        count = round(counts.get(kind, 0) * _more(side, kind))
         start = _random(side, kind, 2 * (count // 2), poses, rng)
         found = _brought(start, kind, offsets, still)
         if 0 < len(found) < FEW * count:
@@ -65,6 +67,12 @@ def drawn_dyads(
         out.append(DyadSamples(np.full(len(found), kind, dtype=np.int8), found))
     samples = concatenate(out)
     return take(samples, _different(samples))
+
+
+def _more(side: DyadFreedom, kind: int) -> float:
+    """How many times as many dyads are drawn where pivots may lie far from the motion."""
+    zones = [place.zones for place, other in ((side.fixed, 1), (side.moving, 2)) if kind != other]
+    return min(MOST_MORE, math.sqrt(math.prod(map(len, zones))))
 
 
 def _different(samples: DyadSamples) -> NDArray[np.intp]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Self, final
+from itertools import count as counting
+from typing import Final, Self, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +15,19 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["PivotFreedom"]
 
+ZONES: Final = 5  # number of zones, each twice as wide as the one before; beyond, dyads are rare
+LEAST_ZONE: Final = 0.25  # of a zone's diagonal; a zone that holds less of the region is left out
+TRIES: Final = 40  # number of rounds in which the points of a zone are drawn by rejection
+
+Box: TypeAlias = tuple[FloatArray, FloatArray]  # lower left and upper right corner, (2,)
+
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class PivotFreedom:
     """A region with its frame moved to `origin` and the unit `unit`.
 
-    region: the region, in the task's own frame; around: a polygon that cuts off what is endless.
+    region: the region, in the task's own frame; around: where pivots lie that no region holds.
     """
 
     region: Region
@@ -42,18 +50,39 @@ class PivotFreedom:
             return np.zeros((2, 2))
         return np.eye(2) - np.outer(rows[0, 1:], rows[0, 1:]) / (rows[0, 1:] @ rows[0, 1:])
 
+    @property
+    def zones(self) -> list[Box]:
+        """The boxes in which points of the region are drawn, the innermost first.
+
+        Zones are boxes around the motion, each twice as wide as the one before.  Equally many
+        points from each of them are spread evenly over the logarithm of the distance, and what is
+        near the motion does not depend on how far the region reaches.
+        """
+        corners = self.around.vertices
+        low, high = corners.min(axis=0), corners.max(axis=0)
+        middle, half = (low + high) / 2, (high - low) / 2
+        out: list[Box] = []
+        for k in counting():
+            zone = middle - 2**k * half, middle + 2**k * half
+            part, is_whole = _part(self.region, zone)
+            if part is not None:
+                size = np.linalg.norm(part[1] - part[0])
+                if is_whole or size >= LEAST_ZONE * np.linalg.norm(zone[1] - zone[0]):
+                    out.append(part)
+            if is_whole or (out and k >= ZONES - 1):
+                return out
+        return out
+
     def draw(self, count: int, rng: np.random.Generator) -> FloatArray:
-        """Points (count, 2) of the region, evenly spread over it."""
-        region = self.region
-        if isinstance(region, Point):
-            own = np.broadcast_to(region.at, (count, 2))
-        elif isinstance(region, Segment):
-            share = rng.uniform(size=(count, 1))
-            own = region.start + share * (region.end - region.start)
-        elif isinstance(region, Line):
-            own = _foot(_drawn(self.around, count, rng), region.start, region.end, endless=True)
-        else:
-            own = _drawn(region, count, rng)
+        """Points (count, 2) of the region, equally many of each zone, in random order."""
+        zones = self.zones
+        each = np.bincount(np.arange(count) % len(zones), minlength=len(zones))
+        parts = [
+            _drawn(self.region, zone, n, rng) for zone, n in zip(zones, each.tolist(), strict=True)
+        ]
+        own = np.concatenate(parts)
+        if len(zones) > 1:
+            own = rng.permutation(own)
         return np.asarray((own - self.origin) / self.unit)
 
     def nearest(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -81,14 +110,73 @@ class PivotFreedom:
         return np.asarray((own - self.origin) / self.unit), along
 
 
-def _drawn(polygon: Polygon, count: int, rng: np.random.Generator) -> FloatArray:
-    """Points (count, 2) of the inside of a polygon, by rejection from its box."""
-    low, high = polygon.vertices.min(axis=0), polygon.vertices.max(axis=0)
+def _part(region: Region, zone: Box) -> tuple[Box | None, bool]:
+    """The box that holds the part of a region within a zone, and whether that is all of it."""
+    low, high = zone
+    if isinstance(region, Line | Segment):
+        share = _shares_within(region, zone)
+        if share is None:
+            return None, False
+        ends = region.start + np.array(share)[:, None] * (region.end - region.start)
+        is_whole = isinstance(region, Segment) and share == (0.0, 1.0)
+    else:
+        corners = region.corners()
+        is_whole = bool(((corners >= low) & (corners <= high)).all())
+        ends = corners if is_whole else _clipped(corners, zone)
+    if not len(ends):
+        return None, False
+    return (ends.min(axis=0), ends.max(axis=0)), is_whole
+
+
+def _shares_within(region: Line | Segment, zone: Box) -> tuple[float, float] | None:
+    """From where to where, in shares of its two points, a line is within a zone."""
+    along = region.end - region.start
+    first, last = (-np.inf, np.inf) if isinstance(region, Line) else (0.0, 1.0)
+    for axis in range(2):
+        if along[axis] == 0:
+            if not zone[0][axis] <= region.start[axis] <= zone[1][axis]:
+                return None
+            continue
+        ends = [float((side[axis] - region.start[axis]) / along[axis]) for side in zone]
+        first, last = max(first, min(ends)), min(last, max(ends))
+    return (first, last) if first <= last else None
+
+
+def _clipped(corners: FloatArray, zone: Box) -> FloatArray:
+    """The corners (k, 2) of the part of a polygon within a box (Sutherland and Hodgman)."""
+    for axis in range(2):
+        for side, sign in zip(zone, (1, -1), strict=True):
+            inside = sign * (corners[:, axis] - side[axis])
+            out = []
+            for k in range(len(corners)):
+                if (inside[k - 1] < 0) != (inside[k] < 0):
+                    share = inside[k - 1] / (inside[k - 1] - inside[k])
+                    out.append(corners[k - 1] + share * (corners[k] - corners[k - 1]))
+                if inside[k] >= 0:
+                    out.append(corners[k])
+            corners = np.reshape(out, (-1, 2))
+    return corners
+
+
+def _drawn(region: Region, zone: Box, count: int, rng: np.random.Generator) -> FloatArray:
+    """Points (count, 2) of a region, evenly spread over its part within a zone.
+
+    Of a polygon so thin that few tries hit it, the other points are the nearest on its edges.
+    """
+    if isinstance(region, Point):
+        return np.broadcast_to(region.at, (count, 2))
+    if isinstance(region, Line | Segment):
+        first, last = _shares_within(region, zone) or (0.0, 1.0)
+        share = first + (last - first) * rng.uniform(size=(count, 1))
+        return np.asarray(region.start + share * (region.end - region.start))
     found = np.empty((0, 2))
-    while len(found) < count:
-        points = rng.uniform(low, high, size=(2 * count, 2))
-        found = np.concatenate([found, points[polygon.signed_distance(points) <= 0]])
-    return found[:count]
+    for _ in range(TRIES):
+        points = rng.uniform(*zone, size=(2 * count, 2))
+        found = np.concatenate([found, points[region.signed_distance(points) <= 0]])
+        if len(found) >= count:
+            return found[:count]
+    feet, _ = _nearest_on_edges(points[: count - len(found)], region.vertices)
+    return np.concatenate([found, feet])
 
 
 def _outside(points: FloatArray, polygon: Polygon) -> NDArray[np.bool_]:
