@@ -13,6 +13,7 @@ import numpy as np
 SPAN = (50.0, 500.0)  # of the motion, mm
 TURN = (10.0, 150.0)  # of the body, degrees
 MADE_WITH = np.cos(np.radians(35.0))  # greatest |cos| of the transmission angle of a known linkage
+WIDE = (3.0, 300.0)  # spans of the motion: regions of `wide_task`
 RATIO = 4.5  # of the links of a known linkage
 
 
@@ -39,6 +40,67 @@ def few_pose_task(seed):
         task = _led(rng, count, own) if family == "led" else _free(rng, count, own)
         if task is not None:
             return task
+
+
+@dataclass(frozen=True)
+class WideTask:
+    """A task with regions of 3 to 300 spans.
+
+    rows: (N, 3), x, y, angle (radians).
+    regions: of the fixed and of the moving pivots, as corners (n, 2) of a polygon, (2, 2) the ends
+        of a segment, or None where nothing is asked.
+    boxes: (2, 2, 2), boxes within those regions; where nothing is asked, one span around the
+        poses and around the origin of M.
+    width: of the regions, in spans.
+    """
+
+    rows: np.ndarray
+    regions: tuple
+    boxes: np.ndarray
+    width: float
+
+
+def wide_task(seed):
+    """Two, three, four poses in turns; regions around the motion for both pivots, or for one."""
+    rng = np.random.default_rng([18, seed])
+    rows = few_pose_task(seed).rows
+    low, high = rows[:, :2].min(axis=0), rows[:, :2].max(axis=0)
+    span, spans = float(np.hypot(*(high - low))), float(np.exp(rng.uniform(*np.log(WIDE))))
+    which = rng.choice(4, p=[0.15, 0.15, 0.35, 0.35])  # fixed, moving, both
+    regions, boxes = [], []
+    origin = np.zeros(2)
+    for near, far, asked in ((low, high, which != 1), (origin, origin, which > 0)):
+        if not asked:
+            regions.append(None)
+            boxes.append(np.array([near - span, far + span]))
+            continue
+        middle, half = (near + far) / 2, spans * span / 2 * rng.uniform(0.7, 1.0, 2)
+        at = middle + rng.uniform(-0.8, 0.8, 2) * half
+        sort = rng.choice(["box", "segment", "L", "eight"], p=[0.55, 0.15, 0.15, 0.15])
+        if sort == "segment":
+            axis = rng.integers(2)
+            half[axis] = 0.0
+            at[axis] = middle[axis] + rng.uniform(-1, 1) * span
+        corners = np.round([at - half, at + half], 2)
+        regions.append(_region(sort, corners))
+        boxes.append(corners)
+    return WideTask(rows, tuple(regions), np.array(boxes), spans)
+
+
+def _region(sort, corners):
+    """A region that holds a box (2, 2): itself, with an arm, or with a tip on each side."""
+    (x0, y0), (x1, y1) = corners
+    if sort == "segment":
+        return corners
+    if sort == "L":
+        x2, y2 = 2 * x1 - x0, (y0 + y1) / 2
+        return np.array([(x0, y0), (x2, y0), (x2, y2), (x1, y2), (x1, y1), (x0, y1)])
+    box = [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+    if sort == "box":
+        return np.array(box)
+    middle, half = (corners[0] + corners[1]) / 2, (corners[1] - corners[0]) / 2
+    tips = middle + 1.3 * half * np.array([(0, -1), (1, 0), (0, 1), (-1, 0)])
+    return np.stack([box, tips], axis=1).reshape(8, 2)
 
 
 def _rows(at, angle):

@@ -15,7 +15,7 @@ from burmester.verdicts import explanation
 from burmester.verdicts.built_linkages import DRAWS
 from burmester.verdicts.clearance_check import clearance_in_words
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.quality import RULE
+from burmester.verdicts.quality import enough_transmission, rule
 from burmester.verdicts.ranking import (
     TRADE_GAIN,
     closest_usable,
@@ -321,7 +321,8 @@ def rounding_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
 def _order(synthesis: Synthesis) -> str:
     """Which usable linkages come first."""
     if states_tolerance(synthesis.task):
-        return f"the ones with sane proportions; {RULE}"
+        enough = enough_transmission(synthesis.task.requirements.transmission)
+        return f"the ones with sane proportions; recommended is {rule(enough)}"
     return "the ones with good transmission and proportions, then the nearest"
 
 

@@ -19,6 +19,7 @@ from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import TYPES
 from burmester.tasks.surroundings import KeepOut, Surroundings
+from burmester.verdicts.quality import enough_transmission
 from burmester.verdicts.standard import Standard
 
 __all__ = ["Conditions"]
@@ -32,6 +33,7 @@ class Conditions:
     transmission: the least transmission angle over the range, radians.
     shortest, longest: of the links; ratio: of the longest of four to the shortest.
     span: of the motion, by which the extent is measured.
+    enough: the transmission angle beyond which more counts for nothing, radians.
     prefer: by which figure the recommended linkage is chosen.
     types: (8,), whether 4R linkages are allowed, by the signs of their Grashof sums, in binary.
     kinds: the pairs of kinds of dyads that are allowed; drivers: the sides that may drive.
@@ -50,6 +52,7 @@ class Conditions:
     any_order: bool
     change_point: bool
     footprint: Polygon | None
+    enough: float
     prefer: Preference
     around: Surroundings | None = None
     body: Polygon | None = None
@@ -85,6 +88,7 @@ class Conditions:
             any_order=asked.any_order,
             change_point=Standard.of(task).change_point,
             footprint=footprint,
+            enough=enough_transmission(asked.transmission),
             prefer=problem.options.prefer,
             around=None if task.surroundings is None else _moved_around(task.surroundings, target),
             body=None if task.body is None else _in_frame(task.body, frames.moving_origin, unit),

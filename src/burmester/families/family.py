@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from burmester.families.assessment import AIMS, Assessment, assessed, costs
 from burmester.families.assumptions import Assumptions, Bound
+from burmester.families.conditions import Conditions
 from burmester.families.dyad_samples import drawn_dyads
 from burmester.families.evolution import improved
 from burmester.families.front import far_apart, front
@@ -29,19 +30,12 @@ from burmester.progress import time_for
 from burmester.refinement.target import Target
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.quality import best_first
+from burmester.verdicts.quality import ENOUGH_TRANSMISSION, best_first, rule
 
-__all__ = ["RULES", "Family", "best_of_family"]
+__all__ = ["Family", "best_of_family"]
 
-_PINS: Final = "Recommended is a linkage with pins before one with a slider, then "
-_ALIKE: Final = "of those within a tenth of the least {} the one that transmits best"
-# The rule by which a linkage is recommended, by what is preferred.
-RULES: Final[Mapping[Preference, str]] = {
-    "transmission": f"{_PINS}the one with the greatest least transmission angle, then, within half "
-    "a degree of it, the one with the least product of extent and sensitivity",
-    "size": _PINS + _ALIKE.format("extent"),
-    "accuracy": _PINS + _ALIKE.format("sensitivity"),
-}
+# The figure of which linkages with about the least of it are recommended, by what is preferred.
+PREFERRED: Final[Mapping[Preference, str]] = {"size": "extent", "accuracy": "sensitivity"}
 AS_GOOD: Final = 1.1  # ratio to the least extent or sensitivity, up to which another one is as good
 
 # How many dyads are drawn of each kind: RR, PR, RP; with pins alone, and with sliders.
@@ -70,6 +64,7 @@ VARIANTS: Final = 12  # number of draws of poses within their tolerances
 class Family:
     """The best linkages of a family, the recommended one first, and how they were found.
 
+    rule: by which one is recommended, as a sentence.
     batch: linkages (k,) in the frames of the target, the driver first unless the task has two
         limits; drivers: (k,), the sides that drive; rows: (k, N, 3), their places at the poses.
     works: whether they meet all conditions; else they are the nearest to doing so.
@@ -78,6 +73,7 @@ class Family:
     dyads, pairs: how many were drawn, and looked at.
     """
 
+    rule: str
     batch: LinkageBatch
     drivers: NDArray[np.intp]
     rows: FloatArray
@@ -144,6 +140,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     chosen = [take(pool.trials, k) for pool, k in zip(pools, index, strict=True)]
     trials = concatenate(chosen)
     return Family(
+        _rule(task.conditions),
         _driver_first(trials, task),
         np.zeros_like(trials.driver) if task.is_symmetric else trials.driver,
         task.rows(trials.offsets),
@@ -201,7 +198,7 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
     points = _pins(pool.trials, task) / task.conditions.span
     starts, aims = [], []
     for aim, most in enumerate(POPULATIONS):
-        cost = costs(pool.value, np.full(len(points), aim))
+        cost = costs(pool.value, np.full(len(points), aim), task.conditions.enough)
         first = np.argsort(cost, kind="stable")[:MOST_STARTS]
         apart = _spread(points[first], most)
         starts += first[apart].tolist()
@@ -225,7 +222,8 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
         return pool
     worth = concatenate([take(pool.value, good), value])
     most = MOST_COMPARED if task.conditions.around is None else MOST_COMPARED // 4
-    best = np.argsort(-worth.transmission, kind="stable")[: most // 4]
+    first = costs(worth, np.zeros(len(every), dtype=np.intp), task.conditions.enough)
+    best = np.argsort(first, kind="stable")[: most // 4]
     some = np.union1d(best, np.arange(0, len(every), max(1, len(every) // most)))
     return _better_driven(pool._replace(trials=take(every, some), value=take(worth, some)), task)
 
@@ -267,25 +265,38 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     if not value.good.any():
         return np.argsort(value.violation, kind="stable")[:SHOWN_FAILING]
     good = np.flatnonzero(value.good)
-    best = good[_recommended(take(value, good), task.conditions.prefer)]
-    figures = np.stack([-value.transmission, value.extent, value.sensitivity], axis=1)
+    asked = task.conditions
+    best = good[_recommended(take(value, good), asked)]
+    transmission = np.minimum(value.transmission, max(asked.enough, ENOUGH_TRANSMISSION))
+    figures = np.stack([-transmission, value.extent, value.sensitivity], axis=1)
     on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
-    aims = [int(aim(take(value, on_front)).argmin()) for aim in AIMS[1:]]
+    aims = [int(aim(take(value, on_front), asked.enough).argmin()) for aim in AIMS[1:]]
     points = _pins(take(pool.trials, on_front), task) / task.conditions.span
     chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
     rest = on_front[chosen[1:]]
-    rest = rest[best_first(*(figure[rest] for figure in value[1:]))]
+    rest = rest[best_first(*(figure[rest] for figure in value[1:]), asked.enough)]
     return np.concatenate([[best], rest])
 
 
-def _recommended(value: Assessment, prefer: Preference) -> int:
+def _recommended(value: Assessment, asked: Conditions) -> int:
     """The index of the linkage that the rule recommends."""
-    if prefer != "transmission":
-        figure = value.extent if prefer == "size" else value.sensitivity
+    alike = np.arange(len(value.violation))
+    if asked.prefer in PREFERRED:
+        figure = getattr(value, PREFERRED[asked.prefer])
         alike = np.flatnonzero(figure <= AS_GOOD * figure.min())
-        return int(alike[value.transmission[alike].argmax()])
-    return int(best_first(*value[1:])[0])
+    return int(alike[best_first(*take(value, alike)[1:], asked.enough)[0]])
+
+
+def _rule(asked: Conditions) -> str:
+    """The same rule as a sentence."""
+    alike = ""
+    if asked.prefer in PREFERRED:
+        alike = f"of those within a tenth of the least {PREFERRED[asked.prefer]} "
+    return (
+        "Recommended is a linkage with pins before one with a slider, then "
+        f"{alike}{rule(asked.enough)}"
+    )
 
 
 def _pins(trials: Trials, task: OpenTask) -> FloatArray:

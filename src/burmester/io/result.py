@@ -33,7 +33,6 @@ from burmester.synthesis.result import JUDGED, Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
-from burmester.tasks.options import Preference
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage
 
@@ -79,9 +78,7 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "singular_values": _singular_values(synthesis),
         **_critical_points(synthesis),
         "search": [*map(_search, synthesis.fits), *_counted(synthesis)],
-        "family": None
-        if synthesis.family is None
-        else _family(synthesis.family, synthesis.options.prefer),
+        "family": None if synthesis.family is None else _family(synthesis.family),
         "certificate": None
         if synthesis.certificate is None
         else _certificate(synthesis.certificate),
@@ -255,12 +252,10 @@ def _search(fit: Fit) -> dict[str, Any]:
     return {"kind": "faces", **{name: getattr(search, name) for name in names}}
 
 
-def _family(family: Family, prefer: Preference) -> dict[str, Any]:
+def _family(family: Family) -> dict[str, Any]:
     """How linkages were chosen where the poses leave infinitely many."""
-    from burmester.families.family import RULES
-
     return {
-        "rule": RULES[prefer],
+        "rule": family.rule,
         "assumed": [{"message": each.message, "option": each.option} for each in family.bounds],
         "given_up": family.given_up,
         "dyads": family.dyads,

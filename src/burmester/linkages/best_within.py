@@ -121,4 +121,4 @@ def _evaluated(good: Sequence[_Starts], evaluation: Evaluation) -> list[FoundLin
         Candidates(every.batch, rows, every.pairs, np.ones(len(rows), dtype=bool))
     )
     usable = [each for each in found if each.usable and not each.shortcomings]
-    return by_quality(usable)[:MOST_KEPT]
+    return by_quality(usable, evaluation.target.requirements)[:MOST_KEPT]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from burmester.errors import Advice
 from burmester.families.assumptions import LINK_RATIO
-from burmester.families.family import RULES, Family
+from burmester.families.family import Family
 from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import in_short
@@ -50,8 +50,8 @@ def family_summary(
                 "give the pivots more room, or move a pose",
             )
         )
-    rule = RULES[problem.options.prefer]
-    message = f"{poses} leave infinitely many linkages; these were chosen from {looked}. {rule}"
+    message = f"{poses} leave infinitely many linkages; these were chosen from {looked}. "
+    message += family.rule
     return Outcome("R308", message), advice
 
 

@@ -3,8 +3,8 @@
 Three figures by which linkages are chosen: how well it transmits (greater is better), how much room
 it takes, and how much worse it gets as it is built (less is better).  Others for who needs them.
 
-One rule chooses by them: `RULE`.  The smallest alone would have its pivots side by side, where
-every error of a pin turns the body.
+One rule chooses by them: `best_first`, in words `rule`.  The smallest alone would have its pivots
+side by side, where every error of a pin turns the body; the one that transmits best is often large.
 """
 
 from __future__ import annotations
@@ -26,14 +26,36 @@ from burmester.fourbar.reserve import reserve
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["RULE", "SAME_TRANSMISSION", "Quality", "best_first"]
+__all__ = [
+    "ENOUGH_TRANSMISSION",
+    "SAME_TRANSMISSION",
+    "Quality",
+    "best_first",
+    "enough_transmission",
+    "rule",
+]
 
 SAME_TRANSMISSION = math.radians(0.5)  # an angle lower by no more counts as good
-# The rule, as a sentence says it.
-RULE = (
-    "recommended is the linkage with the greatest least transmission angle; among those within "
-    "half a degree of it, the one with the least product of extent and sensitivity"
-)
+ENOUGH_TRANSMISSION = math.radians(60)  # beyond it a linkage runs no better
+GOOD_TRANSMISSION = math.radians(40)  # is enough where a task asks for that much or less
+
+
+def enough_transmission(asked: float) -> float:
+    """The transmission angle beyond which more of it counts for nothing, in radians.
+
+    asked: the least angle that a task asks for, radians: that much is enough, if it is a good
+    angle.  0 where the task asks for none.
+    """
+    return max(asked, GOOD_TRANSMISSION) if asked else ENOUGH_TRANSMISSION
+
+
+def rule(enough: float = ENOUGH_TRANSMISSION) -> str:
+    """The rule of `best_first`, as a sentence says it."""
+    return (
+        f"the one with the greatest least transmission angle, where more than "
+        f"{math.degrees(enough):.3g}° counts as {math.degrees(enough):.3g}°; among those within "
+        "half a degree of it, the one with the least product of extent and sensitivity"
+    )
 
 
 @final
@@ -106,15 +128,19 @@ class Quality:
 
 
 def best_first(
-    transmission: FloatArray, extent: FloatArray, sensitivity: FloatArray
+    transmission: FloatArray,
+    extent: FloatArray,
+    sensitivity: FloatArray,
+    enough: float = ENOUGH_TRANSMISSION,
 ) -> NDArray[np.intp]:
     """The order (n,) of linkages by the rule, the recommended one first.
 
     The rule is applied again to those that are left, so that each place has a linkage as the
     recommended one of the rest.  Equal ones stay as they come.
     transmission: (n,), radians; extent, sensitivity: (n,), any unit.  nan is the worst of all.
+    enough: radians; more transmission counts as that much.
     """
-    transmission = np.nan_to_num(transmission, nan=-np.inf)
+    transmission = np.minimum(np.nan_to_num(transmission, nan=-np.inf), enough)
     left = np.argsort(np.nan_to_num(extent * sensitivity, nan=np.inf), kind="stable")
     order = []
     while len(left):

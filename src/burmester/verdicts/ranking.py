@@ -18,8 +18,9 @@ from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.requirements import Requirements
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.quality import best_first
+from burmester.verdicts.quality import best_first, enough_transmission
 from burmester.verdicts.uncertainty import DyadUncertainty
 
 __all__ = [
@@ -64,14 +65,15 @@ def states_tolerance(task: Task) -> bool:
     return task.requirements.within is not None or task.tolerances is not None
 
 
-def by_quality(found: Sequence[FoundLinkage]) -> list[FoundLinkage]:
-    """Linkages by the rule of `quality.best_first`."""
+def by_quality(found: Sequence[FoundLinkage], asked: Requirements) -> list[FoundLinkage]:
+    """Linkages by the rule of `quality.best_first`; asked: what their task asks."""
     names = "transmission", "extent", "sensitivity"
     figures = [
         np.array([np.nan if e.quality is None else getattr(e.quality, name) for e in found])
         for name in names
     ]
-    return [found[k] for k in best_first(*figures).tolist()]
+    enough = enough_transmission(asked.transmission)
+    return [found[k] for k in best_first(*figures, enough).tolist()]
 
 
 def closest_usable(found: Iterable[FoundLinkage]) -> FoundLinkage | None:
@@ -106,7 +108,8 @@ def ranked(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> list[Fou
     """
     floor, closest = digits_leave_open(problem), closest_usable(found)
     stated = states_tolerance(problem.task)
-    usable = by_quality([each for each in found if each.usable]) if stated else []
+    asked = problem.task.requirements
+    usable = by_quality([each for each in found if each.usable], asked) if stated else []
     place = {id(each): number for number, each in enumerate(usable)}
     most = 0.0 if closest is None else farthest_recommended(closest, problem)
 
