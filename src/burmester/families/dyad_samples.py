@@ -93,6 +93,9 @@ def _random(
     if kind != 2:
         z[:, 2:4] = side.moving.draw(count, rng)
     if kind == 0:
+        # Of each three one keeps both pivots as drawn, of one the moving, of one the fixed follows.
+        z[1::3, :2] = _centres(poses.act(z[1::3, None, 2:4]), z[1::3, :2])
+        z[2::3, 2:4] = _centres(poses.inverse().act(z[2::3, None, :2]), z[2::3, 2:4])
         pins = poses.act(z[:, None, 2:4])
         z[:, 4] = np.linalg.norm(pins - z[:, None, :2], axis=-1).mean(axis=1)
         return z
@@ -105,6 +108,17 @@ def _random(
     normal = np.stack([np.cos(z[:, at]), np.sin(z[:, at])], axis=-1)
     z[:, at + 1] = (pins.mean(axis=1) * normal).sum(axis=-1)
     return z
+
+
+def _centres(points: FloatArray, near: FloatArray) -> FloatArray:
+    """The centres (k, 2) of circles through points (k, N, 2), as nearly as can be.
+
+    Of two points it is the centre nearest to points (k, 2).
+    """
+    chords = points[:, 1:] - points[:, :1]
+    middles = (points[:, 1:] + points[:, :1]) / 2
+    short = (chords * (middles - near[:, None])).sum(axis=-1)
+    return near + np.einsum("kij,kj->ki", np.linalg.pinv(chords), short)
 
 
 def _brought(start: FloatArray, kind: int, offsets: FloatArray, task: OpenTask) -> FloatArray:

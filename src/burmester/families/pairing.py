@@ -22,6 +22,7 @@ from burmester.numerics.arrays import FloatArray
 __all__ = ["Pairs", "promising_pairs"]
 
 RR_KIND, PR_KIND, RP_KIND = range(3)  # indices in DYAD_KINDS
+NEARLY: Final = 1.6  # ratio by which links may be beyond their bounds where few pairs keep them
 FOUR: Final = 4  # number of links of a 4R linkage
 TINY: Final = 1e-24  # squared lengths; keeps a division from zero
 
@@ -68,7 +69,7 @@ def promising_pairs(
     """At most about `most` pairs of each two kinds, of dyads (k,) and (m,) through poses (N,).
 
     Those that transmit at the poses as is asked; where there are fewer than `most`, the next best
-    ones as well.  kinds: the pairs of kinds that are allowed.
+    ones as well, and those whose links are nearly within the bounds.  kinds: the pairs of kinds that are allowed.
 
     Formula `transmission-at-poses` of the theory.
     """
@@ -78,9 +79,10 @@ def promising_pairs(
         for other in _by_kind(followers, poses):
             if frozenset({DYAD_KINDS[one.kind], DYAD_KINDS[other.kind]}) not in kinds:
                 continue
-            keep = _sane(one, other, conditions.shortest, conditions.ratio)
-            if drivers is followers and one.kind == other.kind:
-                np.fill_diagonal(keep, val=False)
+            same = drivers is followers and one.kind == other.kind
+            keep = _sane(one, other, conditions, 1.0, same=same)
+            if np.count_nonzero(keep) < most:
+                keep = _sane(one, other, conditions, NEARLY, same=same)
             seen += keep.size
             i, j = np.nonzero(keep)
             least = _least_sine(one, other)[i, j]
@@ -146,8 +148,13 @@ def _least_sine(one: _AtPoses, other: _AtPoses) -> FloatArray:
     return np.asarray(np.maximum(low, -high))
 
 
-def _sane(one: _AtPoses, other: _AtPoses, shortest: float, ratio: float) -> NDArray[np.bool_]:
-    """Which pairs (k, m) have no link too short, and of four links none too long beside another."""
+def _sane(
+    one: _AtPoses, other: _AtPoses, conditions: Conditions, slack: float, *, same: bool
+) -> NDArray[np.bool_]:
+    """Which pairs (k, m) have links within the bounds, or beyond them by a factor `slack` at most.
+
+    same: whether both are the same dyads, of which none makes a pair with itself.
+    """
     shape = (len(one.at), len(other.at))
     links = []
     if one.kind == RR_KIND:
@@ -161,8 +168,12 @@ def _sane(one: _AtPoses, other: _AtPoses, shortest: float, ratio: float) -> NDAr
     least, most = np.full(shape, np.inf), np.zeros(shape)
     for each in links:
         least, most = np.minimum(least, each), np.maximum(most, each)
-    keep = least >= shortest
-    return keep & (most <= ratio * least) if len(links) == FOUR else keep
+    keep = (slack * least >= conditions.shortest) & (most <= slack * conditions.longest)
+    if len(links) == FOUR:
+        keep &= most <= slack * conditions.ratio * least
+    if same:
+        np.fill_diagonal(keep, val=False)
+    return keep
 
 
 def _normals(angle: FloatArray) -> FloatArray:
