@@ -149,6 +149,7 @@ def test_the_recommended_one_is_best_by_the_rule_and_no_other_is_surpassed():
     figures = np.array(
         [(e.quality.transmission, e.quality.extent, e.quality.sensitivity) for e in pinned]
     )
+    figures[:, 0] = np.minimum(figures[:, 0], np.radians(60))
     near = figures[:, 0] >= figures[:, 0].max() - np.radians(0.5)
     assert near[0]
     product = figures[:, 1] * figures[:, 2]

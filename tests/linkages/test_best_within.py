@@ -9,7 +9,7 @@ import pytest
 from burmester import read_task
 from burmester.describe.sentences import best_sentences
 from burmester.synthesis.motion_generation import synthesize
-from burmester.verdicts.quality import SAME_TRANSMISSION
+from burmester.verdicts.quality import ENOUGH_TRANSMISSION, SAME_TRANSMISSION
 from burmester.verdicts.ranking import closest_usable, ranked
 from tests.oracles.witness import misses
 
@@ -32,7 +32,8 @@ def test_the_one_recommended_transmits_best_and_all_stay_within(results):
         assert float(each.error.angle.max()) * length <= WITHIN
     best, sound = within.usable[0], [each for each in within.usable if not each.shortcomings]
     angles = [float(each.quality.transmission) for each in sound]
-    near = [each for each in sound if each.quality.transmission > max(angles) - SAME_TRANSMISSION]
+    enough = min(max(angles), ENOUGH_TRANSMISSION) - SAME_TRANSMISSION
+    near = [each for each in sound if each.quality.transmission > enough]
     product = [each.quality.extent * each.quality.sensitivity for each in near]
     assert best.quality.extent * best.quality.sensitivity == min(product)
     # There is more to choose from than what lies beside the closest one.

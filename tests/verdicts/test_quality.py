@@ -1,5 +1,6 @@
 """The quality of linkages, against linkages that are driven and built amiss."""
 
+import math
 from itertools import product
 
 import numpy as np
@@ -9,7 +10,7 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.verdicts.quality import best_first
+from burmester.verdicts.quality import best_first, enough_transmission
 from burmester.verdicts.tolerances import sensitivity, sensitivity_bound, spread
 from tests.oracles.built_amiss import asked, built_amiss, driven, problem
 from tests.oracles.ranges import KINDS as PAIRS
@@ -76,3 +77,13 @@ def test_the_rule_takes_the_best_angle_and_of_those_half_a_degree_the_least_prod
     assert best_first(angle, extent, np.array([1.0, 1, 3, 1, 1, 1]))[0] == 1
     same = np.full(3, 1.0)
     assert best_first(same, same, np.array([3.0, 1.0, 2.0])).tolist() == [1, 2, 0]
+
+
+def test_more_than_enough_transmission_counts_for_nothing():
+    angle, size, same = np.radians([85.5, 67.0, 58.0]), np.array([3.0, 1.0, 0.5]), np.ones(3)
+    assert best_first(angle, size, same).tolist() == [1, 0, 2]
+    assert best_first(angle, size, same, math.radians(50)).tolist() == [2, 1, 0]
+    assert best_first(angle, size, same, math.radians(80)).tolist() == [0, 1, 2]
+    # What a task asks for is enough, but for poor angles; where it asks for none, it is 60 degrees.
+    told = [math.degrees(enough_transmission(math.radians(asked))) for asked in (0, 20, 45, 70)]
+    assert np.allclose(told, [60, 40, 45, 70])

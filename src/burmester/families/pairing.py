@@ -69,7 +69,8 @@ def promising_pairs(
     """At most about `most` pairs of each two kinds, of dyads (k,) and (m,) through poses (N,).
 
     Those that transmit at the poses as is asked; where there are fewer than `most`, the next best
-    ones as well, and those whose links are nearly within the bounds.  kinds: the pairs of kinds that are allowed.
+    ones as well, and those whose links are nearly within the bounds.  kinds: the pairs of kinds
+    that are allowed.
 
     Formula `transmission-at-poses` of the theory.
     """
