@@ -33,6 +33,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.clearance_check import clearance_of, too_close
+from burmester.verdicts.degeneracy import degenerate_defects, pin_distances
 from burmester.verdicts.found_linkage import FoundLinkage, Pair, Side, with_driver_first
 from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.possible_types import links_covariance, possible_types
@@ -61,7 +62,6 @@ __all__ = [
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
 ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
-FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
 DRIVEN_FROM_THE_OTHER_SIDE = {"crank-rocker": "rocker-crank", "rocker-crank": "crank-rocker"}
 SIDES: tuple[Side, Side] = ("first", "second")
 SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
@@ -148,7 +148,8 @@ class Evaluation:
         )
         places = self.target.frames.from_canonical(self.target.places_of(candidates.rows))
         errors, shares = self.errors(places), self.shares(places)
-        verdicts = self.verdicts(own, places, errors)
+        sensitivity = self.sensitivities(own, places)
+        verdicts = self.verdicts(own, places, errors, sensitivity)
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
         standard = Standard.of(self.task)
         distance = np.abs(own.distances(self.task.poses))
@@ -189,7 +190,7 @@ class Evaluation:
             )
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
         if quality:
-            out = self._with_quality(out, places)
+            out = self._with_quality(out, places, sensitivity)
         rows = np.arange(len(own))[:, None]
         batch = LinkageBatch(
             candidates.batch.kinds[rows, sides], candidates.batch.dimensions[rows, sides]
@@ -280,9 +281,16 @@ class Evaluation:
         return shares_used(places, self.task, float(self.target.frames.length))
 
     def verdicts(
-        self, own: LinkageBatch, places: Displacement, errors: list[PoseError]
+        self,
+        own: LinkageBatch,
+        places: Displacement,
+        errors: list[PoseError],
+        sensitivity: FloatArray,
     ) -> list[Verdict]:
-        """The verdicts on linkages (k,) in the task's own frames, at their places (k, N)."""
+        """The verdicts on linkages (k,) in the task's own frames, at their places (k, N).
+
+        sensitivity: (k,), as `sensitivities` has it.
+        """
         shape = (len(own), self.task.poses.shape[0])
         position = np.array([error.position for error in errors]).reshape(shape)
         turn = np.array([error.angle for error in errors]).reshape(shape)
@@ -315,9 +323,13 @@ class Evaluation:
                 in_words_of_tolerances(verdict, share, names)
                 for verdict, share in zip(verdicts, shares, strict=True)
             ]
-        if list(numbers) == list(range(len(numbers))):
-            return verdicts
-        return [_with_numbers(verdict, numbers) for verdict in verdicts]
+        if list(numbers) != list(range(len(numbers))):
+            verdicts = [_with_numbers(verdict, numbers) for verdict in verdicts]
+        degenerate = degenerate_defects(own, sensitivity, self.problem)
+        return [
+            replace(verdict, defects=verdict.defects + more) if more else verdict
+            for verdict, more in zip(verdicts, degenerate, strict=True)
+        ]
 
     def driver(
         self, linkage: Linkage, verdict: Verdict, settled: Side | None = None
@@ -349,28 +361,47 @@ class Evaluation:
         reasons += limit_violations(linkage, self.task.limits, size, unit)
         return best, reasons, not (verdict.defects or defects or reasons)
 
-    def qualities(
-        self, linkages: Sequence[Linkage], places: Displacement, driven: Sequence[Driven]
-    ) -> list[Quality]:
-        """The quality of linkages (k,), the driver first, at places (k, N) in the task's frames."""
-        batch, target = LinkageBatch.of(linkages), self.target
-        here = target.places_of(target.rows_at(places))
-        there = batch.to_canonical(target.frames)
+    def sensitivities(self, own: LinkageBatch, places: Displacement) -> FloatArray:
+        """The sensitivity (k,) of linkages in the task's own frames at places (k, N); or nan."""
+        target, out = self.target, np.full(len(own), np.nan)
         some = even_numbers(places.shape[1], MAX_PLACES_OF_QUALITY)
-        here = here[:, some]
+        here = target.places_of(target.rows_at(places))[:, some]
+        exist = np.flatnonzero(np.isfinite(here.angle).all(axis=1))
+        here, there = here[exist], own[exist].to_canonical(target.frames)
         # Within tolerances a place need not be the nearest to its pose: errors count about it.
         poses = target.poses[some] if target.boxes is None else here
-        bound = sensitivity_bound(there, poses, here, target.length).max(axis=-1)
-        every = Quality.of(batch, places, driven, bound, size=self.problem.motion_size)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            out[exist] = sensitivity_bound(there, poses, here, target.length).max(axis=-1)
+        return out
+
+    def qualities(
+        self,
+        linkages: Sequence[Linkage],
+        places: Displacement,
+        driven: Sequence[Driven],
+        sensitivity: FloatArray | None = None,
+    ) -> list[Quality]:
+        """The quality of linkages (k,), the driver first, at places (k, N) in the task's frames.
+
+        sensitivity: (k,), where it is known.
+        """
+        batch = LinkageBatch.of(linkages)
+        if sensitivity is None:
+            sensitivity = self.sensitivities(batch, places)
+        every = Quality.of(batch, places, driven, sensitivity, size=self.problem.motion_size)
         return [take(every, k) for k in range(len(linkages))]
 
-    def _with_quality(self, found: list[FoundLinkage], places: Displacement) -> list[FoundLinkage]:
+    def _with_quality(
+        self, found: list[FoundLinkage], places: Displacement, sensitivity: FloatArray
+    ) -> list[FoundLinkage]:
         """The linkages with their quality, where their places (k, N) exist."""
         sound = [k for k, each in enumerate(found) if math.isfinite(each.combined_error)]
         if not sound:
             return found
         driven = [found[k].driven for k in sound]
-        told = self.qualities([found[k].driver_first for k in sound], places[sound], driven)
+        told = self.qualities(
+            [found[k].driver_first for k in sound], places[sound], driven, sensitivity[sound]
+        )
         out = list(found)
         for k, quality in zip(sound, told, strict=True):
             out[k] = replace(out[k], quality=quality)
@@ -461,12 +492,9 @@ def _at_deepest_places(
 
 def sizable(batch: LinkageBatch, size: float | FloatArray = 1.0) -> NDArray[np.bool_]:
     """Whether ground links and couplers (k,) between pins have a length; size: of the motion."""
-    kinds, z = batch.kinds, batch.dimensions
-    ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
-    return np.asarray(
-        ((kinds == 1).any(axis=1) | (ground > MIN_LINK * size))
-        & ((kinds == 2).any(axis=1) | (coupler > MIN_LINK * size))
-    )
+    with np.errstate(invalid="ignore"):
+        joined = pin_distances(batch)[:, 2:] <= np.reshape(MIN_LINK * size, (-1, 1))
+    return np.asarray(~joined.any(axis=1))
 
 
 def _with_errors(origin: FoundDyad, dyad: Dyad, rms: float, worst: float) -> FoundDyad:
