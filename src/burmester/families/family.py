@@ -7,7 +7,7 @@ of quality, far from each other.  A search: that none better exists is not prove
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple, final
 
@@ -29,9 +29,10 @@ from burmester.progress import time_for
 from burmester.refinement.target import Target
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.quality import best_first
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.quality import Quality, best_first
 
-__all__ = ["RULES", "Family", "best_of_family"]
+__all__ = ["RULES", "Family", "best_of_family", "recommended_first"]
 
 _PINS: Final = "Recommended is a linkage with pins before one with a slider, then "
 _ALIKE: Final = "of those within a tenth of the least {} the one that transmits best"
@@ -306,3 +307,34 @@ def _driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> Li
     rows = np.arange(len(trials))[:, None]
     order = np.stack([trials.driver, 1 - trials.driver], axis=1)
     return LinkageBatch(trials.batch.kinds[rows, order], trials.batch.dimensions[rows, order])
+
+
+def recommended_first(
+    found: Sequence[FoundLinkage], problem: SynthesisProblem
+) -> list[FoundLinkage]:
+    """Linkages of a family, evaluated as they are to be built, in the order of its rule.
+
+    Those that work come first, of these those that meet the standard, then pins before sliders.
+    """
+
+    def group(k: int) -> tuple[bool, bool, bool]:
+        sliders = {type(each.dyad) for each in found[k].dyads} != PINNED
+        return not found[k].usable, bool(found[k].shortcomings), sliders
+
+    groups: dict[tuple[bool, bool, bool], list[int]] = {}
+    for k in range(len(found)):
+        groups.setdefault(group(k), []).append(k)
+    order = []
+    for _, index in sorted(groups.items()):
+        rows = [_figures(found[k].quality) for k in index]
+        value = Assessment(np.zeros(len(rows)), *np.array(rows).reshape(-1, 3).T)
+        best = _recommended(value, problem.options.prefer)
+        rest = best_first(*value[1:])
+        order += [index[k] for k in (best, *rest[rest != best])]
+    return [found[k] for k in order]
+
+
+def _figures(quality: Quality | None) -> tuple[float, float, float]:
+    if quality is None:
+        return 0.0, np.inf, np.inf
+    return float(quality.transmission), float(quality.extent), float(quality.sensitivity)

@@ -17,14 +17,14 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
+from burmester.linkages.judged_places import best_places, places_to_judge
 from burmester.numerics.arrays import FloatArray, even_numbers
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.bundles import take
 from burmester.numerics.weights import weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import (
-    ToleranceBoxes,
     counted_error,
     poses_counted,
     shares_used,
@@ -116,31 +116,60 @@ class Evaluation:
         at_once = max(1, PLACES_AT_ONCE // self.target.poses.shape[0])
         for at in range(0, len(candidates.batch), at_once):
             some = take(candidates, np.arange(at, min(at + at_once, len(candidates.batch))))
-            found += self._with_uncertainty(*self._judged(some))
+            found += self._with_uncertainty(*self._where_best(some))
         return ranked(found, self.problem)
 
     def members(self, candidates: Candidates, *, quality: bool = True) -> list[FoundLinkage]:
         """The same for linkages of a family, in their order: no pose determines their pivots.
 
+        Where they are, or where they trace a path; where they are not inside the tolerances, at
+        their places deepest inside.
         quality: whether it is told; it takes a third of the time.
-        """
-        return self._judged(candidates, once=True, quality=quality)[0]
-
-    def _judged(
-        self, candidates: Candidates, *, once: bool = False, quality: bool = True
-    ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
-        """The linkages in their order, as found and as a batch (dyads alike), and their places.
-
-        Along a path, at their places that trace it.  Where there are tolerances, at their places
-        deepest inside, and at those given if they are inside as well: these may be on another
-        branch, or in another order.  once: at those given only, where they are inside.
         """
         candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
         if self.target.path is not None:
-            traced, cranks = self.target.traced(candidates.batch)
-            candidates = candidates._replace(rows=traced, drivers=cranks)
-        elif self.target.boxes is not None:
-            candidates = _at_deepest_places(candidates, self.target, self.target.boxes, once=once)
+            candidates = self._along_path(candidates)
+        elif (boxes := self.target.boxes) is not None:
+            rows = candidates.rows.copy()
+            outside = np.flatnonzero(~(boxes.boxes.share(rows).max(axis=-1) <= 1))
+            rows[outside] = self.target.places(candidates.batch[outside], on_both=True)
+            candidates = candidates._replace(rows=rows)
+        return self._judged(candidates, quality=quality)[0]
+
+    def _where_best(
+        self, candidates: Candidates
+    ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
+        """As `_judged`, each linkage at those of its places that count (`judged_places`).
+
+        Along a path, at its places that trace it.  Where there are tolerances, at its places
+        deepest inside, or at those given or nearest to the poses if they are inside as well: these
+        may be on another branch, or in another order.
+        """
+        candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
+        if self.target.path is not None:
+            return self._judged(self._along_path(candidates))
+        every, boxes = np.arange(len(candidates.batch)), self.target.boxes
+        index, rows = places_to_judge(candidates.batch, candidates.rows, self.target)
+        if boxes is not None:
+            deepest = self.target.places(candidates.batch, on_both=True)
+            index, rows = np.r_[every, index], np.concatenate([candidates.rows, rows])
+            inside = boxes.boxes.share(rows).max(axis=-1) <= 1
+            index = np.r_[every, index[inside]]
+            rows = np.concatenate([deepest, rows[inside]])
+        found, batch, rows = self._judged(take(candidates, index)._replace(rows=rows))
+        ways = [np.flatnonzero(index == k) for k in every]
+        best = [int(way[best_places([found[at] for at in way])]) for way in ways]
+        return [found[at] for at in best], batch[best], rows[best]
+
+    def _along_path(self, candidates: Candidates) -> Candidates:
+        """The candidates at their places that trace the path."""
+        traced, cranks = self.target.traced(candidates.batch)
+        return candidates._replace(rows=traced, drivers=cranks)
+
+    def _judged(
+        self, candidates: Candidates, *, quality: bool = True
+    ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
+        """The linkages at their places, as found and as a batch (dyads alike), and the places."""
         own = (
             candidates.batch.from_canonical(self.target.frames)
             if candidates.own is None
@@ -229,8 +258,11 @@ class Evaluation:
             if not new:
                 lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
                 new = [replace(each, usable=False, violations=(*each.violations, lost))]
-            # Rounded dimensions are exact, whatever the poses leave open.
+            # Rounded dimensions are exact, whatever the poses leave open; and what few poses leave
+            # open of a family is no uncertainty, rounded or not.
             out += [replace(one, error_before_rounding=each.error, other_types=()) for one in new]
+            if each.uncertainty is None:
+                out[-1] = replace(out[-1], uncertainty=None, determined=each.determined)
         return ranked(out, self.problem)
 
     def _target_of_rounding(self, found: FoundLinkage) -> Target:
@@ -474,20 +506,6 @@ def transmission_at_given_poses(found: FoundLinkage, problem: SynthesisProblem) 
     if problem.motion is None or len(angles) == problem.given.poses.shape[0]:
         return angles
     return np.asarray(angles[problem.motion.group])
-
-
-def _at_deepest_places(
-    candidates: Candidates, target: Target, boxes: ToleranceBoxes, *, once: bool
-) -> Candidates:
-    """The candidates at their places deepest inside the boxes, and at their own if inside."""
-    inside = np.flatnonzero(boxes.boxes.share(candidates.rows).max(axis=-1) <= 1)
-    if once:
-        rows = candidates.rows.copy()
-        outside = np.setdiff1d(np.arange(len(rows)), inside)
-        rows[outside] = target.places(candidates.batch[outside], on_both=True)
-        return candidates._replace(rows=rows)
-    deepest = candidates._replace(rows=target.places(candidates.batch, on_both=True))
-    return concatenate([deepest, take(candidates, inside)]) if len(inside) else deepest
 
 
 def sizable(batch: LinkageBatch, size: float | FloatArray = 1.0) -> NDArray[np.bool_]:
