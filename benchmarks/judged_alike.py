@@ -32,7 +32,7 @@ def noisy_task(number: int, seed: int) -> Task:
     """Poses of the coupler of a random four-bar, each off by some noise."""
     rng = np.random.default_rng((seed, number))
     while True:
-        ground, coupler, follower, crank = rng.uniform(0.5, 4.0, 3).tolist() + [rng.uniform(0.2, 2)]
+        ground, coupler, follower, crank = rng.uniform((0.5, 0.5, 0.5, 0.2), (4, 4, 4, 2))
         turned = np.sort(rng.uniform(0, rng.uniform(1, 2 * np.pi), rng.integers(5, 10)))
         pin = crank * np.exp(1j * turned)
         gap = ground - pin

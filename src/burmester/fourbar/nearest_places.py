@@ -20,14 +20,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "nearest",
-    "on_circuits",
-    "on_circuits_or_given",
-    "on_own_circuits",
-    "places_at",
-    "sampled",
-]
+__all__ = ["nearest", "on_circuits", "on_own_circuits", "places_at", "sampled"]
 
 
 class SearchEffort(NamedTuple):
@@ -97,42 +90,28 @@ def on_circuits(
     return places_of(out, length)
 
 
-def on_circuits_or_given(
-    batch: LinkageBatch, rows: FloatArray, poses: Displacement, length: float
-) -> tuple[FloatArray, NDArray[np.int8]]:
-    """The rows (k, 2, N, 3) of the nearest places on both circuits, and the circuits of the given.
-
-    rows: (k, N, 3), places that a descent may have left in local minima, or nan.  A given place
-    stays on its circuit (k, N) where it is on the linkage and nearer than what is found there.
-    """
-    both = rows_of(on_circuits(batch, poses, length), length)
-    target, places = rows_of(poses, length), places_of(rows, length)
-    circuit = Circuits.of(batch, as_given=True).locate(places).circuit
-    on = circuit >= 0
-    on[on] = np.abs(batch.jacobians(places).residual).max(axis=1)[on] <= ON_LINKAGE
-    linkage, pose = np.nonzero(on)
-    side, own = circuit[on].astype(np.intp), rows[on]
-    there = both[linkage, side, pose]
-    better = _squares(there, target[pose]) <= _squares(own, target[pose]) * (1 + EQUALLY_NEAR)
-    both[linkage, side, pose] = np.where(better[:, None], there, own)
-    return both, circuit
-
-
 def on_own_circuits(
     batch: LinkageBatch, rows: FloatArray, poses: Displacement, length: float
 ) -> FloatArray:
     """The nearest places (k, N, 3) to poses (N,), on the circuits of given places (k, N, 3).
 
-    Of linkages with given places on both circuits, the nearest ones on either.  A given place stays
-    where it is on no circuit, or nearer than what is found.
+    A descent may have left the given places in one local minimum while another one on the same
+    circuit is nearer.  Of linkages with given places on both circuits, the nearest ones on either.
+    A given place stays where it is on no circuit, and where it is on the linkage and nearer.
     """
-    both, circuit = on_circuits_or_given(batch, rows, poses, length)
+    both = rows_of(on_circuits(batch, poses, length), length)
+    target = rows_of(poses, length)
     linkage, pose = np.indices(rows.shape[:2])
-    mixed = (circuit != circuit[:, :1]).any(axis=1)[:, None]
-    side = np.where(mixed, _nearest_of(both, rows_of(poses, length), 1), np.maximum(circuit, 0))
-    nearer = both[linkage, side, pose]
-    found = (circuit >= 0)[..., None] & np.isfinite(nearer).all(axis=-1, keepdims=True)
-    return np.where(found, nearer, rows)
+    places = places_of(rows, length)
+    circuit = Circuits.of(batch, as_given=True).locate(places).circuit
+    mixed = (circuit != circuit[:, :1]).any(axis=1)
+    side = np.where(mixed[:, None], _nearest_of(both, target, 1), np.maximum(circuit, 0))
+    nearer = np.where((circuit >= 0)[..., None], both[linkage, side, pose], rows)
+    off = np.abs(batch.jacobians(places).residual).max(axis=1) > ON_LINKAGE
+    least = _squares(rows, target) * (1 + EQUALLY_NEAR)
+    better = off | (_squares(nearer, target) <= least)
+    better &= np.isfinite(nearer).all(axis=-1)
+    return np.where(better[..., None], nearer, rows)
 
 
 def nearest(places: Displacement, poses: Displacement, length: float) -> Displacement:

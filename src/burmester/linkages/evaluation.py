@@ -149,7 +149,7 @@ class Evaluation:
         if self.target.path is not None:
             return self._judged(self._along_path(candidates))
         every, boxes = np.arange(len(candidates.batch)), self.target.boxes
-        index, rows = places_to_judge(candidates.batch, candidates.rows, self.target)
+        index, rows = places_to_judge(candidates.batch, self.target)
         if boxes is not None:
             deepest = self.target.places(candidates.batch, on_both=True)
             index, rows = np.r_[every, index], np.concatenate([candidates.rows, rows])

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import nearest, on_circuits, on_circuits_or_given
+from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.refinement.target import ONE_CIRCUIT_RATIO, Target
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -37,12 +37,13 @@ class NearestPlaces(NamedTuple):
     apart: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, both: FloatArray, target: Target) -> NearestPlaces:
-        """Of the places on both circuits."""
+    def of(cls, batch: LinkageBatch, target: Target) -> NearestPlaces:
+        """Those of linkages (k,)."""
+        found = on_circuits(batch, target.poses, target.length)
+        both, wanted = (rows_of(each, target.length) for each in (found, target.poses))
         cost = np.nan_to_num(target.cost(both), nan=np.inf)
         one = both[np.arange(len(both)), cost.argmin(axis=1)]
-        places = nearest(target.places_of(both), target.poses, target.length)
-        best, wanted = rows_of(places, target.length), rows_of(target.poses, target.length)
+        best = rows_of(nearest(found, target.poses, target.length), target.length)
         away, least = (
             np.sqrt(np.nan_to_num(((each - wanted) ** 2).sum(axis=-1), nan=np.inf)).max(axis=1)
             for each in (one, best)
@@ -50,24 +51,15 @@ class NearestPlaces(NamedTuple):
         apart = (away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)) & np.isfinite(least)
         return cls(both, one, best, apart)
 
-    @classmethod
-    def on_circuits(cls, batch: LinkageBatch, target: Target) -> NearestPlaces:
-        """Looked for from nothing."""
-        return cls.of(
-            rows_of(on_circuits(batch, target.poses, target.length), target.length), target
-        )
 
+def places_to_judge(batch: LinkageBatch, target: Target) -> tuple[NDArray[np.intp], FloatArray]:
+    """The numbers (n,) of linkages (k,), and the rows (n, N, 3) of each way to judge them.
 
-def places_to_judge(
-    batch: LinkageBatch, rows: FloatArray, target: Target
-) -> tuple[NDArray[np.intp], FloatArray]:
-    """The linkages (n,) among those (k,) given, and the rows (n, N, 3) of each way to judge them.
-
-    rows: (k, N, 3), places where they may be already; they stay where nothing on their circuit is
-    nearer.  Every linkage has a way, by rising number; places may be nan.
+    They depend on the linkage alone, and not on where a search has left it.  Every linkage has a
+    way, by rising number; places may be nan.
     """
-    both, _ = on_circuits_or_given(batch, rows, target.poses, target.length)
-    near = NearestPlaces.of(both, target)
+    near = NearestPlaces.of(batch, target)
+    both = near.both
     exists = np.isfinite(both).all(axis=(-1, -2))
     mixed = np.where(np.isfinite(near.best).all(axis=(1, 2), keepdims=True), near.best, near.one)
     every = np.concatenate([both, mixed[:, None]], axis=1)

@@ -124,7 +124,7 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     warnings = (
         *_odd_pose(problem, search),
         *known,
-        *dyad_advice(problem, search),
+        *dyad_advice(problem, search, linkages),
         *map(_found_twice, twice),
         *linkage_advice(task, linkages, outcome.code),
         *sample_advice(problem, linkages),
