@@ -28,6 +28,7 @@ from burmester.fourbar.instantaneous import (
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.loop_closure import DrivenLoop
+from burmester.fourbar.transmission import Transmission
 from burmester.geometry.displacement import Displacement
 from tests.oracles.random_dyads import (
     CHANGE,
@@ -655,6 +656,55 @@ def test_a_slot_through_the_driving_pin_transmits_best():
     linkage = Linkage(RR([0, 0], [0, 0], 1.0), RP([2.0, 0], 0.5, 0.0))
     place = DrivenLoop.of(linkage).closed_at(np.linspace(0, 6, 40))
     assert np.allclose(transmission_angle(linkage, place), np.pi / 2)
+
+
+def wrench(force, at):
+    """A force at a point, as a force and its moment about the origin of F."""
+    return np.array([*force, at[0] * force[1] - at[1] * force[0]])
+
+
+def worst_load(linkage, place):
+    """The force in the second dyad while the driver holds the body against a unit force.
+
+    That force is at the second dyad's pin, in the worst of many directions; friction there is none,
+    so the forces on the body balance: the driver's effort and what each dyad can bear.
+    """
+    (x, y), turn = place.translation, float(place.angle)
+    rotate = np.array([[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]])
+
+    def bears(dyad):
+        if isinstance(dyad, RP):
+            angle = float(dyad.normal_angle) + turn
+            return np.array([np.cos(angle), np.sin(angle)]), dyad.fixed_pivot
+        pin = rotate @ dyad.moving_pivot + (x, y)
+        if isinstance(dyad, RR):
+            return (pin - dyad.fixed_pivot) / np.linalg.norm(pin - dyad.fixed_pivot), pin
+        return np.array([np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)]), pin
+
+    (one, at), (other, pin) = bears(linkage.first), bears(linkage.second)
+    slot = isinstance(linkage.first, RP)
+    effort = np.array([0, 0, 1.0]) if slot else wrench([-one[1], one[0]], at)
+    forces = np.column_stack([effort, wrench(one, at), wrench(other, pin)])
+    ways = np.linspace(0, np.pi, 2001)
+    loads = np.array([wrench([np.cos(way), np.sin(way)], pin) for way in ways])
+    return np.abs(np.linalg.solve(forces, -loads.T)[2]).max()
+
+
+@all_pairs
+def test_the_follower_bears_one_over_the_sine_of_the_transmission_angle(pair):
+    rng, told = np.random.default_rng(8), 0
+    while told < 6:
+        many = random_linkages(pair, rng, 1)
+        linkage = Linkage(many.first[0], many.second[0])
+        rows, _ = some_places(linkage.first, linkage.second, rng)
+        places = Displacement(rows[:, :2], rows[:, 2])
+        angle = transmission_angle(linkage, places)
+        batch, driver = LinkageBatch.of([linkage]), np.zeros(1, dtype=np.intp)
+        sine = Transmission.of(batch, rows[None], 1.0, driver).sine[0]
+        assert np.allclose(np.abs(sine), np.sin(angle))
+        for k in np.flatnonzero(angle > 0.05):
+            assert worst_load(linkage, places[k]) == pytest.approx(1 / np.sin(angle[k]), rel=1e-4)
+            told += 1
 
 
 @all_pairs

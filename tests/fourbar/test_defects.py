@@ -60,8 +60,8 @@ def angle_of_force(first, second, rows):
         return np.column_stack([np.cos(dyad.normal_angle + turn), np.sin(dyad.normal_angle + turn)])
 
     if isinstance(first, RP) and isinstance(second, RP):
-        return np.full(len(rows), np.pi / 2)
-    if isinstance(second, RP):
+        a, b = normal(first, rows[:, 2]), normal(second, rows[:, 2])
+    elif isinstance(second, RP):
         a, b = normal(second, rows[:, 2]), seen(first.moving_pivot) - second.fixed_pivot
     else:
         pin = seen(second.moving_pivot)

@@ -38,12 +38,19 @@ class Decimals:
 
     error: the greatest position and angle (radians) errors of what is printed.
     middles: of each dyad the point (2,) by which its line is told, or None where it has no line.
+    grid: decimals of the step of which dimensions are multiples, if they were rounded to one.
     """
 
     lengths: int
     degrees: int
     error: tuple[float, float]
     middles: tuple[FloatArray | None, ...]
+    grid: int | None = None
+
+    def of_length(self, value: float) -> int:
+        """The decimals of one length: those of the grid where it lies on it."""
+        on_grid = self.grid is not None and float(f"{value:.{self.grid}f}") == value
+        return self.grid if self.grid is not None and on_grid else self.lengths
 
     def printed(self, *dyads: Dyad) -> tuple[Dyad, ...]:
         """The dyads that somebody has who reads the printed dimensions."""

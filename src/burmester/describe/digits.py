@@ -17,6 +17,7 @@ __all__ = [
     "dyad_error",
     "fitted_decimals",
     "fixed",
+    "length_text",
     "links",
     "position_error",
     "short",
@@ -102,7 +103,14 @@ def degrees(angle: float) -> str:
     return f"{figure(math.degrees(angle))}°" if math.isfinite(angle) else "-"
 
 
-def links(found: FoundLinkage, decimals: int) -> list[str]:
+def length_text(value: float, decimals: Decimals) -> str:
+    """A length of a linkage: whole numbers where it was rounded to whole ones."""
+    return fixed(value, decimals.of_length(value))
+
+
+def links(found: FoundLinkage, decimals: Decimals) -> list[str]:
     """Ground, driver, coupler and follower; dashes where there are sliders."""
     lengths = found.driver_first.links
-    return ["-"] * 4 if lengths is None else [fixed(float(each), decimals) for each in lengths]
+    return (
+        ["-"] * 4 if lengths is None else [length_text(float(each), decimals) for each in lengths]
+    )

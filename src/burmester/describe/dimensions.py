@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from decimal import Decimal
 from typing import NamedTuple
 
 from burmester.describe.decimals import (
@@ -12,7 +14,7 @@ from burmester.describe.decimals import (
     direction_deg,
     figures_of,
 )
-from burmester.describe.digits import fixed
+from burmester.describe.digits import fixed, length_text
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Synthesis
@@ -47,15 +49,17 @@ def certain(synthesis: Synthesis, found: FoundLinkage) -> bool:
 def decimals_of(synthesis: Synthesis, found: FoundLinkage) -> Decimals:
     """The decimals with which the printed linkage does what is said of it."""
     step = synthesis.options.rounding_step if found.error_before_rounding is not None else None
-    return decimals_of_linkage(
+    grid = None if step is None else max(0, -int(Decimal(repr(step)).normalize().as_tuple()[2]))
+    decimals = decimals_of_linkage(
         found.linkage,
         synthesis.task.poses,
         found.error,
         synthesis.problem.length_per_radian,
         synthesis.length,
         free_angles=synthesis.task.free_angles,
-        at_least=0 if step is None else figures_of(step),
+        at_least=grid or 0,
     )
+    return replace(decimals, grid=grid)
 
 
 def dimensions(synthesis: Synthesis, found: FoundLinkage) -> list[Dimension]:
@@ -86,7 +90,7 @@ def _of_dyad(
     digits = decimals.lengths
 
     def place(pivot: FloatArray) -> str:
-        return f"({fixed(pivot[0], digits)}, {fixed(pivot[1], digits)})"
+        return f"({length_text(pivot[0], decimals)}, {length_text(pivot[1], decimals)})"
 
     def point(pivot: FloatArray, region: PivotRegion | None) -> tuple[str, str]:
         text = place(pivot)
@@ -105,7 +109,7 @@ def _of_dyad(
         give = _give(region.length or 0.0 if region else 0.0, digits)
         if region is not None and not region.length_determined:
             give = NOT_DETERMINED
-        yield "length", fixed(float(dyad.radius), digits), give
+        yield "length", length_text(float(dyad.radius), decimals), give
     if isinstance(dyad, PR | RP):
         line = region.line if region else None
         frame = "line in F" if isinstance(dyad, PR) else "line in M"

@@ -28,6 +28,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
+from burmester.verdicts.degeneracy import MAX_SENSITIVITY
 from burmester.verdicts.tolerances import sensitivity_bound
 
 __all__ = ["AIMS", "Assessment", "assessed", "costs"]
@@ -86,6 +87,8 @@ def assessed(trials: Trials, task: OpenTask, *, thorough: bool = False) -> Asses
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
         bound = sensitivity_bound(led, places, places, task.length)
         out.sensitivity[:] = bound.max(axis=1)
+        times = np.fmin(np.fmax(out.sensitivity / MAX_SENSITIVITY, 1.0), BAD)
+        out.violation[:] += np.log(times)
     return out
 
 

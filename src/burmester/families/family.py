@@ -7,7 +7,7 @@ of quality, far from each other.  A search: that none better exists is not prove
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple, final
 
@@ -30,9 +30,16 @@ from burmester.progress import time_for
 from burmester.refinement.target import Target
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.quality import ENOUGH_TRANSMISSION, best_first, rule
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.quality import (
+    ENOUGH_TRANSMISSION,
+    Quality,
+    best_first,
+    enough_transmission,
+    rule,
+)
 
-__all__ = ["Family", "best_of_family"]
+__all__ = ["Family", "best_of_family", "recommended_first"]
 
 # The figure of which linkages with about the least of it are recommended, by what is preferred.
 PREFERRED: Final[Mapping[Preference, str]] = {"size": "extent", "accuracy": "sensitivity"}
@@ -266,7 +273,7 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
         return np.argsort(value.violation, kind="stable")[:SHOWN_FAILING]
     good = np.flatnonzero(value.good)
     asked = task.conditions
-    best = good[_recommended(take(value, good), asked)]
+    best = good[_recommended(take(value, good), asked.prefer, asked.enough)]
     transmission = np.minimum(value.transmission, max(asked.enough, ENOUGH_TRANSMISSION))
     figures = np.stack([-transmission, value.extent, value.sensitivity], axis=1)
     on_front = good[front(figures[good])]
@@ -279,13 +286,13 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     return np.concatenate([[best], rest])
 
 
-def _recommended(value: Assessment, asked: Conditions) -> int:
+def _recommended(value: Assessment, prefer: Preference, enough: float) -> int:
     """The index of the linkage that the rule recommends."""
     alike = np.arange(len(value.violation))
-    if asked.prefer in PREFERRED:
-        figure = getattr(value, PREFERRED[asked.prefer])
+    if prefer in PREFERRED:
+        figure = getattr(value, PREFERRED[prefer])
         alike = np.flatnonzero(figure <= AS_GOOD * figure.min())
-    return int(alike[best_first(*take(value, alike)[1:], asked.enough)[0]])
+    return int(alike[best_first(*take(value, alike)[1:], enough)[0]])
 
 
 def _rule(asked: Conditions) -> str:
@@ -317,3 +324,35 @@ def _driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> Li
     rows = np.arange(len(trials))[:, None]
     order = np.stack([trials.driver, 1 - trials.driver], axis=1)
     return LinkageBatch(trials.batch.kinds[rows, order], trials.batch.dimensions[rows, order])
+
+
+def recommended_first(
+    found: Sequence[FoundLinkage], problem: SynthesisProblem
+) -> list[FoundLinkage]:
+    """Linkages of a family, evaluated as they are to be built, in the order of its rule.
+
+    Those that work come first, of these those that meet the standard, then pins before sliders.
+    """
+
+    def group(k: int) -> tuple[bool, bool, bool]:
+        sliders = {type(each.dyad) for each in found[k].dyads} != PINNED
+        return not found[k].usable, bool(found[k].shortcomings), sliders
+
+    groups: dict[tuple[bool, bool, bool], list[int]] = {}
+    for k in range(len(found)):
+        groups.setdefault(group(k), []).append(k)
+    enough = enough_transmission(problem.task.requirements.transmission)
+    order = []
+    for _, index in sorted(groups.items()):
+        rows = [_figures(found[k].quality) for k in index]
+        value = Assessment(np.zeros(len(rows)), *np.array(rows).reshape(-1, 3).T)
+        best = _recommended(value, problem.options.prefer, enough)
+        rest = best_first(*value[1:], enough)
+        order += [index[k] for k in (best, *rest[rest != best])]
+    return [found[k] for k in order]
+
+
+def _figures(quality: Quality | None) -> tuple[float, float, float]:
+    if quality is None:
+        return 0.0, np.inf, np.inf
+    return float(quality.transmission), float(quality.extent), float(quality.sensitivity)

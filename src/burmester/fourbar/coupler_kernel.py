@@ -260,8 +260,6 @@ def transmission_sine(lead: Dyad, follow: Dyad, coupler: Coupler) -> cython.doub
     """The signed sine of the transmission angle at the coupler's place: see `transmission`."""
     slot: cython.bint = lead.kind == RP
     slot2: cython.bint = follow.kind == RP
-    if slot and slot2:
-        return 1.0
     l_x, l_y, f_x, f_y = lead.force_x, lead.force_y, follow.force_x, follow.force_y
     across: cython.double = l_x * f_y - l_y * f_x
     if slot:

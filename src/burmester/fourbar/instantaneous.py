@@ -135,8 +135,12 @@ def transmission_angle(linkage: Linkage, places: Displacement) -> FloatArray:
     An RR or PR that follows an RR or PR: between the coupler, from pin to pin, and the follower
     (for PR the normal of its line).  The same after an RP: between the normal of the driving slot,
     the force's only direction, and the follower.  An RP that follows: between the normal of its
-    slot and the line from the driving pin to the fixed pivot.  An RP after an RP passes a pure
-    couple on: pi/2.  nan for PP.
+    slot and the line from the driving pin to the fixed pivot.  An RP after an RP: between both
+    slots.  These pass a couple on at any angle, but hold the body against a force only as they
+    cross, and are at a change point where they are parallel.  nan for PP.
+
+    In every case a unit force on the body at the second dyad's pin, in the worst direction, loads
+    that dyad by 1 / sin of the angle.
 
     Formula `transmission-angle` of the theory.
     """

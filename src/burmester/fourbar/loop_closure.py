@@ -411,7 +411,7 @@ def _slot(first: RP, second: Dyad) -> tuple[Closing, list[Any]]:
         to = complex_of(second.fixed_pivot) - fixed
         rest = second.offset - first.offset * between.real
         link = (-between.conj() * to, 0.0, rest, 0.0, between.imag, 1.0)
-        close, bear = (1.0, 0.0, 0.0, 1.0), (n, 0.0, 0.0, 1j * n)
+        close, bear = (1.0, 0.0, 0.0, 1.0), (n, 0.0, 0.0, np.exp(1j * second.normal_angle))
     return closing, [*driver, *link, *inputs, *close, *bear]
 
 

@@ -124,7 +124,9 @@ def judged_again(result: WrittenResult, task: Task) -> list[Judged]:
         np.stack([each.places.angle[numbers] for each in errors]),
     )
     once = evaluation.errors(places)
-    verdicts = evaluation.verdicts(LinkageBatch.of(linkages), places, once)
+    batch = LinkageBatch.of(linkages)
+    sensitivity = evaluation.sensitivities(batch, places)
+    verdicts = evaluation.verdicts(batch, places, once, sensitivity)
     size, judged = characteristic_length(task), []
     for k, (written, verdict) in enumerate(zip(result.linkages, verdicts, strict=True)):
         side, _, usable = evaluation.driver(linkages[k], verdict)
@@ -134,7 +136,9 @@ def judged_again(result: WrittenResult, task: Task) -> list[Judged]:
             usable = False
         own = Judged(linkages[k], errors[k], side, usable, verdict)
         if written.coupler is not None:
-            (quality,) = evaluation.qualities([own.led], places[[k]], [own.driven])
+            (quality,) = evaluation.qualities(
+                [own.led], places[[k]], [own.driven], sensitivity[[k]]
+            )
             own = own._replace(quality=quality)
         slack = CLOSENESS * size + ROUNDING * _reach(_sides(own.linkage))
         parts = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 from rich import box
@@ -13,6 +14,7 @@ from rich.text import Text
 
 from burmester.describe import sentences
 from burmester.describe.cognates import cognate_lines
+from burmester.describe.decimals import Decimals
 from burmester.describe.digits import links, worst_errors
 from burmester.describe.dimensions import certain, decimals_of, dimensions
 from burmester.describe.quality_words import in_short, quality_note
@@ -65,13 +67,15 @@ def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
 def usable_table(synthesis: Synthesis, console: Console) -> Table:
     """Usable linkages, with as many columns and decimals as the console has room for."""
     usable = synthesis.usable
-    decimals = [decimals_of(synthesis, found).lengths for found in usable]
-    pins = [places for places, found in zip(decimals, usable, strict=True) if found.linkage.links]
+    decimals = [decimals_of(synthesis, found) for found in usable]
+    pins = [
+        each.lengths for each, found in zip(decimals, usable, strict=True) if found.linkage.links
+    ]
     most = max(pins, default=0)
     cuts = [most - cut for cut in range(min(MOST_CUT, most) + 1)]
     trials = [(most, 1, True), *((places, 0, dyads) for dyads in (True, False) for places in cuts)]
     for places, gap, dyads in trials if pins else ():
-        shown = [min(each, places) for each in decimals]
+        shown = [replace(each, lengths=min(each.lengths, places)) for each in decimals]
         table = _usable(synthesis, usable, shown, gap, dyads=dyads)
         if places < most:
             table.title = f"{table.title}; links to {count(places, 'decimal')}"
@@ -95,7 +99,7 @@ def _width(table: Table) -> int:
 def _usable(
     synthesis: Synthesis,
     usable: Sequence[FoundLinkage],
-    decimals: Sequence[int] | None,
+    decimals: Sequence[Decimals] | None,
     gap: int,
     *,
     dyads: bool = True,
@@ -206,7 +210,7 @@ def _dimensions(synthesis: Synthesis, best: FoundLinkage, stacked: bool = False)
         table.add_row("" if dyad == last else dyad, what, *(cells[:1] if exact else cells))
         last = dyad
     if best.linkage.links is not None:
-        ground, _, coupler, _ = links(best, decimals_of(synthesis, best).lengths)
+        ground, _, coupler, _ = links(best, decimals_of(synthesis, best))
         table.add_row("", "ground link", ground)
         table.add_row("", "coupler", coupler)
     return table

@@ -11,10 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.constraints import AllConstraints
@@ -105,27 +103,14 @@ def places_along(rows: FloatArray, whole: Target) -> FloatArray:
 
 
 def judged_at_all(found: Sequence[FoundLinkage], evaluation: Evaluation) -> list[FoundLinkage]:
-    """Linkages of a sample, evaluated at all poses, on the circuits of their places, and ranked."""
+    """Linkages of a sample, evaluated at all poses, and ranked."""
     out: list[FoundLinkage] = []
     for each in found:
         own = LinkageBatch.of([each.linkage])
         batch = own.to_canonical(evaluation.target.frames)
-        rows = _places(batch, each, evaluation.target)[None]
+        rows = np.full((1, *evaluation.target.poses.shape, 3), np.nan)
+        if evaluation.target.boxes is not None:
+            rows = evaluation.target.places(batch)
         searched = np.array([each.from_search])
         out += evaluation.evaluate(Candidates(batch, rows, [each.dyads], searched, own))
     return ranked(out, evaluation.problem)
-
-
-def _places(batch: LinkageBatch, found: FoundLinkage, target: Target) -> FloatArray:
-    """The places (N, 3) of a linkage nearest to all poses, on the circuit of its places so far.
-
-    Where these are on both, on the nearer one at each pose.
-    """
-    if target.boxes is not None:
-        return np.asarray(target.places(batch)[0])
-    at = circuit_of(found.linkage, found.error.places, as_given=True).circuit
-    sides = np.unique(at[at >= 0]).tolist()
-    only = sides[0] if len(sides) == 1 else None
-    both = on_circuits(batch, target.poses, target.length, only)
-    one = nearest(both, target.poses, target.length) if only is None else both[:, only]
-    return rows_of(one[0], target.length)

@@ -17,14 +17,14 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
+from burmester.linkages.judged_places import best_places, places_to_judge
 from burmester.numerics.arrays import FloatArray, even_numbers
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.bundles import take
 from burmester.numerics.weights import weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import (
-    ToleranceBoxes,
     counted_error,
     poses_counted,
     shares_used,
@@ -33,6 +33,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.clearance_check import clearance_of, too_close
+from burmester.verdicts.degeneracy import degenerate_defects, pin_distances
 from burmester.verdicts.found_linkage import FoundLinkage, Pair, Side, with_driver_first
 from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.possible_types import links_covariance, possible_types
@@ -61,7 +62,6 @@ __all__ = [
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
 ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
-FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
 DRIVEN_FROM_THE_OTHER_SIDE = {"crank-rocker": "rocker-crank", "rocker-crank": "crank-rocker"}
 SIDES: tuple[Side, Side] = ("first", "second")
 SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
@@ -116,31 +116,60 @@ class Evaluation:
         at_once = max(1, PLACES_AT_ONCE // self.target.poses.shape[0])
         for at in range(0, len(candidates.batch), at_once):
             some = take(candidates, np.arange(at, min(at + at_once, len(candidates.batch))))
-            found += self._with_uncertainty(*self._judged(some))
+            found += self._with_uncertainty(*self._where_best(some))
         return ranked(found, self.problem)
 
     def members(self, candidates: Candidates, *, quality: bool = True) -> list[FoundLinkage]:
         """The same for linkages of a family, in their order: no pose determines their pivots.
 
+        Where they are, or where they trace a path; where they are not inside the tolerances, at
+        their places deepest inside.
         quality: whether it is told; it takes a third of the time.
-        """
-        return self._judged(candidates, once=True, quality=quality)[0]
-
-    def _judged(
-        self, candidates: Candidates, *, once: bool = False, quality: bool = True
-    ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
-        """The linkages in their order, as found and as a batch (dyads alike), and their places.
-
-        Along a path, at their places that trace it.  Where there are tolerances, at their places
-        deepest inside, and at those given if they are inside as well: these may be on another
-        branch, or in another order.  once: at those given only, where they are inside.
         """
         candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
         if self.target.path is not None:
-            traced, cranks = self.target.traced(candidates.batch)
-            candidates = candidates._replace(rows=traced, drivers=cranks)
-        elif self.target.boxes is not None:
-            candidates = _at_deepest_places(candidates, self.target, self.target.boxes, once=once)
+            candidates = self._along_path(candidates)
+        elif (boxes := self.target.boxes) is not None:
+            rows = candidates.rows.copy()
+            outside = np.flatnonzero(~(boxes.boxes.share(rows).max(axis=-1) <= 1))
+            rows[outside] = self.target.places(candidates.batch[outside], on_both=True)
+            candidates = candidates._replace(rows=rows)
+        return self._judged(candidates, quality=quality)[0]
+
+    def _where_best(
+        self, candidates: Candidates
+    ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
+        """As `_judged`, each linkage at those of its places that count (`judged_places`).
+
+        Along a path, at its places that trace it.  Where there are tolerances, at its places
+        deepest inside, or at those given or nearest to the poses if they are inside as well: these
+        may be on another branch, or in another order.
+        """
+        candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
+        if self.target.path is not None:
+            return self._judged(self._along_path(candidates))
+        every, boxes = np.arange(len(candidates.batch)), self.target.boxes
+        index, rows = places_to_judge(candidates.batch, self.target)
+        if boxes is not None:
+            deepest = self.target.places(candidates.batch, on_both=True)
+            index, rows = np.r_[every, index], np.concatenate([candidates.rows, rows])
+            inside = boxes.boxes.share(rows).max(axis=-1) <= 1
+            index = np.r_[every, index[inside]]
+            rows = np.concatenate([deepest, rows[inside]])
+        found, batch, rows = self._judged(take(candidates, index)._replace(rows=rows))
+        ways = [np.flatnonzero(index == k) for k in every]
+        best = [int(way[best_places([found[at] for at in way])]) for way in ways]
+        return [found[at] for at in best], batch[best], rows[best]
+
+    def _along_path(self, candidates: Candidates) -> Candidates:
+        """The candidates at their places that trace the path."""
+        traced, cranks = self.target.traced(candidates.batch)
+        return candidates._replace(rows=traced, drivers=cranks)
+
+    def _judged(
+        self, candidates: Candidates, *, quality: bool = True
+    ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
+        """The linkages at their places, as found and as a batch (dyads alike), and the places."""
         own = (
             candidates.batch.from_canonical(self.target.frames)
             if candidates.own is None
@@ -148,7 +177,8 @@ class Evaluation:
         )
         places = self.target.frames.from_canonical(self.target.places_of(candidates.rows))
         errors, shares = self.errors(places), self.shares(places)
-        verdicts = self.verdicts(own, places, errors)
+        sensitivity = self.sensitivities(own, places)
+        verdicts = self.verdicts(own, places, errors, sensitivity)
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
         standard = Standard.of(self.task)
         distance = np.abs(own.distances(self.task.poses))
@@ -189,7 +219,7 @@ class Evaluation:
             )
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
         if quality:
-            out = self._with_quality(out, places)
+            out = self._with_quality(out, places, sensitivity)
         rows = np.arange(len(own))[:, None]
         batch = LinkageBatch(
             candidates.batch.kinds[rows, sides], candidates.batch.dimensions[rows, sides]
@@ -228,8 +258,11 @@ class Evaluation:
             if not new:
                 lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
                 new = [replace(each, usable=False, violations=(*each.violations, lost))]
-            # Rounded dimensions are exact, whatever the poses leave open.
+            # Rounded dimensions are exact, whatever the poses leave open; and what few poses leave
+            # open of a family is no uncertainty, rounded or not.
             out += [replace(one, error_before_rounding=each.error, other_types=()) for one in new]
+            if each.uncertainty is None:
+                out[-1] = replace(out[-1], uncertainty=None, determined=each.determined)
         return ranked(out, self.problem)
 
     def _target_of_rounding(self, found: FoundLinkage) -> Target:
@@ -280,9 +313,16 @@ class Evaluation:
         return shares_used(places, self.task, float(self.target.frames.length))
 
     def verdicts(
-        self, own: LinkageBatch, places: Displacement, errors: list[PoseError]
+        self,
+        own: LinkageBatch,
+        places: Displacement,
+        errors: list[PoseError],
+        sensitivity: FloatArray,
     ) -> list[Verdict]:
-        """The verdicts on linkages (k,) in the task's own frames, at their places (k, N)."""
+        """The verdicts on linkages (k,) in the task's own frames, at their places (k, N).
+
+        sensitivity: (k,), as `sensitivities` has it.
+        """
         shape = (len(own), self.task.poses.shape[0])
         position = np.array([error.position for error in errors]).reshape(shape)
         turn = np.array([error.angle for error in errors]).reshape(shape)
@@ -315,9 +355,13 @@ class Evaluation:
                 in_words_of_tolerances(verdict, share, names)
                 for verdict, share in zip(verdicts, shares, strict=True)
             ]
-        if list(numbers) == list(range(len(numbers))):
-            return verdicts
-        return [_with_numbers(verdict, numbers) for verdict in verdicts]
+        if list(numbers) != list(range(len(numbers))):
+            verdicts = [_with_numbers(verdict, numbers) for verdict in verdicts]
+        degenerate = degenerate_defects(own, sensitivity, self.problem)
+        return [
+            replace(verdict, defects=verdict.defects + more) if more else verdict
+            for verdict, more in zip(verdicts, degenerate, strict=True)
+        ]
 
     def driver(
         self, linkage: Linkage, verdict: Verdict, settled: Side | None = None
@@ -349,28 +393,47 @@ class Evaluation:
         reasons += limit_violations(linkage, self.task.limits, size, unit)
         return best, reasons, not (verdict.defects or defects or reasons)
 
-    def qualities(
-        self, linkages: Sequence[Linkage], places: Displacement, driven: Sequence[Driven]
-    ) -> list[Quality]:
-        """The quality of linkages (k,), the driver first, at places (k, N) in the task's frames."""
-        batch, target = LinkageBatch.of(linkages), self.target
-        here = target.places_of(target.rows_at(places))
-        there = batch.to_canonical(target.frames)
+    def sensitivities(self, own: LinkageBatch, places: Displacement) -> FloatArray:
+        """The sensitivity (k,) of linkages in the task's own frames at places (k, N); or nan."""
+        target, out = self.target, np.full(len(own), np.nan)
         some = even_numbers(places.shape[1], MAX_PLACES_OF_QUALITY)
-        here = here[:, some]
+        here = target.places_of(target.rows_at(places))[:, some]
+        exist = np.flatnonzero(np.isfinite(here.angle).all(axis=1))
+        here, there = here[exist], own[exist].to_canonical(target.frames)
         # Within tolerances a place need not be the nearest to its pose: errors count about it.
         poses = target.poses[some] if target.boxes is None else here
-        bound = sensitivity_bound(there, poses, here, target.length).max(axis=-1)
-        every = Quality.of(batch, places, driven, bound, size=self.problem.motion_size)
+        with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
+            out[exist] = sensitivity_bound(there, poses, here, target.length).max(axis=-1)
+        return out
+
+    def qualities(
+        self,
+        linkages: Sequence[Linkage],
+        places: Displacement,
+        driven: Sequence[Driven],
+        sensitivity: FloatArray | None = None,
+    ) -> list[Quality]:
+        """The quality of linkages (k,), the driver first, at places (k, N) in the task's frames.
+
+        sensitivity: (k,), where it is known.
+        """
+        batch = LinkageBatch.of(linkages)
+        if sensitivity is None:
+            sensitivity = self.sensitivities(batch, places)
+        every = Quality.of(batch, places, driven, sensitivity, size=self.problem.motion_size)
         return [take(every, k) for k in range(len(linkages))]
 
-    def _with_quality(self, found: list[FoundLinkage], places: Displacement) -> list[FoundLinkage]:
+    def _with_quality(
+        self, found: list[FoundLinkage], places: Displacement, sensitivity: FloatArray
+    ) -> list[FoundLinkage]:
         """The linkages with their quality, where their places (k, N) exist."""
         sound = [k for k, each in enumerate(found) if math.isfinite(each.combined_error)]
         if not sound:
             return found
         driven = [found[k].driven for k in sound]
-        told = self.qualities([found[k].driver_first for k in sound], places[sound], driven)
+        told = self.qualities(
+            [found[k].driver_first for k in sound], places[sound], driven, sensitivity[sound]
+        )
         out = list(found)
         for k, quality in zip(sound, told, strict=True):
             out[k] = replace(out[k], quality=quality)
@@ -445,28 +508,11 @@ def transmission_at_given_poses(found: FoundLinkage, problem: SynthesisProblem) 
     return np.asarray(angles[problem.motion.group])
 
 
-def _at_deepest_places(
-    candidates: Candidates, target: Target, boxes: ToleranceBoxes, *, once: bool
-) -> Candidates:
-    """The candidates at their places deepest inside the boxes, and at their own if inside."""
-    inside = np.flatnonzero(boxes.boxes.share(candidates.rows).max(axis=-1) <= 1)
-    if once:
-        rows = candidates.rows.copy()
-        outside = np.setdiff1d(np.arange(len(rows)), inside)
-        rows[outside] = target.places(candidates.batch[outside], on_both=True)
-        return candidates._replace(rows=rows)
-    deepest = candidates._replace(rows=target.places(candidates.batch, on_both=True))
-    return concatenate([deepest, take(candidates, inside)]) if len(inside) else deepest
-
-
 def sizable(batch: LinkageBatch, size: float | FloatArray = 1.0) -> NDArray[np.bool_]:
     """Whether ground links and couplers (k,) between pins have a length; size: of the motion."""
-    kinds, z = batch.kinds, batch.dimensions
-    ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
-    return np.asarray(
-        ((kinds == 1).any(axis=1) | (ground > MIN_LINK * size))
-        & ((kinds == 2).any(axis=1) | (coupler > MIN_LINK * size))
-    )
+    with np.errstate(invalid="ignore"):
+        joined = pin_distances(batch)[:, 2:] <= np.reshape(MIN_LINK * size, (-1, 1))
+    return np.asarray(~joined.any(axis=1))
 
 
 def _with_errors(origin: FoundDyad, dyad: Dyad, rms: float, worst: float) -> FoundDyad:

@@ -11,15 +11,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from math import inf
-from typing import NamedTuple
 
 import numpy as np
 
 from burmester.fourbar.dyad import PP
-from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
-from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
+from burmester.fourbar.nearest_places import on_own_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.linkages.best_within import best_within
 from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst_left_out
@@ -29,10 +27,11 @@ from burmester.linkages.further_pairs import (
     PairsToSearch,
     closer_linkages,
 )
+from burmester.linkages.judged_places import NearestPlaces
 from burmester.linkages.sound_linkages import sound_linkages
 from burmester.linkages.tolerance_search import into_boxes
 from burmester.linkages.trade import trades
-from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.numerics.arrays import ROUNDING
 from burmester.progress import goes_on, step, time_for
 from burmester.refinement.constraints import AllConstraints, Constraints
 from burmester.refinement.defect_free_search import (
@@ -42,7 +41,7 @@ from burmester.refinement.defect_free_search import (
     on_more_poses,
 )
 from burmester.refinement.kept_limits import DyadLimitsConstraint
-from burmester.refinement.target import ONE_CIRCUIT_RATIO, Target
+from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
@@ -59,7 +58,6 @@ from burmester.wording import count
 __all__ = [
     "MAX_POSES_REFINED",
     "linkages_from_dyads",
-    "places_to_judge",
     "sample_refined",
     "target_of",
 ]
@@ -185,9 +183,8 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
         none = np.zeros(len(start), dtype=bool)
         candidates = Candidates(start, target.places(start), pairs, none)
         return into_boxes(candidates, target) if refine else candidates
-    _, one, best, away, least = _places(start, target)
-    apart = away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)
-    both = apart & np.isfinite(away) & np.isfinite(least) & refine
+    _, one, best, apart = NearestPlaces.of(start, target)
+    both = apart & np.isfinite(one).all(axis=(1, 2)) & refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
     none = np.zeros(len(index), dtype=bool)
@@ -203,46 +200,6 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     changed = changed.any(axis=(1, 2), keepdims=True)
     own = np.where(changed, candidates.batch.from_canonical(target.frames).dimensions, own)
     return candidates._replace(own=LinkageBatch(candidates.batch.kinds, own))
-
-
-class _Places(NamedTuple):
-    """Places of linkages (k,) nearest to the poses.
-
-    both: (k, 2, N, 3), on each circuit; one: (k, N, 3), on the nearer of them; best: (k, N, 3), on
-    either at each pose.  away, least: (k,), the greatest distance of `one` and of `best`.
-    """
-
-    both: FloatArray
-    one: FloatArray
-    best: FloatArray
-    away: FloatArray
-    least: FloatArray
-
-
-def _places(batch: LinkageBatch, target: Target) -> _Places:
-    rows = rows_of(on_circuits(batch, target.poses, target.length), target.length)
-    one = rows[np.arange(len(batch)), np.nan_to_num(target.cost(rows), nan=np.inf).argmin(axis=1)]
-    places = nearest(target.places_of(rows), target.poses, target.length)
-    best = rows_of(places, target.length)
-    wanted = rows_of(target.poses, target.length)
-    away, least = (
-        np.sqrt(np.nan_to_num(((each - wanted) ** 2).sum(axis=-1), nan=np.inf)).max(axis=1)
-        for each in (one, best)
-    )
-    return _Places(rows, one, best, away, least)
-
-
-def places_to_judge(batch: LinkageBatch, target: Target) -> list[FloatArray]:
-    """The rows (N, 3) of places at which one linkage is to be judged, each for itself.
-
-    Those on each circuit that has some near all poses, and those on both where one circuit alone
-    is much farther away.
-    """
-    rows, one, best, away, least = (each[0] for each in _places(batch, target))
-    ways = [each for each in rows if np.isfinite(each).all()]
-    if not ways or away > max(ONE_CIRCUIT_RATIO * least, ROUNDING):
-        ways.append(best if np.isfinite(least) else one)
-    return ways
 
 
 def _refined(candidates: Candidates, target: Target) -> Candidates:

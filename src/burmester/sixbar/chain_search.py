@@ -249,7 +249,8 @@ def _violation(space: SearchSpace, found: Candidates) -> FloatArray:
     asked = space.conditions
     lacking = np.degrees(asked.transmission - found.transmission) / LEAST_TRANSMISSION
     ratio = np.log(np.maximum(linkage.link_ratio() / asked.link_ratio, 1.0))
-    off += [np.maximum(lacking, 0.0), ratio]
+    short = np.log(np.maximum(space.bars / linkage.lengths(), 1.0)).max(axis=-1)
+    off += [np.maximum(lacking, 0.0), ratio, short]
     return np.asarray(np.sum(off, axis=0))
 
 

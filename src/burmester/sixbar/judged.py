@@ -35,10 +35,11 @@ from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.motion import joints_at, poses_of, transmission
 from burmester.sixbar.nearest_places import PoseMeasure, nearest_drives
 from burmester.sixbar.requirement_check import violations
-from burmester.sixbar.standard import shortcomings
+from burmester.sixbar.standard import SAME_PIN, least_bars, shortcomings
 from burmester.sixbar.travel import Travel, least_transmission
 from burmester.sixbar.watt import Drive, WattLinkage
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.degeneracy import too_short
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
 from burmester.verdicts.requirement_check import Violation
 
@@ -249,11 +250,25 @@ def _verdict(driven: _OneDriver, k: int, problem: SynthesisProblem) -> _Verdict:
         merit=float(own.merit(problem.motion_size)[k]),
         driven=driven,
         branch=k,
-        defects=defects_of(course, driven.errors[k], shares, task, names),
+        defects=(
+            *defects_of(course, driven.errors[k], shares, task, names),
+            *_degenerate(own.linkages[k], problem),
+        ),
         violations=violations(
             own.linkages[k], float(own.transmission[k]), full, task, problem.motion_size
         ),
     )
+
+
+def _degenerate(linkage: WattLinkage, problem: SynthesisProblem) -> list[Defect]:
+    """That two joints of one link are too near to each other, if they are not one pin."""
+    lengths, least = linkage.lengths(), least_bars(problem)
+    short = (lengths < least) & (lengths > SAME_PIN * problem.motion_size)
+    if not short.any():
+        return []
+    at = int(np.where(short, lengths, np.inf).argmin())
+    message = too_short(float(lengths[at]), float(least[at]), problem.given)
+    return [Defect("degenerate", message, ())]
 
 
 def _found(best: _Verdict, problem: SynthesisProblem) -> FoundSixBar:

@@ -12,6 +12,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Region, Segment
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.candidates import Conditions
+from burmester.sixbar.standard import least_bars
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, poses_in_words
@@ -32,7 +33,7 @@ class SearchSpace:
 
     poses: (N,), two to five; free ones are drawn between them where they are fewer.
     fixed, moving: the regions, in F of A and B, and in M of E and H.
-    lengths: least and greatest of both cranks, each.
+    lengths: least and greatest of both cranks, each; bars: (10,), the least of all.
     size: of the motion.
     assumed: what the task does not say, in words, each with the option that changes it.
     """
@@ -43,6 +44,7 @@ class SearchSpace:
     lengths: tuple[tuple[float, float], tuple[float, float]]
     size: float
     conditions: Conditions
+    bars: FloatArray
     assumed: tuple[tuple[str, str], ...] = ()
 
     @classmethod
@@ -71,7 +73,16 @@ class SearchSpace:
             link_ratio=asked.link_ratio,
         )
         lengths = limits[0].length, limits[1].length
-        return cls(task.poses, fixed, moving, lengths, size, conditions, tuple(assumed))
+        return cls(
+            task.poses,
+            fixed,
+            moving,
+            lengths,
+            size,
+            conditions,
+            least_bars(problem),
+            tuple(assumed),
+        )
 
 
 def _require_poses(task: Task) -> None:

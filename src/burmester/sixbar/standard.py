@@ -1,13 +1,19 @@
-"""Where a six-bar falls short of the standard of linkages to build, in words."""
+"""Where a six-bar falls short of the standard of linkages to build, in words; least lengths."""
 
 from __future__ import annotations
 
 import math
+from typing import Final
 
+import numpy as np
+
+from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.candidates import WIDEST
-from burmester.sixbar.watt import WattLinkage
+from burmester.sixbar.watt import BARS, WattLinkage
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle, length_of
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.degeneracy import least_cranks, least_link
 from burmester.verdicts.standard import (
     LEAST_TRANSMISSION,
     LONGEST_LINK,
@@ -16,7 +22,9 @@ from burmester.verdicts.standard import (
 )
 from burmester.wording import figure
 
-__all__ = ["shortcomings"]
+__all__ = ["SAME_PIN", "least_bars", "shortcomings"]
+
+SAME_PIN: Final = 1e-9  # sizes of the motion; joints of one link that are nearer are one pin
 
 
 def shortcomings(
@@ -37,3 +45,13 @@ def shortcomings(
     if extent > WIDEST * size:
         out.append(f"needs room of {length_of(extent, task)}")
     return tuple(out)
+
+
+def least_bars(problem: SynthesisProblem) -> FloatArray:
+    """The least distances (10,) between joints of one link, in the order of `BARS`.
+
+    A six-bar with a shorter one is degenerate (`verdicts.degeneracy`).
+    """
+    least = dict.fromkeys(BARS, least_link(problem))
+    least["AC"], least["BD"] = least_cranks(problem)
+    return np.array(list(least.values()))

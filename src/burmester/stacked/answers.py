@@ -118,7 +118,9 @@ class LinkageRows:
         As `Quality` has them; nan where the error is infinite.
     """
 
-    VERDICTS: ClassVar[tuple[str, ...]] = ("usable", "assembly", "circuit", "branch", "order")
+    VERDICTS: ClassVar[tuple[str, ...]] = (
+        *("usable", "assembly", "circuit", "branch", "order", "degenerate"),
+    )
     TYPES: ClassVar[tuple[str, ...]] = TYPES
 
     task: Indices

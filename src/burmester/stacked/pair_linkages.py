@@ -28,6 +28,7 @@ from burmester.refinement.target import ONE_CIRCUIT_RATIO
 from burmester.stacked.answers import DyadRows, LinkageRows
 from burmester.stacked.found_dyads import ANGLES
 from burmester.tasks.length_per_radian import lengths_per_radian
+from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE, pin_distances
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
 from burmester.verdicts.tolerances import sensitivity_bound
 
@@ -35,7 +36,7 @@ __all__ = ["USABLE", "Scales", "pair_linkages"]
 
 PLACES_AT_ONCE = 1500  # of linkages computed together; their samples fit a cache
 RADIAN = 1.0  # in its own unit
-USABLE = LinkageRows.VERDICTS.index("usable")
+USABLE, DEGENERATE = map(LinkageRows.VERDICTS.index, ("usable", "degenerate"))
 
 Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
@@ -44,12 +45,14 @@ Mask = NDArray[np.bool_]
 class Scales(NamedTuple):
     """Lengths of tasks (T,), each in its own unit.
 
-    characteristic: of the task; radian: what a radian counts as; motion: the size of its motion.
+    characteristic: of the task; radian: what a radian counts as; motion: the size of its motion;
+    least: the shortest link that makes a usable linkage.
     """
 
     characteristic: FloatArray
     radian: FloatArray
     motion: FloatArray
+    least: FloatArray
 
     @classmethod
     def of(cls, poses: Displacement, weights: FloatArray | None) -> Scales:
@@ -57,7 +60,8 @@ class Scales(NamedTuple):
         radian = lengths_per_radian(poses, weights)
         span = np.linalg.norm(np.ptp(poses.translation, axis=-2), axis=-1)
         own = CanonicalFrames.of(poses, weights)[0].length
-        return cls(own, radian, np.maximum(span, radian))
+        motion = np.maximum(span, radian)
+        return cls(own, radian, motion, MIN_LINK_SHARE * np.where(span > 0, span, motion))
 
 
 def pair_linkages(
@@ -179,6 +183,9 @@ def _judged(
         quality = _quality([driven[k] for k in exists.tolist()], *some)
         out.transmission_deg[exists], out.sensitivity[exists] = quality[0], quality[2]
         out.extent[exists] = quality[1] * (unit / scales.motion[pairs.task])[exists]
+    shortest = unit * np.fmin.reduce(pin_distances(batch), axis=1, initial=np.inf)
+    degenerate = (shortest < scales.least[pairs.task]) | (out.sensitivity > MAX_SENSITIVITY)
+    out.verdict[degenerate & (out.verdict == USABLE)] = DEGENERATE
     return out
 
 

@@ -15,7 +15,8 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pose_error import PoseError
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
-from burmester.linkages.from_dyads import places_to_judge, target_of
+from burmester.linkages.from_dyads import target_of
+from burmester.linkages.judged_places import best_places
 from burmester.linkages.nearby_linkages import greatest_move, nearby_linkages
 from burmester.progress import limited, step, time_for
 from burmester.synthesis.given_linkage import GivenDyad, dyads_at_poses, require_linkage
@@ -147,18 +148,13 @@ def _judged(given: Pair, evaluation: Evaluation) -> FoundLinkage:
         own = LinkageBatch.of([Linkage(pair[0].dyad, pair[1].dyad)])
         batch = own.to_canonical(evaluation.target.frames)
         none = np.zeros(1, dtype=bool)
+        rows = evaluation.target.places(batch)
+        candidates = Candidates(batch, rows, [pair], none, own)
         if evaluation.target.path is not None:
-            rows = evaluation.target.places(batch)
-            found += evaluation.members(Candidates(batch, rows, [pair], none, own))
-            continue
-        for rows in places_to_judge(batch, evaluation.target):
-            found += evaluation.evaluate(Candidates(batch, rows[None], [pair], none, own))
-
-    def order(each: FoundLinkage) -> tuple[bool, int, float]:
-        broken = sum(violation.kind == "limit" for violation in each.violations)
-        return not each.usable, broken, each.combined_error
-
-    return min(found, key=order)
+            found += evaluation.members(candidates)
+        else:
+            found += evaluation.evaluate(candidates)
+    return found[best_places(found)]
 
 
 def _of_family(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:

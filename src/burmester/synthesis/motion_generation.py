@@ -124,7 +124,7 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     warnings = (
         *_odd_pose(problem, search),
         *known,
-        *dyad_advice(problem, search),
+        *dyad_advice(problem, search, linkages),
         *map(_found_twice, twice),
         *linkage_advice(task, linkages, outcome.code),
         *sample_advice(problem, linkages),
@@ -158,7 +158,8 @@ def _of_points(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
 
 def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
     """Too few conditions leave infinitely many linkages: the best of them; None if none meets."""
-    from burmester.families.family import best_of_family  # noqa: PLC0415  few tasks need it
+    # Few tasks need them.
+    from burmester.families.family import best_of_family, recommended_first  # noqa: PLC0415
     from burmester.synthesis.family_outcome import family_summary  # noqa: PLC0415  the same
 
     target = target_of(problem)
@@ -173,7 +174,7 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
         Candidates(found.batch, found.rows, pairs, searched, own, found.drivers)
     )
     if problem.options.rounds:
-        members = evaluation.rounded(members)
+        members = recommended_first(evaluation.rounded(members), problem)
     members = [
         replace(each, id=f"L{rank}", rank=rank)
         for rank, each in enumerate(evaluation.with_spreads(members), start=1)

@@ -43,22 +43,13 @@ NEAR_DIGITS = 10.0  # times what the digits leave; a dyad that misses by less ma
 SHOWN_ANGLE = 1e-6  # degrees; an angle lower by less is as good
 
 
-def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
-    """What a user should know about the dyads."""
+def dyad_advice(
+    problem: SynthesisProblem, found: DyadSearch, linkages: Sequence[FoundLinkage] = ()
+) -> list[Advice]:
+    """What a user should know about the dyads; linkages: those that are listed, of these dyads."""
     if problem.leaves_linkages_open:  # start values: their poses are partly made up
         return _thin_regions(problem)
-    poses, size = problem.task.poses, max(span(problem.given), problem.length)  # as the page shows
-    warnings = [
-        Advice(
-            "W204",
-            f"{each.id} has a link of {dyad.radius / size:.0f} times the span of the "
-            f"poses, and it swings by {figure(math.degrees(swing(dyad, poses)))}°: nearly a slider",
-            "if a link that long cannot be built, allow sliders only with --kinds PR,RP, or say "
-            "how long it may be with --length :MAX",
-        )
-        for each in found.dyads
-        if isinstance(dyad := each.dyad, RR) and is_nearly_slider(dyad, poses, size)
-    ]
+    warnings = _nearly_sliders(problem, found, linkages)
     for fit in found.fits:
         if isinstance(fit, FivePoseDyads):
             warnings += _off_poses(problem, found)
@@ -87,6 +78,31 @@ def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
             )
         )
     return warnings
+
+
+def _nearly_sliders(
+    problem: SynthesisProblem, found: DyadSearch, linkages: Sequence[FoundLinkage]
+) -> list[Advice]:
+    """W204 of long links as they are to be built: of each dyad in the first linkage that has it.
+
+    A dyad that is in no linkage is judged by itself.
+    """
+    poses, size = problem.task.poses, max(span(problem.given), problem.length)  # as the page shows
+    known = {each.id: (each.id, each.dyad) for each in found.dyads}
+    for linkage in sorted(linkages, key=lambda each: (each.usable, -each.rank)):
+        for each in linkage.dyads:
+            known[each.id] = (f"{each.id} of {linkage.id}", each.dyad)
+    return [
+        Advice(
+            "W204",
+            f"{name} has a link of {dyad.radius / size:.0f} times the span of the "
+            f"poses, and it swings by {figure(math.degrees(swing(dyad, poses)))}°: nearly a slider",
+            "if a link that long cannot be built, allow sliders only with --kinds PR,RP, or say "
+            "how long it may be with --length :MAX",
+        )
+        for name, dyad in known.values()
+        if isinstance(dyad, RR) and is_nearly_slider(dyad, poses, size)
+    ]
 
 
 def _off_poses(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:

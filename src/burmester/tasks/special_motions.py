@@ -291,7 +291,7 @@ class TwoSliders(MotionKindBase):
         line at the inscribed angle over the arc to that centre.  So the transmission angle is the
         driver's alone: 90 deg in mid-stroke, less by as much as the body has turned from there.
         The same holds for the crank that drives a slider, at the end of its stroke at `middle`.
-        RP: a slot drives any other slot by a pure couple, at 90 deg.
+        RP: the angle is that between both slots, the same at every place: 90 deg if square.
 
         The second slider is opposite on the circle, as forces square to each other hold best.
         """

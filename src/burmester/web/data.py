@@ -206,7 +206,7 @@ def _links(synthesis: Synthesis, found: FoundLinkage) -> dict[str, str] | None:
     if found.linkage.links is None:
         return None
     names = ("ground", "driver", "coupler", "follower")
-    texts = digits.links(found, decimals_of(synthesis, found).lengths)
+    texts = digits.links(found, decimals_of(synthesis, found))
     return dict(zip(names, texts, strict=True))
 
 

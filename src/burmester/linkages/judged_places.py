@@ -1,0 +1,80 @@
+"""The places at which linkages are judged: all on one circuit, whoever asks.
+
+A linkage is judged on each of its circuits by itself, at the places nearest to the poses there.  It
+is what it is on the best one (`best_places`): one where it works, else the nearest.  Only where one
+circuit alone is much farther from the poses than both together, it is judged on both as well: then
+it has to be taken apart between the poses, and that is what is to be said of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.fourbar.foot_points import rows_of
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.nearest_places import nearest, on_circuits
+from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.refinement.target import ONE_CIRCUIT_RATIO, Target
+from burmester.verdicts.found_linkage import FoundLinkage
+
+__all__ = ["NearestPlaces", "best_places", "places_to_judge"]
+
+
+class NearestPlaces(NamedTuple):
+    """Places of linkages (k,) nearest to the poses.
+
+    both: (k, 2, N, 3), on each circuit; one: (k, N, 3), on the nearer of them; best: (k, N, 3), on
+    either at each pose.  apart: (k,), whether `one` is much farther from the poses than `best`.
+    """
+
+    both: FloatArray
+    one: FloatArray
+    best: FloatArray
+    apart: NDArray[np.bool_]
+
+    @classmethod
+    def of(cls, batch: LinkageBatch, target: Target) -> NearestPlaces:
+        """Those of linkages (k,)."""
+        found = on_circuits(batch, target.poses, target.length)
+        both, wanted = (rows_of(each, target.length) for each in (found, target.poses))
+        cost = np.nan_to_num(target.cost(both), nan=np.inf)
+        one = both[np.arange(len(both)), cost.argmin(axis=1)]
+        best = rows_of(nearest(found, target.poses, target.length), target.length)
+        away, least = (
+            np.sqrt(np.nan_to_num(((each - wanted) ** 2).sum(axis=-1), nan=np.inf)).max(axis=1)
+            for each in (one, best)
+        )
+        apart = (away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)) & np.isfinite(least)
+        return cls(both, one, best, apart)
+
+
+def places_to_judge(batch: LinkageBatch, target: Target) -> tuple[NDArray[np.intp], FloatArray]:
+    """The numbers (n,) of linkages (k,), and the rows (n, N, 3) of each way to judge them.
+
+    They depend on the linkage alone, and not on where a search has left it.  Every linkage has a
+    way, by rising number; places may be nan.
+    """
+    near = NearestPlaces.of(batch, target)
+    both = near.both
+    exists = np.isfinite(both).all(axis=(-1, -2))
+    mixed = np.where(np.isfinite(near.best).all(axis=(1, 2), keepdims=True), near.best, near.one)
+    every = np.concatenate([both, mixed[:, None]], axis=1)
+    index, way = np.nonzero(np.column_stack([exists, near.apart | ~exists.any(axis=1)]))
+    return index, every[index, way]
+
+
+def best_places(found: Sequence[FoundLinkage]) -> int:
+    """Of one linkage, judged in several ways, the number of the one that counts.
+
+    Where it works, else where it breaks fewer limits; then the nearest to the poses.
+    """
+
+    def order(k: int) -> tuple[bool, int, float]:
+        broken = sum(violation.kind == "limit" for violation in found[k].violations)
+        return not found[k].usable, broken, found[k].combined_error
+
+    return min(range(len(found)), key=order)

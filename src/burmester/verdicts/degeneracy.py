@@ -1,0 +1,117 @@
+"""Degenerate linkages: links shorter than the play of any pin, or errors magnified beyond use.
+
+Such a linkage meets its poses on paper only: it works by the difference of two pivots that fall
+together.  The bounds are conventions, far below those of a linkage to build (`standard`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from burmester.fourbar.defects import Defect
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.geometry.regions import Point, Region
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import length_of, span
+from burmester.tasks.problem import SynthesisProblem
+from burmester.wording import figure
+
+__all__ = [
+    "MAX_SENSITIVITY",
+    "MIN_LINK_SHARE",
+    "degenerate_defects",
+    "least_cranks",
+    "least_link",
+    "pin_distances",
+    "too_short",
+]
+
+MIN_LINK_SHARE: Final = 1 / 200  # spans of the motion; a shorter link makes no usable linkage
+# Position error at a pose per unit of error in all dimensions; a linkage above it is not usable.
+MAX_SENSITIVITY: Final = 100.0
+FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
+
+
+def pin_distances(batch: LinkageBatch) -> FloatArray:
+    """The distances (k, 4) of the pins at both ends of links; nan where a slider is at one end.
+
+    In the order of the dyads' own links, the ground link, the coupler.
+    """
+    kinds, z = batch.kinds, batch.dimensions
+    ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
+    return np.column_stack(
+        [
+            np.where(kinds == 0, z[:, :, -1], np.nan),
+            np.where((kinds == 1).any(axis=1), np.nan, ground),
+            np.where((kinds == 2).any(axis=1), np.nan, coupler),
+        ]
+    )
+
+
+def least_link(problem: SynthesisProblem) -> float:
+    """The length of the shortest link of a usable linkage, in the task's unit."""
+    return MIN_LINK_SHARE * (span(problem.given) or problem.motion_size)
+
+
+def least_cranks(problem: SynthesisProblem) -> tuple[float, float]:
+    """The same of the dyads' own links: shorter where their limits state lengths as short."""
+    least, limits = least_link(problem), problem.given.limits
+    lengths = [each.length for each in (limits * 2)[:2]] or [(0.0, np.inf)] * 2
+    one, two = (min(least, low) if low > 0 or high < least else least for low, high in lengths)
+    return one, two
+
+
+def _least_links(problem: SynthesisProblem) -> FloatArray:
+    """The least lengths (4,) of links as `pin_distances` has them.
+
+    Two pivots at points that the task states are as near to each other as it says.
+    """
+    limits = (problem.given.limits * 2)[:2]
+    fixed, moving = (
+        0.0 if _are_points(pivots) else least_link(problem)
+        for pivots in (
+            [each.fixed_pivot for each in limits],
+            [each.moving_pivot for each in limits],
+        )
+    )
+    return np.array([*least_cranks(problem), fixed, moving])
+
+
+def _are_points(regions: Sequence[Region | None]) -> bool:
+    return bool(regions) and all(isinstance(region, Point) for region in regions)
+
+
+def degenerate_defects(
+    batch: LinkageBatch, sensitivity: FloatArray, problem: SynthesisProblem
+) -> list[tuple[Defect, ...]]:
+    """For each of linkages (k,), in the task's own frames, why it is degenerate; () is sound.
+
+    sensitivity: (k,), as `quality.Quality` has it; nan where there is none.
+    """
+    lengths, least = pin_distances(batch), _least_links(problem)
+    out = []
+    for length, each in zip(lengths, sensitivity, strict=True):
+        reasons = []
+        with np.errstate(invalid="ignore"):
+            short = np.flatnonzero(length < least)
+        if len(short):
+            at = short[int(length[short].argmin())]
+            reasons.append(too_short(float(length[at]), float(least[at]), problem.given))
+        if each > MAX_SENSITIVITY:
+            times = f"{figure(each)} times"
+            reasons.append(f"magnifies errors of its pivots and lengths up to {times} at a pose")
+        out.append(tuple(Defect("degenerate", reason, ()) for reason in reasons))
+    return out
+
+
+def too_short(length: float, least: float, task: Task) -> str:
+    """What is said of a link that is shorter than the least length."""
+    share = f"1/{1 / MIN_LINK_SHARE:.0f}"
+    return (
+        f"has a link of {length_of(length, task)}, shorter than {share} of the motion's span "
+        f"({length_of(least, task)})"
+    )
