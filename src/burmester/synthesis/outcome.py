@@ -23,6 +23,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.verdicts.explanation import by_nearness, hints, in_short, nearness
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.ranking import only_too_far
 from burmester.verdicts.standard import LEAST_TRANSMISSION
 from burmester.wording import count, figure, listed
 
@@ -290,7 +291,9 @@ def _none_usable(
 
 
 def _is_outside(found: FoundLinkage) -> bool:
-    return any(each.kind == "assembly" for each in found.defects)
+    share = found.within_tolerance
+    inside = share is not None and bool((share <= 1).all())
+    return not inside and any(each.kind == "assembly" for each in found.defects)
 
 
 def _outside_tolerances(
@@ -305,9 +308,15 @@ def _outside_tolerances(
     why = f"the one that exceeds them least, {nearest.id}, is "
     why += "; ".join(each.message for each in nearest.defects if each.kind == "assembly")
     help = "widen that tolerance, free a component that does not count, or leave a pose out"
-    if math.isfinite(worst(nearest)) and not _has_exact_parts(task):
-        times = math.ceil(100 * worst(nearest)) / 100
-        help += f"; with all tolerances {times:g} times as wide {nearest.id} would be inside"
+    works = min(filter(only_too_far, linkages), key=worst, default=None)
+    bounded = task.requirements.within is not None or task.requirements.within_deg is not None
+    if (
+        works is not None
+        and math.isfinite(worst(works))
+        and not (bounded or _has_exact_parts(task))
+    ):
+        times = math.ceil(100 * worst(works)) / 100
+        help += f"; with all tolerances {times:g} times as wide {works.id} would be inside"
     return Outcome("R304", f"no linkage stays inside all tolerances: {message}", help, why)
 
 
