@@ -26,7 +26,6 @@ from tests.oracles.few_pose_tasks import few_pose_task
 from benchmarks.planted_limits import planted
 from benchmarks.practical_tasks import FAMILIES
 from benchmarks.search_witness import task_of
-from burmester import synthesize_six_bars
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import box
 from burmester.synthesis.motion_generation import synthesize
@@ -36,11 +35,13 @@ from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
 
 OPTION = re.compile(r'(--[a-z-]+)(?: ("[^"]+"|[^-\s;()"][^\s;()]*))?')
+PIECE = re.compile(r"; or |; |, or (?=with |take |ask |say )")
 TIMES = re.compile(r"all tolerances ([\d.]+) times as wide")
 ERRORS = re.compile(r"misses by ([\d.e+-]+)(?: mm)?(?: and ([\d.e+-]+)°)?\)?")
 TYPES = "crank-rocker", "double-crank", "double-rocker", "triple-rocker", "grashof"
 SHOWN = 1.06  # times an error as it is shown with two digits
-CHOICES = "change it with", "compare with", "say otherwise", "give more time"
+# What offers a choice, and promises nothing.
+CHOICES = "change it with", "compare with", "say otherwise", "give more time", "look for six bars"
 
 
 def _asked(rng, size):
@@ -123,58 +124,45 @@ def pieces(text):
     ]
 
 
+FIELDS = {
+    "--within": "within", "--within-angle": "within_deg", "--min-transmission": "transmission_deg",
+    "--link-ratio": "link_ratio", "--type": "types", "--driver": "driver",
+    "--any-order": "any_order",
+}  # fmt: skip
+
+
 def solved_with(task, piece):
-    """The answer to the task with the options of a piece of help; None where it names none."""
-    asked, limits = task.requirements, list(task.limits) or [Limits()]
+    """The answer to the task with the options of a piece of help; None where it names none.
+
+    A text names an option that is none of the known ones.
+    """
     if (times := TIMES.search(piece)) is not None:
-        stated = task.tolerances
-        wide = PoseTolerances(
-            stated.position * float(times[1]), stated.angle * float(times[1]), stated.axes
-        )
+        stated, ratio = task.tolerances, float(times[1])
+        wide = PoseTolerances(stated.position * ratio, stated.angle * ratio, stated.axes)
         return synthesize(replace(task, tolerances=wide))
     found = OPTION.findall(piece)
     if not found or any(word in piece for word in CHOICES):
         return None
-    for name, value in found:
-        value = value.strip('",')
-        number = float(value) if re.fullmatch(r"[\d.e+-]+", value) else None
-        match name:
-            case "--within":
-                asked = replace(asked, within=number)
-            case "--within-angle":
-                asked = replace(asked, within_deg=number)
-            case "--min-transmission":
-                asked = replace(asked, transmission_deg=number)
-            case "--link-ratio":
-                asked = replace(asked, link_ratio=number)
-            case "--type":
-                asked = replace(asked, types={value})
-            case "--driver":
-                asked = replace(asked, driver=value)
-            case "--any-order":
-                asked = replace(asked, any_order=True)
-            case "--kinds":
-                limits = [replace(each, kinds=frozenset(value.split(","))) for each in limits]
-            case "--length":  # :MAX, which the reader chooses
-                return None
-            case "--drop":
-                rows = np.delete(np.arange(len(task.poses.angle)), int(value) - 1)
-                task = task.at(rows, None)
-            case "--every":
-                task = task.at(np.arange(0, len(task.poses.angle), int(value)), None)
-            case "--six-bars":
-                return synthesize_six_bars(task).synthesis
-            case _:
-                return name  # nothing that can be typed as it stands
-    if task.limits or any(each.kinds != Limits().kinds for each in limits):
-        task = replace(task, limits=tuple(limits))
-    return synthesize(replace(task, requirements=asked))
+    for name, text in found:
+        value = text.strip('",')
+        if name in FIELDS:
+            typed = float(value) if re.fullmatch(r"[\d.e+-]+", value) else value or True
+            typed = {value} if name == "--type" else typed
+            asked = replace(task.requirements, **{FIELDS[name]: typed})
+            task = replace(task, requirements=asked)
+        elif name == "--drop":
+            task = task.at(np.delete(np.arange(len(task.poses.angle)), int(value) - 1), None)
+        elif name == "--every":
+            task = task.at(np.arange(0, len(task.poses.angle), int(value)), None)
+        elif name != "--length":  # :MAX, which the reader chooses
+            return name
+        else:
+            return None
+    return synthesize(task)
 
 
 def kept(result, piece):
     """Whether an answer is what a piece of help promises, and why not."""
-    if result.six_bars is not None:
-        return ("kept" if result.six_bars.found else "no six-bar"), ""
     if not result.usable:
         return "no usable linkage", result.outcome.code
     if (told := ERRORS.search(piece)) is None:

@@ -4,10 +4,11 @@
 
 Each task is made from a random usable linkage (`stacked/random_linkages`): six to twelve of its
 poses, from a part of its motion or all of it, most of them with a little noise, and around it what
-limits and requirements can say, each drawn by itself: boxes around the pivots (one for both dyads, or one for each; from a fiftieth to
-ten spans wide), lengths, kinds, exact poses, a transmission angle a little below the linkage's own,
-a footprint, and a greatest error (`within`) a little above its own.  A task counts where the
-package's judge says that the planted linkage keeps all of it, so that there is an answer.
+limits and requirements can say, each drawn by itself: boxes around the pivots (one for both dyads,
+or one for each; from a fiftieth to ten spans wide), lengths, kinds, exact poses, a transmission
+angle a little below the linkage's own, a footprint, and a greatest error (`within`) a little above
+its own.  A task counts where the package's judge says that the planted linkage keeps all of it, so
+that there is an answer.
 
 Exit code 1 if a task is left without a linkage.
 """

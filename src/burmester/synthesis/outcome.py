@@ -54,8 +54,7 @@ def dyad_advice(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
             "W204",
             f"{each.id} has a link of {dyad.radius / size:.0f} times the span of the "
             f"poses, and it swings by {figure(math.degrees(swing(dyad, poses)))}°: nearly a slider",
-            "if a link that long cannot be built, allow sliders only with --kinds PR,RP, or say "
-            "how long it may be with --length :MAX",
+            "if a link that long cannot be built, say how long it may be with --length :MAX",
         )
         for each in found.dyads
         if isinstance(dyad := each.dyad, RR) and is_nearly_slider(dyad, poses, size)
@@ -226,7 +225,7 @@ def offering_six_bars(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
     five = task.poses.shape[0] == problem.task.poses.shape[0] == CONDITIONS
     if outcome.code not in ("R301", "R302", "R306") or not (five and keeps):
         return outcome
-    return replace(outcome, help=f"{outcome.help}; or let six bars do it: --six-bars")
+    return replace(outcome, help=f"{outcome.help}; or look for six bars that do it: --six-bars")
 
 
 def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:
@@ -408,14 +407,16 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
         best = usable[0]
         least = best.driven.least_over_range
         if math.degrees(least) < LEAST_TRANSMISSION - SHOWN_ANGLE:
-            help = f"ask for more with --min-transmission {USUAL_TRANSMISSION:.0f}"
+            help = "move a pose, or leave one out"
             if code == "R316":
                 help = "let the body turn less: no other pair of the family transmits better"
             other = max(usable, key=lambda each: each.driven.least_over_range)
-            if other.driven.least_over_range > BETTER * least:
-                angle = least_angle(other.driven.least_over_range)
+            reached = other.driven.least_over_range
+            if reached > BETTER * least:
                 near = nearness(other, task, characteristic_length(task))
-                help = f"take {other.id}, which has {angle} or more and {near}; or {help}"
+                help = f"take {other.id}, which has {least_angle(reached)} or more and {near}"
+            if math.degrees(reached) >= USUAL_TRANSMISSION:  # so there is one for sure
+                help += f"; or ask for more with --min-transmission {USUAL_TRANSMISSION:.0f}"
             warnings.append(
                 Advice(
                     "W210",
