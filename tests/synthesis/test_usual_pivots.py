@@ -22,10 +22,8 @@ def far_away(found, rows):
     span = float(np.linalg.norm(np.ptp(at, axis=0)))
     for dyad in (found.linkage.first, found.linkage.second):
         if not isinstance(dyad, PR):
-            beside = np.maximum(
-                at.min(axis=0) - dyad.fixed_pivot, dyad.fixed_pivot - at.max(axis=0)
-            )
-            out.append(beside.max() / span)
+            low, high = at.min(axis=0) - dyad.fixed_pivot, dyad.fixed_pivot - at.max(axis=0)
+            out.append(np.maximum(low, high).max() / span)
         if not isinstance(dyad, RP):
             out.append(np.abs(dyad.moving_pivot).max() / span)
     return max(out, default=0.0)
