@@ -45,11 +45,13 @@ from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.explanation import by_nearness
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.verdicts.ranking import (
     closest_usable,
     digits_leave_open,
     farthest_recommended,
+    only_too_far,
     ranked,
     states_tolerance,
 )
@@ -73,6 +75,7 @@ MAX_EXCHANGES = 5
 # Degrees by which a greater least transmission angle is asked for within tolerances, and how often.
 RISE, MAX_RISES = 8.0, 6
 MAX_SEARCHED = 5  # number of linkages kept from the search for defect-free linkages
+MAX_TOO_FAR = 2  # number of those kept that only come too far from the poses, if none is usable
 KEPT_OF_RISE = 2  # number of linkages kept of each rise; the others are like them
 
 
@@ -250,9 +253,8 @@ def _with_search(
             further = FurtherPairs.of(pairs, evaluation)
             found = ranked([*found, *closer_linkages(further, evaluation, found)], problem)
         nearest = _nearest(found, problem)
-    if nearest is None:
-        return found
-    if not nearest.usable and time_for("looking for linkages that work"):
+    works = nearest is not None and nearest.usable
+    if not works and time_for("looking for linkages that work"):
         further = further or FurtherPairs.of(pairs, evaluation)
         starts = further.beside(start, pairs, found, evaluation)
         best = closest_usable(found)
@@ -303,7 +305,10 @@ def _inside_tolerances(
 
 
 def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> list[FoundLinkage]:
-    """Usable linkages of the search whose combined error is below `most`."""
+    """Usable linkages of the search whose combined error is below `most`.
+
+    Where nothing is usable, the nearest ones that only come too far from the poses.
+    """
     whole = evaluation.target
     target = whole.thinned(FEW_POSES)
     # Tolerances bind once a linkage is found: as constraints they would shut the search's ways.
@@ -322,4 +327,7 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
     evaluated = evaluation.evaluate(
         Candidates(batch, rows, origins, np.ones(len(index), dtype=bool))
     )
-    return [each for each in evaluated if each.usable and each.combined_error < most][:MAX_SEARCHED]
+    near = [each for each in evaluated if each.usable and each.combined_error < most]
+    if not near and most == inf:
+        near = by_nearness(filter(only_too_far, evaluated), evaluation.problem.length)[:MAX_TOO_FAR]
+    return near[:MAX_SEARCHED]

@@ -7,6 +7,8 @@ them only.  Links with low errors, their pivots on grids, give thousands of furt
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -40,7 +42,8 @@ SAME_PIVOTS = 0.15  # lengths; links whose pivots differ by less are one
 # Linkages are one if their places differ by less than this share of the rms error, within the
 # bounds, in lengths.
 SAME_SHARE, SAME_PLACE = 0.3, (1e-5, 1e-3)
-MIN_LENGTH, MAX_LENGTH = 0.01, 10.0  # lengths; range of these links and of their pivots' distances
+# Lengths; range of these links and of their pivots' distances, where no limit says how far is far.
+MIN_LENGTH, MAX_LENGTH = 0.01, 10.0
 
 
 def links_of_pivot_map(
@@ -58,30 +61,36 @@ def links_of_pivot_map(
     if "RR" not in limits.allowed:
         return []
     unit = 1.0 if frames is None else float(frames.length)
-    ends = [limits.fixed_pivot, limits.moving_pivot]
-    given: list[FloatArray | None] = [
-        None if region is None else (_points_of(region, unit) - origin) / unit
-        for region, origin in zip(
-            ends, (0.0 if frames is None else frames.fixed_origin, 0.0), strict=True
+    fixed, moving = (
+        None if region is None else _SeenRegion(region, unit, np.asarray(origin))
+        for region, origin in (
+            (limits.fixed_pivot, np.zeros(2) if frames is None else frames.fixed_origin),
+            (limits.moving_pivot, np.zeros(2)),
         )
-    ]
+    )
     parts = []
     for inverse in (False, True):
         seen = poses.inverse() if inverse else poses
-        own, other = given[::-1] if inverse else given
-        at = _grid_of_map(seen, weights) if own is None else own
-        if other is None:
-            partner = fixed_pivot_map(seen, at, weights).dyads.moving_pivot
-        else:
-            partner = _best_partner(seen, at, other, weights)
+        own, other = (moving, fixed) if inverse else (fixed, moving)
+        at = _grid_of_map(seen, weights)
+        if own is not None:
+            at = np.concatenate([own.points(), at[own.holds(at)]])
+        partner = fixed_pivot_map(seen, at, weights).dyads.moving_pivot
+        if other is not None:
+            free = other.holds(partner)
+            at = np.concatenate([at, at[free]])
+            best = _best_partner(seen, at[: len(free)], other.points(), weights)
+            partner = np.concatenate([best, partner[free]])
         parts.append(np.concatenate([partner, at] if inverse else [at, partner], axis=-1))
     pivots = np.concatenate(parts)
     pivots = pivots[np.isfinite(pivots).all(axis=-1)]
     error, radius = _circle_error(poses, pivots[:, :2], pivots[:, 2:], weights)
     least, most = (bound / unit for bound in limits.length)
     radius = np.clip(radius, least, most)
-    sound = np.isfinite(error) & (radius > MIN_LENGTH) & (radius < MAX_LENGTH)
-    sound &= np.abs(pivots[:, 2:]).max(axis=-1) < MAX_LENGTH
+    sound = np.isfinite(error) & (radius > MIN_LENGTH)
+    if moving is None:  # else the limits say how far is far
+        sound &= (radius < MAX_LENGTH) | (fixed is not None) | np.isfinite(most)
+        sound &= np.abs(pivots[:, 2:]).max(axis=-1) < MAX_LENGTH
     order = np.flatnonzero(sound)[np.argsort(error[sound], kind="stable")]
     chosen: list[int] = []
     for k in order.tolist():
@@ -116,6 +125,25 @@ def _grid_of_map(poses: Displacement, weights: FloatArray | None) -> FloatArray:
         for middle, size in around
     ]
     return np.concatenate(parts).reshape(-1, 2)
+
+
+class _SeenRegion(NamedTuple):
+    """A region of the task's own frame, seen from an origin in a unit."""
+
+    region: Region
+    unit: float
+    origin: FloatArray
+
+    def points(self) -> FloatArray:
+        """Points (*, 2) of it, its edges included; of a line those near its two points."""
+        return (_points_of(self.region, self.unit) - self.origin) / self.unit
+
+    def holds(self, points: FloatArray) -> NDArray[np.bool_]:
+        """Which of points (k, 2) are inside a polygon; none of any other region."""
+        if not isinstance(self.region, Polygon):
+            return np.zeros(len(points), dtype=bool)
+        inside = self.region.signed_distance(points * self.unit + self.origin) <= 0
+        return np.asarray(inside, dtype=bool)
 
 
 def _points_of(region: Region, unit: float) -> FloatArray:

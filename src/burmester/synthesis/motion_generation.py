@@ -34,6 +34,7 @@ from burmester.synthesis.outcome import (
 from burmester.synthesis.point_approximation import with_nearest_angles
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
+from burmester.synthesis.usual_pivots import with_usual_pivots
 from burmester.synthesis.within_digits import tolerances_of_digits, with_linkages_within_digits
 from burmester.tasks.feasibility import require_feasible
 from burmester.tasks.motion_kinds import FewPoses, MotionKind, Rest, Undetermined
@@ -120,12 +121,14 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     if outcome.code == "R305":
         linkages = with_linkages_within_digits(problem, pairs, linkages)
         outcome = summary(problem, search, linkages)
+    linkages, assumed = with_usual_pivots(problem, linkages)
     outcome = offering_six_bars(problem, outcome)
     warnings = (
         *_odd_pose(problem, search),
         *known,
         *dyad_advice(problem, search, linkages),
         *map(_found_twice, twice),
+        *assumed,
         *linkage_advice(task, linkages, outcome.code),
         *sample_advice(problem, linkages),
     )

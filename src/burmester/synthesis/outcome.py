@@ -23,6 +23,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.verdicts.explanation import by_nearness, hints, in_short, nearness
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.ranking import only_too_far
 from burmester.verdicts.standard import LEAST_TRANSMISSION
 from burmester.wording import count, figure, listed
 
@@ -97,8 +98,7 @@ def _nearly_sliders(
             "W204",
             f"{name} has a link of {dyad.radius / size:.0f} times the span of the "
             f"poses, and it swings by {figure(math.degrees(swing(dyad, poses)))}°: nearly a slider",
-            "if a link that long cannot be built, allow sliders only with --kinds PR,RP, or say "
-            "how long it may be with --length :MAX",
+            "if a link that long cannot be built, say how long it may be with --length :MAX",
         )
         for name, dyad in known.values()
         if isinstance(dyad, RR) and is_nearly_slider(dyad, poses, size)
@@ -241,7 +241,7 @@ def offering_six_bars(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
     five = task.poses.shape[0] == problem.task.poses.shape[0] == CONDITIONS
     if outcome.code not in ("R301", "R302", "R306") or not (five and keeps):
         return outcome
-    return replace(outcome, help=f"{outcome.help}; or let six bars do it: --six-bars")
+    return replace(outcome, help=f"{outcome.help}; or look for six bars that do it: --six-bars")
 
 
 def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:
@@ -306,7 +306,9 @@ def _none_usable(
 
 
 def _is_outside(found: FoundLinkage) -> bool:
-    return any(each.kind == "assembly" for each in found.defects)
+    share = found.within_tolerance
+    inside = share is not None and bool((share <= 1).all())
+    return not inside and any(each.kind == "assembly" for each in found.defects)
 
 
 def _outside_tolerances(
@@ -321,9 +323,15 @@ def _outside_tolerances(
     why = f"the one that exceeds them least, {nearest.id}, is "
     why += "; ".join(each.message for each in nearest.defects if each.kind == "assembly")
     help = "widen that tolerance, free a component that does not count, or leave a pose out"
-    if math.isfinite(worst(nearest)) and not _has_exact_parts(task):
-        times = math.ceil(100 * worst(nearest)) / 100
-        help += f"; with all tolerances {times:g} times as wide {nearest.id} would be inside"
+    works = min(filter(only_too_far, linkages), key=worst, default=None)
+    bounded = task.requirements.within is not None or task.requirements.within_deg is not None
+    if (
+        works is not None
+        and math.isfinite(worst(works))
+        and not (bounded or _has_exact_parts(task))
+    ):
+        times = math.ceil(100 * worst(works)) / 100
+        help += f"; with all tolerances {times:g} times as wide {works.id} would be inside"
     return Outcome("R304", f"no linkage stays inside all tolerances: {message}", help, why)
 
 
@@ -415,14 +423,16 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
         best = usable[0]
         least = best.driven.least_over_range
         if math.degrees(least) < LEAST_TRANSMISSION - SHOWN_ANGLE:
-            help = f"ask for more with --min-transmission {USUAL_TRANSMISSION:.0f}"
+            help = "move a pose, or leave one out"
             if code == "R316":
                 help = "let the body turn less: no other pair of the family transmits better"
             other = max(usable, key=lambda each: each.driven.least_over_range)
-            if other.driven.least_over_range > BETTER * least:
-                angle = least_angle(other.driven.least_over_range)
+            reached = other.driven.least_over_range
+            if reached > BETTER * least:
                 near = nearness(other, task, characteristic_length(task))
-                help = f"take {other.id}, which has {angle} or more and {near}; or {help}"
+                help = f"take {other.id}, which has {least_angle(reached)} or more and {near}"
+            if math.degrees(reached) >= USUAL_TRANSMISSION:  # so there is one for sure
+                help += f"; or ask for more with --min-transmission {USUAL_TRANSMISSION:.0f}"
             warnings.append(
                 Advice(
                     "W210",

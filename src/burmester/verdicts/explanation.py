@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -74,7 +74,7 @@ def worst_miss(found: HasError, task: Task) -> str:
     return f"{away} and {figure(math.degrees(float(found.error.angle.max())))}°"
 
 
-def by_nearness(linkages: Sequence[FoundLinkage], size: float) -> list[FoundLinkage]:
+def by_nearness(linkages: Iterable[FoundLinkage], size: float) -> list[FoundLinkage]:
     """Sorted by both errors in one; linkages equal within rounding keep their order."""
 
     def error(each: FoundLinkage) -> float:
@@ -137,6 +137,8 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
         if options:
             nearest_with.setdefault(tuple(option.split()[0] for option in options), each)
     nearest = sorted(nearest_with.values(), key=lambda each: len(_options(each, problem)))
+    # More options for a greater error are no help.
+    nearest = [each for k, each in enumerate(nearest) if not _is_beaten(each, nearest[:k], problem)]
     softer = nearest_with.get(("--min-transmission",))
     if softer is not None:  # beside the nearest one, the one with the best transmission angle
         alike = [
@@ -164,6 +166,18 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
     return "; or ".join(texts) or "move a pose"
 
 
+def _is_beaten(
+    found: FoundLinkage, others: Sequence[FoundLinkage], problem: SynthesisProblem
+) -> bool:
+    """Whether another linkage comes as near, and needs no option that this one does without."""
+    names = {option.split()[0] for option in _options(found, problem)}
+    return any(
+        {option.split()[0] for option in _options(each, problem)} <= names
+        and each.combined_error <= found.combined_error
+        for each in others
+    )
+
+
 def _would_do(found: FoundLinkage, problem: SynthesisProblem) -> str:
     how = nearness(found, problem.given, problem.length)
     return f"with {' '.join(_options(found, problem))} {found.id} would do (it {how})"
@@ -175,7 +189,7 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
     for defect in found.defects:
         if defect.kind == "order" and not asked.any_order:
             options.append("--any-order")
-        elif defect.kind == "assembly" and math.isfinite(found.error.worst):
+        elif defect.kind == "assembly" and _is_only_bounded(found):
             options += error_bounds(found, problem)
         else:
             return ()
@@ -195,6 +209,12 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
         else:
             return ()
     return tuple(sorted(set(options), reverse=True))  # --within first
+
+
+def _is_only_bounded(found: FoundLinkage) -> bool:
+    """Whether nothing but a greatest error keeps a linkage from its poses: no tolerance of one."""
+    share = found.within_tolerance
+    return math.isfinite(found.error.worst) and (share is None or bool((share <= 1).all()))
 
 
 def error_bounds(found: HasError, problem: SynthesisProblem) -> list[str]:

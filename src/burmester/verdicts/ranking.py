@@ -31,6 +31,7 @@ __all__ = [
     "digits_leave_open",
     "farthest_recommended",
     "is_trade",
+    "only_too_far",
     "ranked",
     "states_tolerance",
 ]
@@ -82,6 +83,12 @@ def closest_usable(found: Iterable[FoundLinkage]) -> FoundLinkage | None:
     return min(usable, key=lambda each: each.combined_error, default=None)
 
 
+def only_too_far(found: FoundLinkage) -> bool:
+    """Whether a linkage would be usable if its poses might be missed by more."""
+    far = bool(found.defects) and all(each.kind == "assembly" for each in found.defects)
+    return far and not found.violations and found.combined_error < math.inf
+
+
 def farthest_recommended(closest: FoundLinkage, problem: SynthesisProblem) -> float:
     """The greatest combined error with which a linkage may stand before the closest usable one.
 
@@ -103,7 +110,8 @@ def is_trade(other: FoundLinkage, best: FoundLinkage) -> bool:
 def ranked(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> list[FoundLinkage]:
     """The order of linkages, equal ones once.
 
-    Of several failing linkages from one pair of dyads only the closest is kept.  Without a stated
+    Of several failing linkages from one pair of dyads only the closest is kept, and those of the
+    search that are `only_too_far`.  Without a stated
     tolerance the first is never one that another of its group beats in both errors.
     """
     floor, closest = digits_leave_open(problem), closest_usable(found)
@@ -129,7 +137,8 @@ def ranked(found: Sequence[FoundLinkage], problem: SynthesisProblem) -> list[Fou
         pair = frozenset(dyad.id for dyad in each.dyads)
         if any(_same(each, other, problem, size) for other in kept):
             continue
-        if each.usable or pair not in failed:
+        near = each.usable or (each.from_search and only_too_far(each))
+        if near or pair not in failed:
             kept.append(each)
         if not each.usable:
             failed.add(pair)
