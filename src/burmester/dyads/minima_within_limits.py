@@ -103,7 +103,7 @@ def limited_dyads(
 def _lines(
     seen: Displacement, region: Region | None, search: FaceSearch, rail: Rail | None
 ) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
-    """The PR dyads, on the rail if there is one: normal angle, offset, moving pivot in the region."""
+    """The PR dyads, on the rail if there is one: normal angle, offset, moving pivot."""
     if rail is not None:
         found = sliders_on_rail(seen, rail, region, search.share, search.exact)
         return [_with_upper_normal(z) for z in found]
