@@ -105,8 +105,8 @@ def _lines(
 ) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
     """The PR dyads, on the rail if there is one: normal angle, offset, moving pivot."""
     if rail is not None:
-        found = sliders_on_rail(seen, rail, region, search.share, search.exact)
-        return [_with_upper_normal(z) for z in found]
+        lines = sliders_on_rail(seen, rail, region, search.share, search.exact)
+        return [_with_upper_normal(z) for z in lines]
     rows = np.concatenate(
         [seen.translation, np.cos(seen.angle)[:, None], np.sin(seen.angle)[:, None]], axis=-1
     )

@@ -107,4 +107,4 @@ class RailFreedom:
     def beyond(self, z: FloatArray, poses: Displacement) -> FloatArray:
         """How far the pins of dyads z (k, 5) leave the travel at poses, (k,)."""
         excess = self.rail.travel_excess(self.pins_of(z, poses))
-        return np.maximum(excess.max(axis=-1), 0.0)
+        return np.asarray(np.maximum(excess.max(axis=-1), 0.0))

@@ -68,12 +68,19 @@ class Rail:
             if (value := getattr(self, name)) is not None:
                 number = float(real_numbers(value, (), name, code="E137"))
                 object.__setattr__(self, name, number)
-        for name, other in (("through", Line), ("travel", Point)):
+        for name, other, what in (
+            ("through", Line, "a line passes through"),
+            ("travel", Point, "a pin travels along"),
+        ):
             region = getattr(self, name)
-            kinds = tuple(kind for kind in get_args(Region) if kind is not other)
-            help = f"give {' or '.join(kind.__name__ for kind in kinds)}, or None"
-            if region is not None:
-                require_instance(region, kinds, name, help, code="E137")
+            if region is None:
+                continue
+            kinds = [kind for kind in get_args(Region) if kind is not other]
+            help = f"give a {', a '.join(kind.__name__.lower() for kind in kinds)}, or nothing"
+            require_instance(region, get_args(Region), name, help, code="E137")
+            if isinstance(region, other):
+                message = f"{name} is no region that {what}: {region}"
+                raise InputError("E137", message, help=help)
         tolerance = self.tolerance_deg
         if self.direction_deg is None and self.through is None and self.travel is None:
             raise InputError(
