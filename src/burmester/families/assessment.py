@@ -192,7 +192,7 @@ def _beyond(
     """How far pins (k,) of sliders leave the travel of their rails."""
     out = np.zeros(frames.shape[0])
     for dyad, rail in zip((linkage.first, linkage.second), rails, strict=True):
-        if rail is None:
+        if rail is None or not isinstance(dyad, PR | RP):
             continue
         pin = dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot
         seen = frames if isinstance(dyad, PR) else frames.inverse()

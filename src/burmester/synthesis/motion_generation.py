@@ -118,7 +118,7 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     search = search_dyads(problem)
     pairs, twice = search.pairs(problem.length)
     linkages = _linkages(problem, pairs)
-    if problem.leaves_linkages_open:  # no pose determines their pivots
+    if problem.leaves_linkages_open or open_:  # no pose determines their pivots
         linkages = tuple(
             replace(each, uncertainty=None, determined=True, other_types=()) for each in linkages
         )
