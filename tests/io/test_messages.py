@@ -692,6 +692,24 @@ CASES: dict[str, Case] = {
     "sigma without angle": Case(
         "E134", f"{S} --pose-sigma 0.05", Args(f"{S} --pose-sigma 0.05,0.1"), FEW
     ),
+    "rail of any direction": Case(
+        "E137",
+        f'{S} --rail "direction:0+-95"',
+        Args(f'{S} --rail "direction:0+-20"'),
+        ALL,
+    ),
+    "line of a rail given twice": Case(
+        "E137",
+        f'{S} --rail "direction:0 travel:segment:0,0:5,0"',
+        Args(f'{S} --rail "direction:0 travel:box:-20,-9:20,9"'),
+        ALL,
+    ),
+    "rail with a fixed pivot": Case(
+        "E132",
+        f"{S} --rail direction:0 --fixed-pivot 1,2 --fixed-pivot any",
+        Args(f"{S} --rail direction:0 --fixed-pivot any --fixed-pivot 1,2"),
+        ALL,
+    ),
     # --- tolerances of poses
     "tolerance below zero": Case(
         "E135",
@@ -1222,6 +1240,13 @@ CASES: dict[str, Case] = {
         S,
         Args(f"{S} {WIDE} --min-transmission 40 --link-ratio 4"),
         {"poses.csv": rows(OPENING)},
+        exit=0,
+    ),
+    "three poses and a rail": Case(
+        "W256",
+        f'{S} --rail "direction:0 through:0,20"',
+        Args(f'{S} --rail "direction:0+-2 through:segment:0,0:0,30"'),
+        {"poses.csv": rows("0,0,0 65.25,-8.39,30 214.60,-8.41,88")},
         exit=0,
     ),
     "three poses in boxes": Case(

@@ -36,10 +36,11 @@ TRADES = (
     "tailgate",
 )
 FEW = ("chest-lid", "derailleur", "monitor-arm", "robot-intake", "tilting-window")  # of few poses
+RAILS = ("drawer", "garage-door", "window-stay")  # of few poses, with a slider: see test_rails
 FUNCTIONS = ("log-generator", "sine-generator")  # tasks of functions, see test_function_files
 SIX_BARS = ("window-opener",)  # which no four-bar does: see tests/sixbar/test_template.py
 PATHS = ("straight-line", "walking-beam", "walking-leg")  # curves to trace
-NAMES = tuple(sorted((*TRADES, *FEW, *FUNCTIONS, *SIX_BARS, *PATHS)))
+NAMES = tuple(sorted((*TRADES, *FEW, *RAILS, *FUNCTIONS, *SIX_BARS, *PATHS)))
 ALL = (*TRADES, "task")
 BLOCK = re.compile(r"(?m)^(?:#[^ \n].*\n)+")
 PAIR = r"\((-?\d+), (-?\d+)\)"

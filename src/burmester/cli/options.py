@@ -284,6 +284,19 @@ SPECIFICATION: tuple[Decorator, ...] = (
         help="Kinds of dyads allowed: links RR, sliders PR, slots RP.",
     ),
     _specification(
+        "--rail",
+        metavar="LINE",
+        multiple=True,
+        help='The rail of a slider on the ground, such as "direction:0+-2 through:0,0 '
+        'travel:box:0,-5:400,5"; each part may be left out.',
+    ),
+    _specification(
+        "--slot",
+        metavar="LINE",
+        multiple=True,
+        help="The same of a slot in the body, on the body.",
+    ),
+    _specification(
         "--body",
         metavar="FILE[:PART]",
         help="The outline of the body in a DXF or SVG file, or in one layer (DXF) or id (SVG) of "
@@ -489,11 +502,12 @@ def read_poses(poses: str, **given: Any) -> Task:
 
     further: dict[str, Any] = {}
     if "length" in given:
-        limits = (given[name] for name in ("fixed_pivot", "moving_pivot", "length", "kinds"))
+        names = ("fixed_pivot", "moving_pivot", "length", "kinds", "rail", "slot")
+        limits = {name: given[name] for name in names}
         requirements = text.requirements_from_options(
             **{name: given[name] for name in _REQUIREMENTS}
         )
-        specification = limits_from_options(*limits)._replace(requirements=requirements)
+        specification = limits_from_options(**limits)._replace(requirements=requirements)
         outlines = OutlineOptions(given["body"], given["keep_out"], given["link_width"])
         further = {
             "specification": specification,

@@ -10,8 +10,8 @@ kept that lie within the limits and from which no direction into them leads down
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
-from typing import Any, final
+from dataclasses import dataclass, replace
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,7 @@ from burmester.dyads.circles_within_limits import circles_within_limits
 from burmester.dyads.face_search import Descents, FaceSearch
 from burmester.dyads.geometric_fit import line_distances
 from burmester.dyads.limited_block import Block
+from burmester.dyads.rail_sliders import sliders_on_rail
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
@@ -30,6 +31,7 @@ from burmester.polynomials.bilinear_fit import Parameters, Shape, line_shape
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
+from burmester.tasks.rails import Rail, moved_region
 from burmester.tasks.thin_regions import without_thin_regions
 
 __all__ = ["LimitedDyads", "limited_dyads", "limits_in"]
@@ -83,9 +85,9 @@ def limited_dyads(
     rr = circles_within_limits(seen, limits, search) if "RR" in kinds else np.empty((0, 5))
     sliders: list[PR | RP] = []
     if "PR" in kinds:
-        sliders += [PR(*line) for line in _lines(seen, limits.moving_pivot, search)]
+        sliders += [PR(*line) for line in _lines(seen, limits.moving_pivot, search, limits.rail)]
     if "RP" in kinds:
-        lines = _lines(seen.inverse(), limits.fixed_pivot, search)
+        lines = _lines(seen.inverse(), limits.fixed_pivot, search, limits.slot)
         sliders += [RP(pivot, angle, offset) for angle, offset, pivot in lines]
     return LimitedDyads(
         frames,
@@ -99,9 +101,12 @@ def limited_dyads(
 
 
 def _lines(
-    seen: Displacement, region: Region | None, search: FaceSearch
+    seen: Displacement, region: Region | None, search: FaceSearch, rail: Rail | None
 ) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
-    """The PR dyads: normal angle, offset, moving pivot in the region."""
+    """The PR dyads, on the rail if there is one: normal angle, offset, moving pivot."""
+    if rail is not None:
+        lines = sliders_on_rail(seen, rail, region, search.share, search.exact)
+        return [_with_upper_normal(z) for z in lines]
     rows = np.concatenate(
         [seen.translation, np.cos(seen.angle)[:, None], np.sin(seen.angle)[:, None]], axis=-1
     )
@@ -154,17 +159,13 @@ def _line_map(face: Face) -> FloatArray:
 
 def limits_in(frames: CanonicalFrames, limits: Limits) -> Limits:
     """Limits as canonical frames see them."""
-
-    def moved(region: Region | None, origin: FloatArray) -> Any:
-        if region is None:
-            return None
-        values = {f.name: (getattr(region, f.name) - origin) / unit for f in fields(region)}
-        return replace(region, **values)
-
     unit = float(frames.length)
+    in_f, in_m = (frames.fixed_origin, unit), (frames.moving_origin, unit)
     return replace(
         limits,
-        fixed_pivot=moved(limits.fixed_pivot, frames.fixed_origin),
-        moving_pivot=moved(limits.moving_pivot, frames.moving_origin),
+        fixed_pivot=moved_region(limits.fixed_pivot, *in_f),
+        moving_pivot=moved_region(limits.moving_pivot, *in_m),
         length=(limits.length[0] / unit, limits.length[1] / unit),
+        rail=limits.rail and limits.rail.moved(*in_f),
+        slot=limits.slot and limits.slot.moved(*in_m),
     )

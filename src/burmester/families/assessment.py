@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from burmester.families.conditions import Conditions
 from burmester.families.open_task import OpenTask, Trials
+from burmester.families.rail_freedom import RailFreedom
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import GRASHOF_SUMS, Linkage
@@ -43,6 +45,7 @@ CLEARANCE_SLACK: Final = 1e-3
 NEARLY: Final = 0.5  # violation; clearances of linkages that violate more are not looked at
 NONE: Final = 10.0  # violation of a linkage that has no motion at all
 BAD: Final = 1e6  # what a violation of 1 counts as, beside any aim
+TRAVEL_ROUNDING: Final = 1e-9  # lengths; a pin that is less beyond its travel keeps it
 LOST: Final = 1.0  # violation of a linkage that leaves its branch, beside how far it does
 CHANGE_POINT: Final = 1e-3  # of all links together; least Grashof excess of a sane linkage
 
@@ -80,8 +83,9 @@ def assessed(trials: Trials, task: OpenTask, *, thorough: bool = False) -> Asses
     batch = trials.batch
     led = LinkageBatch(batch.kinds[every, order], batch.dimensions[every, order])
     places = task.places(trials.offsets)
-    for index, linkage in led.alike():
-        part = _of_alike(linkage, places[index], task.conditions, frames)
+    for index, linkage in _alike(led, trials, task):
+        rails = [task.sides[abs(side - trials.driver[index[0]])].rail for side in (0, 1)]
+        part = _of_alike(linkage, places[index], task.conditions, frames, rails)
         for whole, values in zip(out, part, strict=True):
             whole[index] = values
     with np.errstate(invalid="ignore", divide="ignore", over="ignore"):
@@ -92,8 +96,25 @@ def assessed(trials: Trials, task: OpenTask, *, thorough: bool = False) -> Asses
     return out
 
 
+def _alike(
+    led: LinkageBatch, trials: Trials, task: OpenTask
+) -> Iterator[tuple[NDArray[np.intp], Linkage]]:
+    """As `LinkageBatch.alike`; those with rails also by the side that drives."""
+    if all(side.rail is None for side in task.sides):
+        yield from led.alike()
+        return
+    for side in (0, 1):
+        own = np.flatnonzero(trials.driver == side)
+        for index, linkage in led[own].alike():
+            yield own[index], linkage
+
+
 def _of_alike(
-    linkage: Linkage, places: Displacement, conditions: Conditions, frames: tuple[int, ...]
+    linkage: Linkage,
+    places: Displacement,
+    conditions: Conditions,
+    frames: tuple[int, ...],
+    rails: Sequence[RailFreedom | None],
 ) -> Assessment:
     """Linkages (k,) of one pair of kinds, driven by their first dyads, at places (k, N).
 
@@ -113,6 +134,9 @@ def _of_alike(
         if conditions.footprint is not None:
             along = _frames(traversal.circuits, ends)
             violation = violation + _outside(linkage, along, conditions.footprint)
+        if any(each is not None and each.rail.travel is not None for each in rails):
+            along = _frames(traversal.circuits, ends)
+            violation = violation + _beyond(linkage, along, rails) / conditions.span
         if conditions.around is not None:
             violation = violation + _too_close(
                 linkage, traversal.circuits, ends, violation, conditions, counts=frames
@@ -163,6 +187,21 @@ def _outside(linkage: Linkage, frames: Displacement, footprint: Polygon) -> Floa
     """How far pivots (k,) leave the footprint."""
     points = np.concatenate(_pivots(linkage, frames), axis=1)
     return np.asarray(footprint.distance(points).max(axis=1))
+
+
+def _beyond(
+    linkage: Linkage, frames: Displacement, rails: Sequence[RailFreedom | None]
+) -> FloatArray:
+    """How far pins (k,) of sliders leave the travel of their rails."""
+    out = np.zeros(frames.shape[0])
+    for dyad, rail in zip((linkage.first, linkage.second), rails, strict=True):
+        if rail is None or not isinstance(dyad, PR | RP):
+            continue
+        pin = dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot
+        seen = frames if isinstance(dyad, PR) else frames.inverse()
+        beyond = rail.rail.travel_excess(seen.act(pin[:, None])).max(axis=1)
+        out += np.where(beyond > TRAVEL_ROUNDING, beyond, 0.0)
+    return out
 
 
 def _too_close(

@@ -96,12 +96,12 @@ class Assumptions:
             near = "the body's outline"
         around = task.poses[:, None].act(body).reshape(-1, 2)
         limits = task.limits or (Limits(),)
-        if any(each.fixed_pivot is None for each in limits):
+        if any(each.fixed_pivot is None and each.rail is None for each in limits):
             beside = (
                 f"fixed pivots at most {length_of(reach * size, task)} beside the body's places"
             )
             bounds.append(Bound(beside, "--fixed-pivot"))
-        if any(each.moving_pivot is None for each in limits):
+        if any(each.moving_pivot is None and each.slot is None for each in limits):
             away = f"moving pivots at most {length_of(moving, task)} from {near}"
             bounds.append(Bound(away, "--moving-pivot"))
         transmission, ratio = asked.transmission, asked.link_ratio

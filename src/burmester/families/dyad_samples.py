@@ -64,6 +64,9 @@ def drawn_dyads(
             near = found[rng.integers(len(found), size=len(start))]
             near = near + NEAR * rng.normal(size=near.shape)
             found = np.concatenate([found, _brought(near, kind, offsets, still)])
+        if side.rail is not None:  # those whose pins keep the travel, if any do
+            kept = side.rail.beyond(found, poses) <= SAME
+            found = found[kept] if kept.any() else found
         out.append(DyadSamples(np.full(len(found), kind, dtype=np.int8), found))
     samples = concatenate(out)
     return take(samples, _different(samples))
@@ -98,6 +101,9 @@ def _random(
         z[2::3, 2:4] = _centres(poses.inverse().act(z[2::3, None, :2]), z[2::3, 2:4])
         pins = poses.act(z[:, None, 2:4])
         z[:, 4] = np.linalg.norm(pins - z[:, None, :2], axis=-1).mean(axis=1)
+        return z
+    if side.rail is not None:
+        z[:, side.rail.pin], z[:, side.rail.at] = side.rail.draw(z, poses, rng)
         return z
     at = 0 if kind == 1 else 2
     pins = poses.act(z[:, None, 2:4]) if kind == 1 else poses.inverse().act(z[:, None, :2])

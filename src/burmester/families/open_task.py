@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from burmester.families.assumptions import Assumptions
 from burmester.families.conditions import Conditions
 from burmester.families.pivot_freedom import PivotFreedom
+from burmester.families.rail_freedom import RailFreedom
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
@@ -34,13 +35,14 @@ FREE_LENGTH: Final = 0.5  # motion sizes; the same for a free coordinate
 class DyadFreedom:
     """What one dyad may be: where its pivots lie, how long its link is, and of which kinds it is.
 
-    length: the least and the greatest; kinds: indices in DYAD_KINDS.
+    length: the least and the greatest; kinds: indices in DYAD_KINDS; rail: of the line of a slider.
     """
 
     fixed: PivotFreedom
     moving: PivotFreedom
     length: tuple[float, float]
     kinds: tuple[int, ...]
+    rail: RailFreedom | None = None
 
     def metric(self) -> FloatArray:
         """How freely the dimensions of each kind of dyad change: projectors (3, 5, 5)."""
@@ -101,7 +103,8 @@ class OpenTask:
             )
             kinds = tuple(k for k, kind in enumerate(DYAD_KINDS) if kind.__name__ in limits.allowed)
             least, most = limits.length
-            sides.append(DyadFreedom(*pivots, (least / unit, most / unit), kinds))
+            rail = RailFreedom.of(limits, frames)
+            sides.append(DyadFreedom(*pivots, (least / unit, most / unit), kinds, rail))
         both = sides[0], sides[-1]
         pins = all(0 in side.kinds for side in both)
         return cls(

@@ -323,6 +323,12 @@ def meets_limits(
         good &= ground.distance(dyad.fixed_pivot) <= slack
     if isinstance(dyad, RR | PR) and body is not None:
         good &= body.distance(dyad.moving_pivot) <= slack
+    if (line := limits.line) is not None and isinstance(dyad, PR | RP):
+        off, equal = line.line_excess(dyad.normal_angle, dyad.offset)
+        good &= (np.where(equal, np.abs(off), off) <= slack).all(axis=-1)
+        seen, pin = task.poses, dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot
+        seen = seen if isinstance(dyad, PR) else seen.inverse()
+        good &= (line.travel_excess(seen.act(pin[..., None, :])) <= slack).all(axis=-1)
     if isinstance(dyad, RR):
         least, most = limits.length
         good &= (dyad.radius >= least * (1 - MET)) & (dyad.radius <= most * (1 + MET))

@@ -105,6 +105,9 @@ def _clip(z: FloatArray, kinds: NDArray[np.int8], free: FloatArray, task: OpenTa
             out = np.flatnonzero((back != points).any(axis=1))
             z[has[out], side, part] = back[out]
             free[has[out], side, part, part] = along[out]
+        if freedom.rail is not None:
+            part = freedom.rail.at
+            z[:, side, part], free[:, side, part, part] = freedom.rail.nearest(z[:, side, part])
         least, most = freedom.length
         turning = kinds[:, side] == 0
         z[turning, side, 4] = z[turning, side, 4].clip(least, most)

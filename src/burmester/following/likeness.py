@@ -52,6 +52,8 @@ def require_like(old: SynthesisProblem, new: SynthesisProblem, *, is_family: boo
         reason = "it has tolerances of its poses, or has them no more"
     elif [each.allowed for each in before.limits] != [each.allowed for each in after.limits]:
         reason = "its limits allow other kinds of dyads"
+    elif any(each.line is not None for each in (*before.limits, *after.limits)):
+        reason = "a dyad has a rail or a slot"
     elif new.is_special and not is_family:
         reason = "its motion is a special one"
     elif old.task.poses.shape != new.task.poses.shape:

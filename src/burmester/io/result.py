@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from burmester.describe.cognates import cognates_of
@@ -19,7 +20,7 @@ from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
 from burmester.fourbar.dyad import RR
-from burmester.geometry.regions import Line, Point, Polygon, Segment
+from burmester.geometry.regions import Line, Point, Region, Segment
 from burmester.io.linkage_data import (
     dyad_data,
     linkage_data,
@@ -33,6 +34,7 @@ from burmester.synthesis.result import JUDGED, Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
+from burmester.tasks.rails import Rail
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage
 
@@ -46,6 +48,7 @@ __all__ = [
     "json_line",
     "message_data",
     "motion_data",
+    "rail_data",
     "synthesis_data",
     "task_data",
 ]
@@ -181,21 +184,39 @@ def _path(path: TracedPath) -> dict[str, Any]:
 
 def _limits(limits: Limits) -> dict[str, Any]:
     data: dict[str, Any] = {}
-    for name, region in (
-        ("fixed_pivot", limits.fixed_pivot),
-        ("moving_pivot", limits.moving_pivot),
-    ):
-        if isinstance(region, Point):
-            data[name] = {"point": region.at.tolist()}
-        elif isinstance(region, Line | Segment):
-            ends = [region.start.tolist(), region.end.tolist()]
-            data[name] = {type(region).__name__.lower(): ends}
-        elif isinstance(region, Polygon):
-            data[name] = {"polygon": region.vertices.tolist()}
+    for name in ("fixed_pivot", "moving_pivot"):
+        if (region := getattr(limits, name)) is not None:
+            data[name] = region_data(region)
+    for name in ("rail", "slot"):
+        if (rail := getattr(limits, name)) is not None:
+            data[name] = rail_data(rail, region_data)
     bounds = {"least": limits.length[0], "most": limits.length[1]}
     if limits.has_length:
         data["length"] = {end: value for end, value in bounds.items() if 0 < value < math.inf}
     data["kinds"] = [kind for kind in KINDS if kind in limits.kinds]
+    return data
+
+
+def region_data(region: Region) -> dict[str, Any]:
+    """A region by its shape."""
+    if isinstance(region, Point):
+        return {"point": region.at.tolist()}
+    if isinstance(region, Line | Segment):
+        ends = [region.start.tolist(), region.end.tolist()]
+        return {type(region).__name__.lower(): ends}
+    return {"polygon": region.vertices.tolist()}
+
+
+def rail_data(rail: Rail, shape: Callable[[Region], dict[str, Any]]) -> dict[str, Any]:
+    """A rail or slot as files hold it, its regions by `shape`."""
+    data: dict[str, Any] = {}
+    if rail.direction_deg is not None:
+        data["direction_deg"] = rail.direction_deg
+        if rail.tolerance_deg:
+            data["tolerance_deg"] = rail.tolerance_deg
+    for name in ("through", "travel"):
+        if (region := getattr(rail, name)) is not None:
+            data[name] = shape(region)
     return data
 
 

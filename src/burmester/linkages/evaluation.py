@@ -39,7 +39,7 @@ from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.possible_types import links_covariance, possible_types
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
-from burmester.verdicts.requirement_check import Violation, violations
+from burmester.verdicts.requirement_check import Violation, places_between, violations
 from burmester.verdicts.standard import Standard
 from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
@@ -390,7 +390,11 @@ class Evaluation:
         best = min(sides, key=lambda side: ranked[side][0])
         (defects, *_), reasons = ranked[best]
         size, unit = float(self.target.frames.length), self.task.length_unit
-        reasons += limit_violations(linkage, self.task.limits, size, unit)
+        between = None
+        if any(each.line for each in self.task.limits):  # pins have to keep the travel of rails
+            driven = verdict.first if best == "first" else verdict.second
+            between = places_between(with_driver_first(linkage, best), driven)
+        reasons += limit_violations(linkage, self.task.limits, size, unit, between)
         return best, reasons, not (verdict.defects or defects or reasons)
 
     def sensitivities(self, own: LinkageBatch, places: Displacement) -> FloatArray:

@@ -41,6 +41,7 @@ from burmester.refinement.defect_free_search import (
     on_more_poses,
 )
 from burmester.refinement.kept_limits import DyadLimitsConstraint
+from burmester.refinement.kept_rail import RailConstraint
 from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
@@ -155,13 +156,15 @@ def target_of(problem: SynthesisProblem) -> Target:
     """The target of a problem's linkages, in the frames in which errors are computed."""
     task, length = problem.task, problem.length_per_radian
     frames = error_frames(task.poses, length)
+    unit = float(frames.length)
     kept: tuple[Constraints, ...] = ()
     if task.limits:
-        kept = tuple(
-            DyadLimitsConstraint(side, task.limits[min(side, len(task.limits) - 1)], frames)
-            for side in (0, 1)
-        )
-    poses, unit, boxes = frames.to_canonical(task.poses), float(frames.length), None
+        both = (task.limits[0], task.limits[-1])
+        kept = tuple(DyadLimitsConstraint(side, each, frames) for side, each in enumerate(both))
+        rails = (RailConstraint.of(*each, frames, length / unit) for each in enumerate(both))
+        kept += tuple(each for each in rails if each is not None)
+    poses = frames.to_canonical(task.poses)
+    boxes = None
     if task.tolerances is not None:
         boxes = ToleranceBoxes.of(task.tolerances, poses, length / unit, unit)
         kept = (*kept, boxes)

@@ -23,6 +23,7 @@ from burmester.io.reading.outlines.outline_file import FROM_PAGE
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.requirements_text import positive_length
 from burmester.io.reading.stated_requirements import requirements_data
+from burmester.io.result import rail_data
 from burmester.live.plain import plain
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
@@ -226,6 +227,9 @@ def _limits(limits: Limits) -> dict[str, Any]:
     for name in ("fixed_pivot", "moving_pivot"):
         if (region := getattr(limits, name)) is not None:
             data[name] = _shape(region)
+    for name in ("rail", "slot"):
+        if (rail := getattr(limits, name)) is not None:
+            data[name] = plain(rail_data(rail, _shape))
     if limits.has_length:
         least, most = limits.length
         ends = {"least": least} if least > 0 else {}

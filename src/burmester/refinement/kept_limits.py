@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import ClassVar, Final, NamedTuple, final
+from typing import ClassVar, NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.geometry.half_planes import half_planes
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.constraints import QUOTIENTS, ConstraintSlopes, ConstraintValues
 from burmester.tasks.limits import Limits
 
-__all__ = ["DyadLimitsConstraint"]
-
-MAX_SIDES: Final = 8  # number of sides of a convex polygon that are constraints each
+__all__ = ["DyadLimitsConstraint", "KeptPivot"]
 
 
-class _KeptPivot(NamedTuple):
+class KeptPivot(NamedTuple):
     """A pivot's region, in canonical frames.
 
     at: the number of the pivot's first dimension; line: the kind of dyad that has none there.
@@ -39,8 +38,8 @@ class _KeptPivot(NamedTuple):
     origin: FloatArray
 
     @classmethod
-    def of(cls, region: Region, at: int, line: int, unit: float, origin: FloatArray) -> _KeptPivot:
-        rows, polygon = _half_planes(region), None
+    def of(cls, region: Region, at: int, line: int, unit: float, origin: FloatArray) -> KeptPivot:
+        rows, polygon = half_planes(region), None
         if rows is None:
             assert isinstance(region, Polygon)
             rows, polygon = np.zeros((1, 3)), region
@@ -75,7 +74,7 @@ class DyadLimitsConstraint:
     frames: CanonicalFrames
     ends: FloatArray = field(init=False, repr=False)
     sense: FloatArray = field(init=False, repr=False)
-    pivots: tuple[_KeptPivot, ...] = field(init=False, repr=False)
+    pivots: tuple[KeptPivot, ...] = field(init=False, repr=False)
     uses_places: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
@@ -85,7 +84,7 @@ class DyadLimitsConstraint:
             (self.limits.moving_pivot, 2, 2, frames.moving_origin),
         )
         pivots = tuple(
-            _KeptPivot.of(region, at, line, unit, np.asarray(origin))
+            KeptPivot.of(region, at, line, unit, np.asarray(origin))
             for region, at, line, origin in regions
             if region is not None
         )
@@ -130,34 +129,3 @@ class DyadLimitsConstraint:
             slope[:, at : at + part.shape[1], columns] = part
             at += part.shape[1]
         return value, slope, np.concatenate(equal)
-
-
-def _half_planes(region: Region) -> FloatArray | None:
-    """Rows (m, 3) whose product with (1, X, Y) is 0 (the region's equations) or at most 0 in it.
-
-    Each side of a convex polygon is one by itself: its distance has a kink at a corner, where a
-    descent would be held.  None for other polygons, and such with many sides.
-    """
-    if isinstance(region, Polygon):
-        return _sides(region)
-    rows, ends = region.equations(), region.corners()
-    if len(rows) == 2:
-        return rows
-    beyond = np.array([[-1.0, 0.0, 0.0]] * 2)
-    if ends is not None:
-        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
-        beyond = np.array([[ends[0] @ along, *-along], [-ends[1] @ along, *along]])
-    return np.concatenate([rows, beyond])
-
-
-def _sides(polygon: Polygon) -> FloatArray | None:
-    """The sides of a convex polygon, (k, 3): row · (1, X, Y) at most 0; else None."""
-    v = polygon.corners()
-    along = np.roll(v, -1, axis=0) - v
-    along = along / np.linalg.norm(along, axis=1, keepdims=True)
-    after = np.roll(along, -1, axis=0)
-    turn = along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0]
-    if len(v) > MAX_SIDES or (turn < 0).any():
-        return None
-    outward = np.stack([along[:, 1], -along[:, 0]], axis=1)
-    return np.column_stack([-(outward * v).sum(axis=1), outward])

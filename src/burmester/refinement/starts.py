@@ -12,7 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.minima_within_limits import limits_in
 from burmester.dyads.pivot_map import fixed_pivot_map, grid
+from burmester.dyads.rail_sliders import sliders_along_rail
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
@@ -21,7 +23,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Point, Polygon, Region
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import weights_of_mean_one
+from burmester.numerics.weights import shares, weights_of_mean_one
 from burmester.tasks.limits import Limits
 
 __all__ = [
@@ -54,10 +56,15 @@ def links_of_pivot_map(
 ) -> list[RR | PR | RP]:
     """Links with the least errors for each of many fixed and of many moving pivots.
 
+    Of a dyad with a rail or a slot: sliders on lines all over it.
+
     poses: in the frames of `pose_error.error_frames`, as the links are.  limits: of the pivots and
     of the link's length, in the task's own frame; frames: from that frame.
     """
     limits = limits or Limits()
+    if limits.line is not None:
+        moved = limits if frames is None else limits_in(frames, limits)
+        return [*sliders_along_rail(poses, moved, shares(weights, poses.shape))]
     if "RR" not in limits.allowed:
         return []
     unit = 1.0 if frames is None else float(frames.length)

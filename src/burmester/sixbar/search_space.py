@@ -122,7 +122,7 @@ def require_kept(task: Task, *, judged: bool = False) -> None:
         "regions to keep out of": task.surroundings is not None,
         "a path to trace": task.path is not None,
         "tolerances of poses": task.tolerances is not None and task.path is None and not judged,
-        "kinds of dyads without RR": any("RR" not in each.kinds for each in task.limits),
+        "kinds of dyads without RR": any("RR" not in each.allowed for each in task.limits),
     }
     if not_kept := [name for name, given in tried.items() if given]:
         raise InputError(

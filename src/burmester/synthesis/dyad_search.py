@@ -13,6 +13,7 @@ from burmester.dyads.five_poses import dyads_of_five
 from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.pencil import fit_pencil
 from burmester.dyads.selection import Fit, FoundDyad, found_dyads, same_dyad
+from burmester.tasks.limits import Limits
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import Pair
 
@@ -96,10 +97,14 @@ def _fits(problem: SynthesisProblem) -> tuple[Fit, ...]:
     if options.method == "pencil":
         return (fit_pencil(task.poses, task.weights, normalise=options.normalise),)
     if options.method == "complete":
-        limits = task.limits or (None,)
-        return tuple(
-            best_dyads(task.poses, task.weights, task.exact, each, options.norm) for each in limits
-        )
+        if not task.limits:
+            return (best_dyads(task.poses, task.weights, task.exact, None, options.norm),)
+        fits = []
+        for each, missing in zip(task.limits, problem.missing_conditions, strict=True):
+            # Beside a rail there may be a dyad that few poses leave open: links of the pivot maps.
+            own = Limits(kinds=frozenset({"PP"})) if missing > 0 else each
+            fits.append(best_dyads(task.poses, task.weights, task.exact, own, options.norm))
+        return tuple(fits)
     if not task.limits:
         five = slice(None) if motion is None or motion.five is None else motion.five
         return (dyads_of_five(task.poses[five]),)

@@ -50,6 +50,7 @@ if TYPE_CHECKING:  # loaded where a task asks for it
 
 __all__ = ["synthesize"]
 
+FEW_POSES = 2  # a rail or slot leaves so many to be met exactly, or not at all
 MAX_POSES = 200_000  # of a task, so that no method takes more than a gigabyte of memory
 
 
@@ -104,16 +105,21 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
         if isinstance(_kind(problem), Undetermined):
             chosen = _within_digits(problem, known)
         return chosen or _special_motion(problem, known)
-    if open_ and min(problem.missing_conditions) < 0:
+    exceeded = open_ and min(problem.missing_conditions) < 0
+    if exceeded and not problem.has_rails:
         return _dyad_family(problem, known)
     if open_:
-        return _of_family(problem, known) or _no_family(problem, known)
+        chosen = None if exceeded and task.tolerances is None else _of_family(problem, known)
+        works = chosen is not None and any(each.usable for each in chosen.linkages)
+        if works or not problem.has_rails or task.poses.shape[0] <= FEW_POSES:
+            return chosen or _no_family(problem, known)
+        known = (*known, _exceeded_by_rail(problem))
     problem = with_method(problem)
     step("looking for dyads")
     search = search_dyads(problem)
     pairs, twice = search.pairs(problem.length)
     linkages = _linkages(problem, pairs)
-    if problem.leaves_linkages_open:  # no pose determines their pivots
+    if problem.leaves_linkages_open or open_:  # no pose determines their pivots
         linkages = tuple(
             replace(each, uncertainty=None, determined=True, other_types=()) for each in linkages
         )
@@ -188,6 +194,17 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     more = [] if found.given_up else linkage_advice(problem.given, linkages, outcome.code)
     warnings = (*findings, *advice, *more)
     return Synthesis(problem, outcome, dyads, linkages, warnings, family=found)
+
+
+def _exceeded_by_rail(problem: SynthesisProblem) -> Advice:
+    """Poses that no linkage was found to meet on the rail: they are met as nearly as can be."""
+    return Advice(
+        "W256",
+        f"no linkage was found that meets the {problem.given.poses.shape[0]} poses with this rail "
+        "or slot: what follows comes as near to them as it can",
+        "give the rail or slot more room (a tolerance of its direction, a longer segment that it "
+        "passes through), or mark with --exact what must be met",
+    )
 
 
 def _no_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis:

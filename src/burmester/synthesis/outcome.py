@@ -237,7 +237,7 @@ def offering_six_bars(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
     asked = task.requirements
     keeps = task.tolerances is None and task.surroundings is None and asked.footprint is None
     keeps &= asked.types is None and asked.driver in ("any", "crank")
-    keeps &= all("RR" in each.kinds for each in task.limits)
+    keeps &= all("RR" in each.allowed for each in task.limits)
     five = task.poses.shape[0] == problem.task.poses.shape[0] == CONDITIONS
     if outcome.code not in ("R301", "R302", "R306") or not (five and keeps):
         return outcome
@@ -268,7 +268,8 @@ def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:
         exact = problem.options.method == "exact"
         dyads = count(len(found), "dyad" if exact else "locally best dyad")
         if task.limits:
-            dyads += f" within the limits ({count(faces, 'face')} of these searched)"
+            searched = f" ({count(faces, 'face')} of these searched)" if faces else ""
+            dyads += f" within the limits{searched}"
         return dyads, ""
     return count(len(found), "dyad"), ""
 

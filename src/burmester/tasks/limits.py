@@ -1,4 +1,4 @@
-"""Limits on one dyad: where its pivots may lie, how long its link may be, which kinds it may have.
+"""Limits on one dyad: places of its pivots, length of its link, line of its slider, kinds.
 
 A region of the plane is a point, a line, a segment or a polygon.  Its faces are the pieces of
 it without an edge of their own: the inside, the edges, the corners.  The best pivot in a region
@@ -13,6 +13,7 @@ from typing import Final, Literal, TypeAlias, final, get_args
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Region, require_searchable
+from burmester.tasks.rails import Rail
 from burmester.values import real_numbers, require_instance, shown
 
 __all__ = ["KINDS", "Kind", "Limits"]
@@ -37,6 +38,10 @@ class Limits:
         Least and greatest length of an RR dyad's link, in the task's unit.
     kinds : set of str
         Which of RR, PR, RP and PP.
+    rail : Rail or None
+        The line of a slider on the ground, in F.  A dyad with a rail is a PR.
+    slot : Rail or None
+        The line of a slot in the body, in M.  A dyad with a slot is an RP.
 
     Raises
     ------
@@ -60,6 +65,8 @@ class Limits:
     moving_pivot: Region | None = None
     length: tuple[float, float] = (0.0, float("inf"))
     kinds: frozenset[Kind] = field(default=frozenset(KINDS))
+    rail: Rail | None = None
+    slot: Rail | None = None
 
     def __post_init__(self) -> None:
         for name in ("fixed_pivot", "moving_pivot"):
@@ -67,6 +74,10 @@ class Limits:
                 help = "give a region such as Point((1, 2)), or None for any place"
                 require_instance(region, get_args(Region), name, help, code="E131")
                 require_searchable(region)
+        for name in ("rail", "slot"):
+            if (line := getattr(self, name)) is not None:
+                help = "give a Rail such as Rail(direction_deg=0), or None for any line"
+                require_instance(line, Rail, name, help, code="E131")
         bounds = real_numbers(self.length, (2,), "length", code="E131", finite=False)
         least, most = (float(bound) for bound in bounds)
         if not (least >= 0 and most > 0 and least < float("inf")):
@@ -86,22 +97,13 @@ class Limits:
         object.__setattr__(self, "length", (least, most))
         object.__setattr__(self, "kinds", kinds)
         if not self.allowed:
-            pivots = {"fixed": self.fixed_pivot, "moving": self.moving_pivot}
-            limited = [f"{name} pivot {at}" for name, at in pivots.items() if at is not None]
-            missing = "both pivots" if len(limited) > 1 else "that pivot"
-            raise InputError(
-                "E132",
-                "the limits contradict each other: "
-                f"{', '.join(limited)}, and dyads of kind {', '.join(sorted(self.kinds))} only",
-                why=f"no dyad of that kind has {missing}",
-                help="allow RR as well, or leave a pivot free",
-            )
-        if self.has_length and "RR" not in self.kinds:
+            raise self._contradiction()
+        if self.has_length and ("RR" not in self.kinds or self.line is not None):
             raise InputError(
                 "E132",
                 "the limits contradict each other: a link "
                 f"from {least:g} to {most:g} long, and dyads of kind "
-                f"{', '.join(sorted(self.kinds))} only",
+                f"{', '.join(sorted(self.allowed))} only",
                 why="only an RR dyad has a link with a length",
                 help="allow RR as well, or leave the length free",
             )
@@ -114,6 +116,10 @@ class Limits:
             out |= {"PR", "PP"}
         if self.moving_pivot is not None:
             out |= {"RP", "PP"}
+        if self.rail is not None:
+            out |= {"RR", "RP", "PP"}
+        if self.slot is not None:
+            out |= {"RR", "PR", "PP"}
         return self.kinds - out
 
     @property
@@ -122,10 +128,35 @@ class Limits:
         return self.length != (0.0, float("inf"))
 
     @property
+    def line(self) -> Rail | None:
+        """The rail or the slot, whichever there is."""
+        return self.slot if self.rail is None else self.rail
+
+    @property
     def conditions(self) -> int:
-        """The number of exact conditions on a dyad: two for a point, one for a line."""
-        return sum(
-            len(region.equations()) for region in (self.fixed_pivot, self.moving_pivot) if region
+        """The number of exact conditions on a dyad: two for a point, one for a line, see `Rail`."""
+        regions = (self.fixed_pivot, self.moving_pivot)
+        number = sum(len(region.equations()) for region in regions if region)
+        return number + (0 if self.line is None else self.line.conditions)
+
+    def _contradiction(self) -> InputError:
+        """The error for limits that no kind of dyad keeps: E132."""
+        pivots = {"fixed": self.fixed_pivot, "moving": self.moving_pivot}
+        limited = [f"{name} pivot {at}" for name, at in pivots.items() if at is not None]
+        missing = "both pivots" if len(limited) > 1 else "that pivot"
+        why, help = f"no dyad of that kind has {missing}", "allow RR as well, or leave a pivot free"
+        lines = {"rail": self.rail, "slot": self.slot}
+        stated = [f"a {name} {line}" for name, line in lines.items() if line is not None]
+        if stated:
+            why = "a dyad with a rail is a PR and has no fixed pivot; one with a slot is an RP and "
+            why += "has no moving pivot"
+            help = "leave out what another kind of dyad has, or give it to the other dyad"
+        return InputError(
+            "E132",
+            f"the limits contradict each other: {', '.join(stated + limited)}, and dyads of kind "
+            f"{', '.join(sorted(self.kinds))} only",
+            why=why,
+            help=help,
         )
 
 

@@ -77,6 +77,11 @@ class SynthesisProblem:
         return [CONDITIONS - each - self.task.poses.shape[0] for each in conditions]
 
     @property
+    def has_rails(self) -> bool:
+        """Whether a dyad has a rail or a slot, which few poses may determine more than fully."""
+        return any(each.line is not None for each in self.task.limits)
+
+    @property
     def leaves_linkages_open(self) -> bool:
         """Whether poses with free components leave infinitely many linkages."""
         stated = self.given.tolerances

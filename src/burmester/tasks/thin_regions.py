@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -46,9 +47,8 @@ def without_thin_regions(limits: Limits, frames: CanonicalFrames, exact: int) ->
         flat = narrowed(region, LEAST_WIDTH * reach)
         if flat is region:
             continue
-        pivots = {"fixed_pivot": limits.fixed_pivot, "moving_pivot": limits.moving_pivot}
-        pivots[name] = flat
-        less = Limits(pivots["fixed_pivot"], pivots["moving_pivot"], limits.length, limits.kinds)
+        changed: dict[str, Any] = {name: flat}
+        less = replace(limits, **changed)
         if less.conditions + exact <= CONDITIONS:
             limits = less
     return limits

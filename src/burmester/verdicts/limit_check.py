@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import KINDS, Limits
@@ -20,12 +22,17 @@ LIMIT_TOLERANCE = 1e-6  # motion sizes; a limit missed by less is met
 
 
 def limit_violations(
-    linkage: Linkage, limits: Sequence[Limits], size: float, unit: str | None = None
+    linkage: Linkage,
+    limits: Sequence[Limits],
+    size: float,
+    unit: str | None = None,
+    places: Displacement | None = None,
 ) -> tuple[Violation, ...]:
-    """The limits that a linkage breaks: places of pivots, lengths and kinds.
+    """The limits that a linkage breaks: places of pivots, lengths, kinds, rails and slots.
 
     limits: none, one for both dyads, or two, in the order of the dyads.  size: of the motion;
-    unit: the task's length unit, for messages.
+    unit: the task's length unit, for messages.  places: (*,), of the body from pose to pose, at
+    which pins have to keep the travel of their rails; None leaves that out.
     """
     if not limits:
         return ()
@@ -34,7 +41,10 @@ def limit_violations(
     return tuple(
         Violation("limit", message)
         for dyad, each in sides
-        for message in _broken(dyad, each, slack, unit)
+        for message in (
+            *_broken(dyad, each, slack, unit),
+            *_off_rail(dyad, each, slack, unit, places),
+        )
     )
 
 
@@ -62,6 +72,30 @@ def _broken(dyad: Dyad, limits: Limits, slack: float, unit: str | None) -> Itera
             yield f"a link is {radius:.4g} long; at least {least:g} is asked for"
         elif radius > most + slack:
             yield f"a link is {radius:.4g} long; at most {most:g} is allowed"
+
+
+def _off_rail(
+    dyad: Dyad, limits: Limits, slack: float, unit: str | None, places: Displacement | None
+) -> Iterator[str]:
+    """What a slider does not keep of its rail or slot."""
+    rail = limits.line
+    if rail is None or not isinstance(dyad, PR | RP):
+        return
+    what, line = "rail" if isinstance(dyad, PR) else "slot", (dyad.normal_angle, dyad.offset)
+    if rail.heading is not None:
+        off, within = float(rail.turned(line[0])), rail.heading[1]
+        if not abs(off) <= within + LIMIT_TOLERANCE:
+            allowed = f"at most {math.degrees(within):g}°" if within else "no angle"
+            yield f"its {what} is turned by {math.degrees(off):.3g}°; {allowed} is allowed"
+    if not (beside := float(rail.passed(*line))) <= slack:
+        place = "the line of its travel" if rail.is_thin else "what it is to pass through"
+        yield f"its {what} lies {_length(beside, unit)} beside {place}"
+    if places is None or rail.travel is None:
+        return
+    seen = places.act(dyad.moving_pivot) if isinstance(dyad, PR) else None
+    pins = places.inverse().act(dyad.fixed_pivot) if isinstance(dyad, RP) else seen
+    if pins is not None and (beyond := float(np.nanmax(rail.travel_excess(pins)))) > slack:
+        yield f"the pin on its {what} goes {_length(beyond, unit)} beyond its travel"
 
 
 def outside(region: Region, at: FloatArray) -> float:

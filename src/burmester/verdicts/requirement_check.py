@@ -12,12 +12,20 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.requirements import Requirements
 from burmester.wording import figure, with_article
 
-__all__ = ["REQUIREMENT_TOLERANCE", "Violation", "ViolationKind", "violations", "weak_transmission"]
+__all__ = [
+    "REQUIREMENT_TOLERANCE",
+    "Violation",
+    "ViolationKind",
+    "places_between",
+    "violations",
+    "weak_transmission",
+]
 
 ViolationKind: TypeAlias = Literal[
     "transmission", "type", "driver", "footprint", "link ratio", "limit", "clearance", "rounding"
@@ -89,18 +97,25 @@ def _degrees(angle: float) -> str:
     return f"{degrees if degrees > SHOWN_ANGLE else 0:.3g}°" if math.isfinite(angle) else "nothing"
 
 
+def places_between(linkage: Linkage, driven: Driven) -> Displacement | None:
+    """FOOTPRINT_SAMPLES places of the body from pose to pose; None where they have no circuit.
+
+    The linkage is driven by its first dyad.
+    """
+    ends = driven.parameter[np.isfinite(driven.parameter)]
+    if not len(ends) or driven.circuit < 0:
+        return None
+    parameter = np.linspace(ends.min(), ends.max(), FOOTPRINT_SAMPLES)
+    return Circuits.of(linkage, as_given=True)[driven.circuit].couplers(parameter)
+
+
 def _outside(linkage: Linkage, driven: Driven, footprint: Polygon) -> tuple[float, str]:
     """The greatest distance of a pivot outside the footprint, and what the pivot is.
 
     At FOOTPRINT_SAMPLES places between the poses.
     """
     worst, what = 0.0, ""
-    ends = driven.parameter[np.isfinite(driven.parameter)]
-    circuits = Circuits.of(linkage, as_given=True)
-    places = None
-    if len(ends) and driven.circuit >= 0:
-        parameter = np.linspace(ends.min(), ends.max(), FOOTPRINT_SAMPLES)
-        places = circuits[driven.circuit].couplers(parameter)
+    places = places_between(linkage, driven)
     for dyad in (linkage.first, linkage.second):
         points: list[tuple[str, FloatArray]] = []
         if isinstance(dyad, RR | RP):

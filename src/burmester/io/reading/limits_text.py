@@ -41,19 +41,28 @@ def limits_from_options(
     moving_pivot: Sequence[str] = (),
     length: Sequence[str] = (),
     kinds: Sequence[str] = (),
+    *,
+    rail: Sequence[str] = (),
+    slot: Sequence[str] = (),
 ) -> Specification:
-    """The limits in the texts of the options; raises E131, and E132 for an empty box."""
+    """The limits in the texts of the options; raises E131, E132 for an empty box, and E137."""
+    from burmester.io.reading.rails_text import rail_from_text
+
     given = {
         "fixed_pivot": fixed_pivot,
         "moving_pivot": moving_pivot,
         "length": length,
         "kinds": kinds,
+        "rail": rail,
+        "slot": slot,
     }
     return Specification(
         _each(fixed_pivot, "--fixed-pivot", region_from_text),
         _each(moving_pivot, "--moving-pivot", region_from_text),
         _each(length, "--length", _length),
         _each(kinds, "--kinds", _kinds),
+        _each(rail, "--rail", rail_from_text),
+        _each(slot, "--slot", rail_from_text),
         {n: option_text(f"--{n.replace('_', '-')}", texts) for n, texts in given.items() if texts},
     )
 

@@ -1,8 +1,9 @@
 """A design specification as a file or the command line states it, and the limits it makes.
 
-Each of the four limits (region of the fixed pivot, region of the moving pivot, length of the link,
-kinds of dyads) is stated not at all, once for both dyads of a linkage, or twice, once for each.  A
-point stated once is for the first dyad alone: two dyads that share a pivot only turn about it.
+Each limit (region of the fixed pivot, region of the moving pivot, length of the link, kinds of
+dyads, rail, slot) is stated not at all, once for both dyads of a linkage, or twice, once for each.
+A point stated once is for one dyad alone: two dyads that share a pivot only turn about it.  A rail
+or slot stated once is for one dyad, too; what such a dyad does not have is then for the other.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, bo
 from burmester.io.reading.stated_requirements import StatedRequirement, one_line
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Kind, Limits
+from burmester.tasks.rails import Rail
 
 __all__ = [
     "LIMIT_KEYS",
@@ -38,9 +40,18 @@ TOP_KEYS = (
 )  # fmt: skip
 
 # `limits`, and keys that may stand beside the poses by mistake, where they would limit nothing.
-LIMIT_KEYS = ("limits", "limit", "exact", "fixed_pivot", "moving_pivot", "length", "kinds")
+LIMIT_KEYS = (
+    "limits", "limit", "exact", "fixed_pivot", "moving_pivot", "length", "kinds", "rail", "slot",
+)  # fmt: skip
 
-_FIELDS = ("fixed_pivot", "moving_pivot", "length", "kinds")
+_FIELDS = ("fixed_pivot", "moving_pivot", "length", "kinds", "rail", "slot")
+
+# What a dyad with a rail and one with a slot have none of, and their kinds.
+_LACKING: Mapping[str, tuple[str, ...]] = {
+    "rail": ("fixed_pivot", "length", "slot"),
+    "slot": ("moving_pivot", "length", "rail"),
+}
+_KIND: Mapping[str, Kind] = {"rail": "PR", "slot": "RP"}
 
 # Name of a region: its number of points (None: any number), and its constructor.
 SHAPES: Mapping[str, tuple[int | None, Callable[[FloatArray], Region]]] = {
@@ -62,6 +73,8 @@ class Specification(NamedTuple):
     moving_pivot: tuple[OptionalRegion, ...] = ()
     length: tuple[LengthRange | None, ...] = ()
     kinds: tuple[OptionalKinds, ...] = ()
+    rail: tuple[Rail | None, ...] = ()
+    slot: tuple[Rail | None, ...] = ()
     where: Mapping[str, str] = MappingProxyType({})
     requirements: tuple[StatedRequirement, ...] = ()
 
@@ -70,11 +83,11 @@ class Specification(NamedTuple):
         for name in _FIELDS:
             if getattr(self, name) and getattr(other, name):
                 what = name.replace("_", " ")
+                twice = {"kinds": "the kinds are given twice", "rail": "the rail is given twice"}
+                twice["slot"] = "the slot is given twice"
                 raise InputError(
                     "E108",
-                    f"the {what} is limited twice"
-                    if name != "kinds"
-                    else "the kinds are given twice",
+                    twice.get(name, f"the {what} is limited twice"),
                     where=one_line(self.where.get(name, ""), other.where.get(name, "")),
                     help="leave one of the two out",
                 )
@@ -83,6 +96,8 @@ class Specification(NamedTuple):
             self.moving_pivot + other.moving_pivot,
             self.length + other.length,
             self.kinds + other.kinds,
+            self.rail + other.rail,
+            self.slot + other.slot,
             {**self.where, **other.where},
             self.requirements + other.requirements,
         )
@@ -109,11 +124,46 @@ class Specification(NamedTuple):
 
     def _of(self, dyad: int) -> dict[str, Any]:
         """The limits stated for the first dyad (0) or the second (1)."""
-        out = {}
+        lines = self._lines(dyad)
+        other = self._lines(1 - dyad)
+        lacking = {name for line in lines for name in _LACKING[line]}
+        out: dict[str, Any] = {}
         for name in _FIELDS:
             values: Sequence[Any] = getattr(self, name)
-            value = values[min(dyad, len(values) - 1)] if values else None
-            shared = len(values) == 1 and dyad == 1
-            if value is not None and not (shared and isinstance(value, Point)):
+            if not values or name in _LACKING:
+                continue
+            value, shared = values[min(dyad, len(values) - 1)], len(values) == 1
+            if shared and name in lacking:
+                continue
+            if shared and isinstance(value, Point):
+                # Of one dyad; of the second where the first has none there.
+                first_lacks = any(name in _LACKING[line] for line in (other if dyad else lines))
+                if dyad != int(first_lacks):
+                    continue
+            if (
+                shared
+                and name == "kinds"
+                and not {_KIND[line] for line in lines} <= set(value or ())
+            ):
+                continue
+            if value is not None:
+                out[name] = value
+        return out | lines
+
+    def _lines(self, dyad: int) -> dict[str, Rail]:
+        """The rail or slot stated for the first dyad (0) or the second (1).
+
+        One stated once is for the first; where both are, the slot is for the second.
+        """
+        out = {}
+        for name in _LACKING:
+            values: tuple[Rail | None, ...] = getattr(self, name)
+            own = 1 if name == "slot" and self.rail and len(self.rail) == 1 else 0
+            value = None
+            if len(values) == 1:
+                value = values[0] if dyad == own else None
+            elif values:
+                value = values[dyad]
+            if value is not None:
                 out[name] = value
         return out

@@ -33,6 +33,7 @@ from burmester.io.reading.specification import (
 from burmester.io.reading.stated_requirements import FILE_KEYS
 from burmester.io.reading.trees.locations import Document, Path, close_match
 from burmester.tasks.limits import KINDS, Limits
+from burmester.tasks.rails import Rail
 from burmester.wording import listed
 
 __all__ = ["Model", "Number", "Pair", "TwoPairs", "model_fault", "read_limits"]
@@ -72,11 +73,20 @@ class _Length(Model):
     most: Number | None = None
 
 
+class _Rail(Model):
+    direction_deg: Number | None = None
+    tolerance_deg: Number | None = None
+    through: _Region | None = None
+    travel: _Region | None = None
+
+
 class _Limits(Model):
     fixed_pivot: _Region | None = None
     moving_pivot: _Region | None = None
     length: _Length | None = None
     kinds: list[str] | None = None
+    rail: _Rail | None = None
+    slot: _Rail | None = None
 
 
 _TABLES: TypeAdapter[list[_Limits]] = TypeAdapter(list[_Limits])
@@ -85,10 +95,14 @@ _REGION = (
     "a region has one key: point with [X, Y]; line, segment or box with two points "
     "[[X, Y], [X, Y]]; polygon with three or more"
 )
+_RAIL_KEYS = tuple(_Rail.model_fields)
+_RAIL = f"a rail or slot has {listed(_RAIL_KEYS)}, or some of them; through and travel are regions"
 _HELP = {
     "fixed_pivot": _REGION,
     "moving_pivot": _REGION,
     "length": "a length has the keys least and most, or one of them, with a number each",
+    "rail": _RAIL,
+    "slot": _RAIL,
     "kinds": 'kinds is a list of some of "RR", "PR", "RP" and "PP"',
 }
 _TABLE = f"a table of limits has {listed(_KEYS)}, or some of them"
@@ -144,6 +158,8 @@ def _table_limits(table: _Limits, document: Document, path: Path) -> dict[str, A
         "moving_pivot": _region(table.moving_pivot, document, (*path, "moving_pivot")),
         "length": _length(table.length),
         "kinds": None if table.kinds is None else frozenset(table.kinds),
+        "rail": _rail(table.rail, document, (*path, "rail")),
+        "slot": _rail(table.slot, document, (*path, "slot")),
     }
     given = {key: value for key, value in limits.items() if value is not None}
     for key, value in given.items():
@@ -162,6 +178,19 @@ def _require_valid(given: dict[str, Any], document: Document, path: Path, table:
                 if kind not in KINDS:
                     path = (*path, i)
                     break
+        raise document.again(error, *path) from None
+
+
+def _rail(tree: _Rail | None, document: Document, path: Path) -> Rail | None:
+    if tree is None:
+        return None
+    regions: dict[str, Any] = {
+        "through": _region(tree.through, document, (*path, "through")),
+        "travel": _region(tree.travel, document, (*path, "travel")),
+    }
+    try:
+        return Rail(tree.direction_deg, tree.tolerance_deg or 0.0, **regions)
+    except InputError as error:
         raise document.again(error, *path) from None
 
 
@@ -192,7 +221,7 @@ def _limits_fault(document: Document, path: Path, fault: Any) -> InputError:
     _, *keys = fault["loc"]
     help = _HELP.get(str(keys[0]), _TABLE) if keys else _TABLE
     if fault["type"] == "extra_forbidden":
-        known = _KEYS if len(keys) == 1 else (*SHAPES, "least", "most")
+        known = _KEYS if len(keys) == 1 else (*SHAPES, "least", "most", *_RAIL_KEYS)
         if keys[-1] in FILE_KEYS:
             help = f"write {keys[-1]} under requirements, which holds for the whole linkage"
         elif near := close_match(str(keys[-1]), known):
