@@ -31,6 +31,7 @@ from burmester.io.reading.tables.csv_cells import (
     unquoted,
 )
 from burmester.io.reading.tables.csv_header import SEPARATOR_NAMES, Header, read_header
+from burmester.io.reading.tables.direction_columns import require_directions
 from burmester.io.reading.tables.height import height_notes
 from burmester.io.reading.tables.tolerance_cells import WORD_ROLES, read_words, special_text
 from burmester.io.reading.tables.written_numbers import CellNumbers, written_number
@@ -72,13 +73,14 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
     notes = (*source.notes, *header.notes, *header.columns.notes(), *written.notes())
     where = "in the header" if columns is None else "in --columns"
     names = header.columns.row_names(rows.names)
+    require_directions(rows, locate)
     if rows.tolerances is not None:
         stated = rows.tolerances._replace(angle_unit=units.get("tol_angle"))
         rows = rows._replace(tolerances=stated)
     return PoseTable(
         rows._replace(names=names),
         length_unit=header.columns._replace(units=units).length_unit,
-        angle_unit=units.get("angle"),
+        angle_unit=header.columns._replace(units=units).angle_unit,
         where=header.where,
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
         locate_row=locate,
@@ -124,7 +126,7 @@ def _plain_rows(block: str, header: Header, marks: dict[str, str]) -> Rows | Non
     except ValueError:
         return None
     given = np.isfinite(rows.values)
-    if "angle" not in indices and "px" not in indices:
+    if {"angle", "px", "cos"}.isdisjoint(indices):
         given[:, 2] = True  # a point: its angle is free
     return rows if given.all() else None
 
