@@ -58,7 +58,8 @@ class Diagnosis:
     @property
     def sound(self) -> bool:
         """Whether nothing stands out, and a fit is of use."""
-        return not self.findings and (self.motion is None or self.motion.determined)
+        doubtful = any(note.code == "W243" for note in self.task.notes)
+        return not (self.findings or doubtful) and (self.motion is None or self.motion.determined)
 
 
 def diagnose(task: Task) -> Diagnosis:

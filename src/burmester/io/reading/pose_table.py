@@ -20,6 +20,7 @@ from burmester.printable import blanked
 from burmester.tasks.traced_path import TracedPath
 
 __all__ = [
+    "DIRECTION",
     "HEADER",
     "MARKS",
     "NOT_FINITE",
@@ -29,7 +30,6 @@ __all__ = [
     "POINTS",
     "SHEET_HEAD",
     "UNITS",
-    "DIRECTION",
     "PoseTable",
     "Rows",
     "Sheet",

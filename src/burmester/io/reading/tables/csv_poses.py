@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from burmester.errors import InputError
+from burmester.errors import Advice, InputError
 from burmester.io.reading import pose_table
 from burmester.io.reading.pose_table import PoseTable, Rows, Source, brief, numeric_roles
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
@@ -31,7 +31,11 @@ from burmester.io.reading.tables.csv_cells import (
     unquoted,
 )
 from burmester.io.reading.tables.csv_header import SEPARATOR_NAMES, Header, read_header
-from burmester.io.reading.tables.direction_columns import require_directions
+from burmester.io.reading.tables.direction_columns import (
+    MAX_COSINE,
+    direction_notes,
+    require_directions,
+)
 from burmester.io.reading.tables.height import height_notes
 from burmester.io.reading.tables.tolerance_cells import WORD_ROLES, read_words, special_text
 from burmester.io.reading.tables.written_numbers import CellNumbers, written_number
@@ -84,7 +88,11 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
         where=header.where,
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
         locate_row=locate,
-        notes=(*notes, *height_notes(_heights(header), rows, locate)),
+        notes=(
+            *notes,
+            *_direction_notes(header, rows),
+            *height_notes(_heights(header), rows, locate),
+        ),
         read_as=header.described(decimal_commas="," in marks, named=bool(names)),
         times=functools.partial(_times, header),
     )
@@ -205,6 +213,19 @@ def _cell_of_role(header: Header, line: re.Match[str], cells: list[str], role: s
     if index is None:
         return header.source.where(line.start(), line.end() - line.start())
     return cell_location(header.source, line.start(), cells, index, role)
+
+
+def _direction_notes(header: Header, rows: Rows) -> tuple[Advice, ...]:
+    """W243, for angles beside a column that is passed over, if the two seem to be a direction."""
+    index, found = header.columns.indices.get("angle"), tuple[Advice, ...]()
+    if index is None or not (np.abs(rows.values[:, 2]) <= MAX_COSINE).all():
+        return ()
+    for other in (index + 1, index - 1):
+        if 0 <= other < len(header.names) and other not in header.columns.indices.values():
+            texts = _texts(header, index, "angle"), _texts(header, other, "angle")
+            names = header.names[index], header.names[other]
+            found = found or direction_notes(texts[0], names, texts[1])
+    return found
 
 
 def _heights(header: Header) -> list[str] | None:
