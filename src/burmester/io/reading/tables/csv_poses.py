@@ -75,6 +75,7 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
     rows, locate = Rows.joined(blocks), functools.partial(_row_location, header)
     units = written.units(header.columns.units, len(rows.values))
     notes = (*source.notes, *header.notes, *header.columns.notes(), *written.notes())
+    notes += _direction_notes(header, rows)
     where = "in the header" if columns is None else "in --columns"
     names = header.columns.row_names(rows.names)
     require_directions(rows, locate)
