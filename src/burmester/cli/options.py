@@ -130,6 +130,13 @@ POSES: tuple[Decorator, ...] = (
         help="Unit of an angle column that does not name one.",
     ),
     _poses(
+        "--convention",
+        metavar="NAME,...",
+        help="What the file does otherwise than burmester: clockwise (angles count clockwise), "
+        "y-down (y points down), swap-xy (x and y are exchanged), radians or degrees (whatever its "
+        "header says). Limits stay as given.",
+    ),
+    _poses(
         "--columns",
         metavar="NAME,...",
         help="The header that a CSV file or a sheet lacks, such as x,y,angle_deg; it replaces one "
@@ -661,7 +668,9 @@ _NOT_FOR_SIX_BARS = (
     "dyads",
 )
 _NOT_FOR_JUDGED_SIX_BARS = ("improve", "norm", "manufacturing_tolerance")
-_ROWS = ("columns", "sheet", "points", "plane", "drop", "every", "first", "last", "closed")
+_ROWS = (
+    "columns", "sheet", "points", "plane", "drop", "every", "first", "last", "closed", "convention",
+)  # fmt: skip
 _LENGTH_OPTIONS = {
     "length_per_radian": "--angle-weight",
     "manufacturing_tolerance": "--tolerance",

@@ -9,6 +9,7 @@ from typing import final
 
 import numpy as np
 
+from burmester.diagnosis.conventions import other_convention
 from burmester.diagnosis.odd_pose import odd_pose
 from burmester.diagnosis.swapped_poses import swapped_poses
 from burmester.errors import Advice
@@ -57,7 +58,8 @@ class Diagnosis:
     @property
     def sound(self) -> bool:
         """Whether nothing stands out, and a fit is of use."""
-        return not self.findings and (self.motion is None or self.motion.determined)
+        doubtful = any(note.code == "W243" for note in self.task.notes)
+        return not (self.findings or doubtful) and (self.motion is None or self.motion.determined)
 
 
 def diagnose(task: Task) -> Diagnosis:
@@ -101,13 +103,15 @@ def diagnose(task: Task) -> Diagnosis:
 def disagreement(
     task: Task, motion: MotionClass | None, dyads: Sequence[Dyad] = ()
 ) -> Advice | None:
-    """W201: one pose that does not agree with all the others.
+    """What keeps the poses from agreeing: another convention (W242), or one odd pose (W201).
 
     dyads: the best of all poses, where they are known; see `odd_pose`.
     """
-    if _has_free_parts(task):
+    if _has_free_parts(task) or motion is None:
         return None
-    odd = None if motion is None else odd_pose(task, motion, dyads)
+    if (other := other_convention(task, motion, dyads)) is not None:
+        return Advice("W242", other.message, other.help, other.why)
+    odd = odd_pose(task, motion, dyads)
     return None if odd is None else Advice("W201", odd.message, odd.help, odd.why)
 
 

@@ -20,6 +20,7 @@ from burmester.printable import blanked
 from burmester.tasks.traced_path import TracedPath
 
 __all__ = [
+    "DIRECTION",
     "HEADER",
     "MARKS",
     "NOT_FINITE",
@@ -42,12 +43,14 @@ __all__ = [
     "plain_number",
     "resolution_by_digits",
     "shown",
+    "with_angles",
 ]
 
 HEADER = "x,y,angle_deg"  # what a file may begin with
 UNITS = {"deg": "degrees", "rad": "radians"}
 NUMERIC = ("x", "y", "angle", "weight")
 POINTS = ("px", "py", "qx", "qy")  # in place of x, y and angle
+DIRECTION = ("cos", "sin")  # of the angle, in its place
 MARKS = {"yes": True, "true": True, "1": True, "x": True}  # of an exact pose, in small letters
 MARKS |= {"no": False, "false": False, "0": False, "": False}
 
@@ -70,23 +73,31 @@ class Rows(NamedTuple):
     exact: list[bool]  # the same
     points: int = 0  # the tracked points whose x and y the values are, in place of x, y, angle
     tolerances: StatedTolerances | None = None  # then x, y and angle may be nan, which is free
+    lengths: FloatArray | None = None  # (N,), the roots of cos² + sin², where these are given
 
     @classmethod
     def read(cls, columns: dict[str, list[str]]) -> Rows:
         """The rows in texts by role; raises ValueError where float() does.
 
-        The roles are x, y, angle, or px, py, qx, qy; weight, name and exact if there are any;
+        The roles are x, y, angle (or its cos and sin: then it is in radians), or px, py, qx, qy;
+        weight, name and exact if there are any;
         and those of tolerances.  Without an angle, or where it is nan, the angle is free.
         """
-        columns = _with_free_angles(columns)
+        columns, direction = _with_free_angles(columns), "cos" in columns
         numeric = [columns[role] for role in numeric_roles(columns)]
         points = 2 if "px" in columns else 0
-        printed = [max(map(decimals, column), default=0.0) for column in numeric[: 2 * points or 3]]
-        most = (max(printed), 0.0) if points else (max(printed[:2]), printed[2])
+        place = 2 * points or 3 + direction
+        printed = [max(map(decimals, column), default=0.0) for column in numeric[:place]]
+        most = (max(printed), 0.0) if points else (max(printed[:2]), max(printed[2:]))
         values = np.array([[float(number) for number in column] for column in numeric]).T
+        lengths = None
+        if direction:
+            # Errors of both that are alike are errors of the angle as great, whatever it is.
+            values, lengths = with_angles(values)
         exact = [MARKS[mark.lower()] for mark in columns.get("exact", [])]
         tolerances = StatedTolerances.read(columns, len(values))
-        return cls(values, most, columns.get("name", []), exact, points, tolerances)
+        names = columns.get("name", [])
+        return cls(values, most, names, exact, points, tolerances, lengths)
 
     @classmethod
     def joined(cls, parts: list[Rows]) -> Rows:
@@ -100,12 +111,16 @@ class Rows(NamedTuple):
             tolerances = StatedTolerances.joined(
                 [part.tolerances or StatedTolerances.none(len(part.values)) for part in parts]
             )
-        return cls(values, (max(lengths), max(angles)), names, exact, parts[0].points, tolerances)
+        most = max(lengths), max(angles)
+        directions = None
+        if parts[0].lengths is not None:
+            directions = np.concatenate([part.lengths for part in parts])
+        return cls(values, most, names, exact, parts[0].points, tolerances, directions)
 
 
 def _with_free_angles(columns: dict[str, list[str]]) -> dict[str, list[str]]:
     """Texts by role, with angles, and a column `free` that names those that are blank (nan)."""
-    if "px" in columns:
+    if "px" in columns or "cos" in columns:
         return columns
     angle = columns.get("angle", ["nan"] * len(columns["x"]))
     if "nan" not in angle or "free" in columns:
@@ -197,7 +212,15 @@ def cell_name(row: int, column: int) -> str:
 
 def numeric_roles(columns: Container[str]) -> list[str]:
     """The roles of numbers among the columns, in the order in which `Rows.values` has them."""
-    return [role for role in (*NUMERIC[:3], *POINTS, NUMERIC[3]) if role in columns]
+    order = (*NUMERIC[:3], *DIRECTION, *POINTS, NUMERIC[3])
+    return [role for role in order if role in columns]
+
+
+def with_angles(values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rows with the angle in place of its cosine and sine, columns 2 and 3, and their lengths."""
+    cosine, sine = values[:, 2], values[:, 3]
+    angle = np.arctan2(sine, cosine)
+    return np.column_stack([values[:, :2], angle, values[:, 4:]]), np.hypot(cosine, sine)
 
 
 def plain_number(cell: str, separator: str) -> tuple[str, str | None]:

@@ -17,8 +17,9 @@ E103 a number that is not finite    E108 given twice, or contradictory
 E104 not a number, or ambiguous     E109 not JSON or TOML at all
 E105 header, column or key missing  E110 angle unit missing or contradicted
 E111 points that give no pose       E122 no such pose to be exact, or left out
-E113 not in one plane               E130 a library is missing
-E114 markers not known or chosen    E135 a malformed tolerance of a pose
+E113 not in one plane               E115 no such convention
+E114 markers not known or chosen    E116 no cosine and sine of an angle
+E130 a library is missing           E135 a malformed tolerance of a pose
 E136 tolerances that contradict themselves
 E170 to E176 drawings and surroundings
 E186 to E188 paths
@@ -40,6 +41,7 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
+from burmester.io.reading.conventions import convention_names, in_convention, with_stated_unit
 from burmester.io.reading.file_content import (
     decode_text,
     is_archive,
@@ -89,6 +91,7 @@ def read_task(
     first: str | None = None,
     last: str | None = None,
     closed: bool = False,
+    convention: str | None = None,
     outlines: OutlineOptions = OutlineOptions(),  # noqa: B008  frozen
     data: bytes | None = None,
 ) -> Task:
@@ -139,6 +142,11 @@ def read_task(
 
     closed : bool
         The points of a path lead back to the first one, and the crank goes all the way round.
+    convention : str, optional
+        What the file does otherwise than here, separated by commas: "clockwise" (its angles count
+        clockwise), "y-down" (its y points down, its angles count counterclockwise), "swap-xy" (x
+        and y are exchanged), "radians" or "degrees" (whatever its header says).  Limits and
+        outlines are taken as they are given.
 
     Poses are numbered as in the file, whichever are left out, and take these numbers as their
     names if they have none.  In a recording they are the numbers of its frames.
@@ -155,7 +163,7 @@ def read_task(
     Raises
     ------
     InputError
-        E101 to E114, E122, E130 and E170 to E176 as listed above, and the errors of `Limits`,
+        E101 to E116, E122, E130 and E170 to E176 as listed above, and the errors of `Limits`,
         `Requirements` and `Task`.
 
     Examples
@@ -170,7 +178,7 @@ def read_task(
     """
     if angle_unit not in (None, *UNITS):
         raise InputError("E110", f"there is no angle unit {angle_unit!r}", help="give deg or rad")
-    path = os.fspath(source)
+    names, path = convention_names(convention), os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     try:
         table = _table(path, data, columns, sheet=sheet, points=points, closed=closed)
@@ -183,6 +191,7 @@ def read_task(
             pose_sigma=pose_sigma,
             outlines=outlines,
             tolerance=tolerance,
+            convention=names,
         )
     except InputError as error:
         error.where = blanked(error.where or label)
@@ -387,8 +396,10 @@ def _task(
     pose_sigma: tuple[float, float] | None,
     outlines: OutlineOptions,
     tolerance: DefaultTolerance | None,
+    convention: tuple[str, ...],
 ) -> Task:
     """The task in the rows of a table that are taken."""
+    table = with_stated_unit(table, convention)
     rows = table.rows
     values = rows.values
     measured = None
@@ -401,6 +412,7 @@ def _task(
             [with_nominal_values(values[:, :3], rows.tolerances, unit), values[:, 3:]], axis=1
         )
         poses, resolution = _oriented(table, values, unit)
+        poses = in_convention(poses, convention)
     for stated in (pose_sigma, table.pose_sigma, measured):
         if stated is not None:
             resolution = (math.sqrt(3) * stated[0], math.sqrt(3) * stated[1])

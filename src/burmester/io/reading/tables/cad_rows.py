@@ -20,6 +20,7 @@ from burmester.io.reading import pose_table
 from burmester.io.reading.pose_table import PoseTable, Rows, Source, numeric_roles
 from burmester.io.reading.tables.columns import read_columns
 from burmester.io.reading.tables.csv_poses import require_one_mark
+from burmester.io.reading.tables.direction_columns import require_directions
 from burmester.io.reading.tables.height import height_notes
 from burmester.io.reading.tables.wrong_numbers import not_a_number
 from burmester.wording import listed
@@ -101,11 +102,12 @@ def read_cad_rows(source: Source) -> PoseTable:
     def locate(row: int | None) -> str:
         return where(None) if row is None else _where(source, poses[row][1][0])
 
+    require_directions(rows, locate)
     angle = columns.indices.get("angle")
     return PoseTable(
         rows,
         length_unit=columns.length_unit,
-        angle_unit=columns.units.get("angle"),
+        angle_unit=columns.angle_unit,
         where=where(angle),
         say_unit="write its unit behind every angle (30° or 0.5 rad)",
         locate_row=locate,

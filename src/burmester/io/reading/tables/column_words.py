@@ -46,6 +46,8 @@ WORDS: dict[str, str] = {
     "姿勢, 位置",
     "number": "no, nr, #, number, point no, pose no, Nummer, lfd. Nr, Punkt-Nr, Punktnummer, "
     "numéro, num, n°, n.°, número, numero, 编号, 編號, 序号, 點號, 点号, 番号, 点番号",
+    "cos": "cos, cosine, cos angle, cos theta, cos phi, cos θ, cos φ, Kosinus, coseno, cosinus",
+    "sin": "sin, sine, sin angle, sin theta, sin phi, sin θ, sin φ, Sinus, seno",
     "exact": "exact",
     "time": "time, t, Zeit, temps, tiempo, tempo, 时间, 時間, 時刻",
     "frame": "frame, index, __index_level_0__, Bild, image, fotograma, 帧, フレーム",

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from burmester.errors import Advice, InputError
-from burmester.io.reading.pose_table import NUMERIC, POINTS, brief, shown
+from burmester.io.reading.pose_table import DIRECTION, NUMERIC, POINTS, brief, shown
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
 from burmester.io.reading.tables.column_words import (
     IGNORED,
@@ -28,12 +28,13 @@ from burmester.wording import listed, shortened
 __all__ = ["LENGTHS", "MAX_NAMES", "Columns", "has_poses", "is_header", "read_columns"]
 
 
+_WITH_DIRECTION = (*NUMERIC[:2], *DIRECTION)
 _PASSED_OVER = ("time", "frame", "remark")
 MAX_NAMES = 12  # names of columns that an error lists, or compares with known ones
 _KNOWN = (
-    "the known names are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad, weight, exact and "
-    "name, tol_x, tol_y, tol_angle, tol_axes and free, or px, py, qx, qy in place of x, y and the "
-    "angle"
+    "the known names are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad (or cos and sin of "
+    "the angle), weight, exact and name, tol_x, tol_y, tol_angle, tol_axes and free, or px, py, "
+    "qx, qy in place of x, y and the angle"
 )
 
 
@@ -85,6 +86,11 @@ class Columns(NamedTuple):
         return not self.indices.keys().isdisjoint((*TOLERANCE_ROLES, "free", "tol_axes"))
 
     @property
+    def angle_unit(self) -> str | None:
+        """The unit of the angles, as `Rows` holds them."""
+        return "rad" if "cos" in self.indices else self.units.get("angle")
+
+    @property
     def length_unit(self) -> str | None:
         return self.units["px" if "px" in self.units else "x"]
 
@@ -102,7 +108,7 @@ def has_poses(names: Sequence[str]) -> bool:
 
 def _have_poses(words: Sequence[Word | None]) -> bool:
     roles = {word.role for word in words if word}
-    return any(roles.issuperset(needed) for needed in (NUMERIC[:3], POINTS))
+    return any(roles.issuperset(needed) for needed in (NUMERIC[:3], _WITH_DIRECTION, POINTS))
 
 
 def _have_points(words: Sequence[Word | None]) -> bool:
@@ -173,14 +179,20 @@ def _require_poses(
 ) -> tuple[str, ...]:
     """The roles of lengths, if the columns make poses; raises E105 and E108."""
     points = [role for role in POINTS if role in indices]
-    body = [role for role in NUMERIC[:3] if role in indices]
+    direction = [role for role in DIRECTION if role in indices]
+    if direction and "angle" in indices:
+        index = indices[direction[0]]
+        message = f"the angle is given twice: {names[indices['angle']]} and {names[index]}"
+        help = "keep the angle, or its columns cos and sin, and delete the other"
+        raise InputError("E108", message, where=where(index), help=help)
+    body = [role for role in (*NUMERIC[:3], *DIRECTION) if role in indices]
     if points and body:
         mixed = [names[indices[role]] for role in (body[0], points[0])]
         message = f"two forms of a pose: the columns {' and '.join(mixed)}"
         help = "keep x, y and the angle, or px, py, qx and qy, and delete the other columns"
         where_point = where(indices[points[0]])
         raise InputError("E108", message, where=where_point, help=help)
-    needed = POINTS if points else NUMERIC[:3]
+    needed = POINTS if points else _WITH_DIRECTION if direction else NUMERIC[:3]
     missing = [role for role in needed if role not in indices]
     if missing == ["angle"] and not unknown:
         return NUMERIC[:2]
@@ -195,6 +207,8 @@ def _require_poses(
         if points:
             help = "name the columns px, py, qx and qy, for two points of the body"
         else:
+            if direction:
+                help = "name the columns x, y, cos and sin, for the cosine and sine of the angle"
             help += "".join(f"; {role} may be {WORDS[role]}" for role in missing if role != "y")
         if of_unit := next(filter(None, (_units(names[i]) for i in unknown[:MAX_NAMES])), None):
             why += f"; {of_unit}"

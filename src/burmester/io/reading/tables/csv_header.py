@@ -15,6 +15,7 @@ from typing import NamedTuple
 from burmester.errors import Advice, InputError
 from burmester.io.reading import pose_table
 from burmester.io.reading.pose_table import (
+    DIRECTION,
     HEADER,
     NUMERIC,
     POINTS,
@@ -33,10 +34,12 @@ from burmester.io.reading.tables.csv_cells import (
     split_cells,
     unquoted,
 )
+from burmester.io.reading.tables.direction_columns import are_directions
 
 __all__ = ["SEPARATOR_NAMES", "Header", "read_header"]
 
-MAX_NAMES = 20  # names of columns that a help text writes out
+MAX_NAMES = 20  # columns of a text without a header that are looked at
+MAX_COMPARED_ROWS = 1000  # the same of rows
 MAX_TITLE_LINES = 30  # lines with text above the header, at most
 _MEASURED = NUMERIC[:3]  # roles whose columns have units, beside the coordinates of points
 # A line that may be the header; also `#,x,y`.
@@ -298,22 +301,49 @@ def _require_header(source: Source, first: re.Match[str], where: str) -> None:
     if separator is None:
         return
     cells = split_cells(first[0], separator)
+    why = None
     names = HEADER.split(",")[: max(2, len(cells))]
-    names = [*names, *(f"#{i}" for i in range(4, len(cells) + 1))]
-    points = " or `px,py,qx,qy` for two points" if len(cells) == 4 else ""
-    radians = " (or angle_rad in it)" if len(names) > 2 else " for points without angles"
-    help = (
-        f"put this line on top: `{separator.join(names)}`{radians}, or pass "
-        f"--columns {','.join(names)}{points}"
-    )
-    if len(names) > MAX_NAMES:
+    direction = _direction_columns(source, first, separator, len(cells))
+    if direction is not None:
+        names = ["x", "y", *(f"#{i}" for i in range(3, len(cells) + 1))]
+        names[direction : direction + 2] = DIRECTION
+        columns = f"columns {direction + 1} and {direction + 2}"
+        why = f"the squares of {columns} add up to 1 in all rows: cosine and sine of an angle?"
+        what = "x, y, the cosine and the sine of the angle"
+    elif len(cells) <= len(_MEASURED):
+        what = "x, y and the angle in degrees" if len(cells) == 3 else "x and y of points"
+    if direction is not None or len(cells) <= len(_MEASURED):
         help = (
-            f"put a line on top that names the {len(names)} columns: {HEADER} for those of the "
-            f"poses, and #1, #2 and so on for the others"
+            f"if the columns are {what}, put this line on top: `{separator.join(names)}`"
+            + " (or angle_rad in it)" * ("angle_deg" in names)
+            + f", or pass --columns {','.join(names)}"
+        )
+    else:
+        help = (
+            f"name the {len(cells)} columns in a line on top, or in --columns: x, y and angle_deg "
+            "(or angle_rad, or cos and sin), or px, py, qx and qy for two points; weight; and a "
+            "name that begins with # for a column to be passed over"
         )
     above = source.text[: first.start()].rstrip("\n").rpartition("\n")[2].strip()
     if above.startswith("#") and _is_header(above.lstrip("# ")):
         line = brief(f"`{above.lstrip('# ')}`", "the line above")
         help = f"delete the # in front of {line}, or pass --columns {HEADER}"
     message = "there is no header: the first line is all numbers"
-    raise InputError("E105", message, where=where, help=help)
+    raise InputError("E105", message, where=where, why=why, help=help)
+
+
+def _direction_columns(
+    source: Source, first: re.Match[str], separator: str, width: int
+) -> int | None:
+    """The first of two columns behind x and y that may be cosine and sine, by rows of numbers."""
+    lines = itertools.islice(ROW_LINE.finditer(source.text, first.start()), MAX_COMPARED_ROWS)
+    rows = []
+    for line in lines:
+        cells = [unquoted(cell) for cell in split_cells(line[0], separator)]
+        plain = [pose_table.plain_number(cell, separator) for cell in cells[:MAX_NAMES]]
+        if len(cells) != width or any(mark is None for _, mark in plain):
+            return None
+        rows.append([text for text, _ in plain])
+    columns = list(zip(*rows, strict=True))
+    pairs = itertools.pairwise(range(2, len(columns)))
+    return next((i for i, j in pairs if are_directions(columns[i], columns[j])), None)

@@ -18,7 +18,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from burmester.errors import InputError
+from burmester.errors import Advice, InputError
 from burmester.io.reading import pose_table
 from burmester.io.reading.pose_table import PoseTable, Rows, Source, brief, numeric_roles
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
@@ -31,6 +31,11 @@ from burmester.io.reading.tables.csv_cells import (
     unquoted,
 )
 from burmester.io.reading.tables.csv_header import SEPARATOR_NAMES, Header, read_header
+from burmester.io.reading.tables.direction_columns import (
+    MAX_COSINE,
+    direction_notes,
+    require_directions,
+)
 from burmester.io.reading.tables.height import height_notes
 from burmester.io.reading.tables.tolerance_cells import WORD_ROLES, read_words, special_text
 from burmester.io.reading.tables.written_numbers import CellNumbers, written_number
@@ -70,19 +75,25 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
     rows, locate = Rows.joined(blocks), functools.partial(_row_location, header)
     units = written.units(header.columns.units, len(rows.values))
     notes = (*source.notes, *header.notes, *header.columns.notes(), *written.notes())
+    notes += _direction_notes(header, rows)
     where = "in the header" if columns is None else "in --columns"
     names = header.columns.row_names(rows.names)
+    require_directions(rows, locate)
     if rows.tolerances is not None:
         stated = rows.tolerances._replace(angle_unit=units.get("tol_angle"))
         rows = rows._replace(tolerances=stated)
     return PoseTable(
         rows._replace(names=names),
         length_unit=header.columns._replace(units=units).length_unit,
-        angle_unit=units.get("angle"),
+        angle_unit=header.columns._replace(units=units).angle_unit,
         where=header.where,
         say_unit=f"name the column `angle_deg` or `angle_rad` {where}",
         locate_row=locate,
-        notes=(*notes, *height_notes(_heights(header), rows, locate)),
+        notes=(
+            *notes,
+            *_direction_notes(header, rows),
+            *height_notes(_heights(header), rows, locate),
+        ),
         read_as=header.described(decimal_commas="," in marks, named=bool(names)),
         times=functools.partial(_times, header),
     )
@@ -124,7 +135,7 @@ def _plain_rows(block: str, header: Header, marks: dict[str, str]) -> Rows | Non
     except ValueError:
         return None
     given = np.isfinite(rows.values)
-    if "angle" not in indices and "px" not in indices:
+    if {"angle", "px", "cos"}.isdisjoint(indices):
         given[:, 2] = True  # a point: its angle is free
     return rows if given.all() else None
 
@@ -203,6 +214,19 @@ def _cell_of_role(header: Header, line: re.Match[str], cells: list[str], role: s
     if index is None:
         return header.source.where(line.start(), line.end() - line.start())
     return cell_location(header.source, line.start(), cells, index, role)
+
+
+def _direction_notes(header: Header, rows: Rows) -> tuple[Advice, ...]:
+    """W243, for angles beside a column that is passed over, if the two seem to be a direction."""
+    index, found = header.columns.indices.get("angle"), tuple[Advice, ...]()
+    if index is None or not (np.abs(rows.values[:, 2]) <= MAX_COSINE).all():
+        return ()
+    for other in (index + 1, index - 1):
+        if 0 <= other < len(header.names) and other not in header.columns.indices.values():
+            texts = _texts(header, index, "angle"), _texts(header, other, "angle")
+            names = header.names[index], header.names[other]
+            found = found or direction_notes(texts[0], names, texts[1])
+    return found
 
 
 def _heights(header: Header) -> list[str] | None:

@@ -16,9 +16,17 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.io.reading import pose_table
 from burmester.io.reading.file_content import MAX_LINES, too_large
-from burmester.io.reading.pose_table import PoseTable, Rows, decimals, numeric_roles
+from burmester.io.reading.pose_table import (
+    DIRECTION,
+    PoseTable,
+    Rows,
+    decimals,
+    numeric_roles,
+    with_angles,
+)
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES, StatedTolerances
 from burmester.io.reading.tables.columns import Columns, read_columns
+from burmester.io.reading.tables.direction_columns import require_directions
 from burmester.io.reading.tables.tolerance_cells import WORD_ROLES, read_words, special_text
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.pose_tolerances import COMPONENTS
@@ -67,13 +75,17 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         printed[role] = 0.0
         if role != "weight":
             printed[role] = max((decimals(text) for text in texts if text), default=0.0)
-    angle = printed.pop("angle", 0.0)
-    tolerances = None
-    if "angle" not in indices and "px" not in indices:  # points of the body
+    angle = max(printed.pop(role, 0.0) for role in ("angle", *DIRECTION))
+    tolerances = lengths = None
+    if "cos" in indices:
+        values, lengths = with_angles(np.stack(numbers, axis=1))
+        numbers = list(values.T)
+    points = {"angle", "px", "cos"}.isdisjoint(indices)
+    if points:  # of the body
         numbers.insert(2, np.full(stored.num_rows, np.nan))
     if columns.may_be_free:
         tolerances = _tolerances(stored, names, columns, where)
-    if "angle" not in indices and "px" not in indices:
+    if points:
         tolerances = tolerances or StatedTolerances.none(stored.num_rows)
         tolerances.bounds[:, 2] = np.inf
     given_names = _list(stored, names, indices.get("name"), where)
@@ -86,11 +98,13 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         exact,
         2 * ("px" in indices),
         tolerances,
+        lengths,
     )
+    require_directions(rows, lambda row: where(None, row))
     return PoseTable(
         rows,
         length_unit=columns.length_unit,
-        angle_unit=columns.units.get("angle"),
+        angle_unit=columns.angle_unit,
         where=where(indices.get("angle")),
         say_unit="name the column angle_deg or angle_rad",
         locate_row=lambda row: where(None, row),  # where(None, None) is the file

@@ -1,0 +1,68 @@
+"""Columns with the cosine and the sine of the angle, in place of the angle.
+
+E116 two numbers that are no cosine and sine of one angle
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from burmester.errors import Advice, InputError
+from burmester.io.reading.pose_table import NUMBER, Rows, decimals
+
+__all__ = ["MAX_COSINE", "are_directions", "direction_notes", "require_directions"]
+
+MAX_LENGTH_ERROR = 0.02  # of a direction's length 1, beyond what its digits explain
+MAX_COSINE = 1.1  # numbers beyond it are no cosines
+LEAST_ROWS = 4  # of which all directions have length 1; fewer may do so by chance
+
+
+def require_directions(rows: Rows, locate: Callable[[int | None], str]) -> None:
+    """Refuse a row whose cosine and sine are far from those of an angle; raises E116."""
+    if rows.lengths is None:
+        return
+    wrong = np.flatnonzero(np.abs(rows.lengths - 1) > _tolerance(rows.decimals[1]))
+    if len(wrong):
+        row = int(wrong[0])
+        message = f"row {row + 1}: cos and sin are not those of an angle"
+        why = f"the sum of their squares is {rows.lengths[row] ** 2:.3g}, and has to be 1"
+        help = "give the cosine and the sine of the body's angle, or the angle as angle_deg"
+        raise InputError("E116", message, where=locate(row), why=why, help=help)
+
+
+def direction_notes(
+    texts: Sequence[str], names: Sequence[str], other: Sequence[str]
+) -> tuple[Advice, ...]:
+    """W243, where the cells of angles and of a column that is passed over seem to be a direction.
+
+    names: of the two columns.
+    """
+    if not are_directions(texts, other):
+        return ()
+    both = " and ".join(f"`{name.strip()}`" for name in names)
+    return (
+        Advice(
+            "W243",
+            f"the columns {both} look like the cosine and the sine of an angle",
+            "if that is what they are, name the columns x,y,cos,sin in the header or by --columns",
+            "their squares add up to 1 in all rows",
+        ),
+    )
+
+
+def are_directions(cosine: Sequence[str], sine: Sequence[str]) -> bool:
+    """Whether numbers look like the cosine and the sine of angles that are not all the same."""
+    if len(cosine) < LEAST_ROWS or not all(map(NUMBER.fullmatch, (*cosine, *sine))):
+        return False
+    both = np.array([cosine, sine], dtype=float)
+    printed = max(map(decimals, (*cosine, *sine)))
+    return bool(
+        np.ptp(both, axis=1).all() and (abs(np.hypot(*both) - 1) <= _tolerance(printed)).all()
+    )
+
+
+def _tolerance(printed: float) -> float:
+    """Of a direction's length, printed with so many decimals."""
+    return MAX_LENGTH_ERROR + 10.0**-printed
