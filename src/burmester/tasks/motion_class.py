@@ -10,7 +10,10 @@ constant, or in complex numbers, with turn = exp(i angle),
 or the inverse of the last, two points of F on lines of M.  All are linear in c, m and b.  A
 model holds where it misses no pose by more than the errors of the poses allow
 (`Task.resolution`, taken as a bound).  So a general motion is never taken for a special one, and
-few digits hide none.  Weights have no part in it: a motion does not depend on them.
+few digits hide none.  A turn is also claimed where the residuals are scatter (`tasks/scatter`),
+whatever the errors are said to be.  Weights have no part in it: a motion does not depend on them.
+Nor do the origins of F and M: a body that turns about its own origin has no travel to compare
+errors with, so errors are compared with residuals alone.
 """
 
 from __future__ import annotations
@@ -41,6 +44,7 @@ from burmester.tasks.repeated_poses import (
     rotation_range,
     spanning,
 )
+from burmester.tasks.scatter import ENOUGH_POSES, MAX_STEPS, is_scatter, last_digit
 from burmester.tasks.special_motions import (
     CircularTranslation,
     FreeTranslation,
@@ -49,7 +53,7 @@ from burmester.tasks.special_motions import (
     TwoSliders,
 )
 
-__all__ = ["MotionClass", "classify_motion"]
+__all__ = ["LARGE_ROTATION", "MotionClass", "classify_motion", "max_residual_errors"]
 
 MAX_RESIDUAL_ERRORS = 2.0  # pose errors; a model with a greater residual does not hold
 MIN_NEXT_TERM_ERRORS = 100.0  # pose errors that one more term of a model makes, where it is sure
@@ -155,15 +159,18 @@ class _RotationFit(NamedTuple):
     @classmethod
     def of(cls, poses: Displacement, resolution: tuple[float, float]) -> _RotationFit:
         d, turn = complex_of(poses.translation), np.exp(1j * poses.angle)
+        # Of a large rotation errors count as stated, since travel depends on the origin of M.
+        large = _rms(turn - turn.mean()) >= LARGE_ROTATION
         turns = max(1.0, float(np.abs(poses.angle).max()))
         spread = _rms(d - d.mean())
         position, angle = resolution
-        position = min(position, COARSE * spread) if spread > 0 else position
+        if spread > 0 and not large:
+            position = min(position, COARSE * spread)
         motion = cls(
             *(d, turn, True, False, complex(d.mean()), 0j, d - d.mean(), spread),
             *(
                 position,
-                min(angle, COARSE),
+                angle if large else min(angle, COARSE),
                 COORDINATE_ROUNDING * float(np.abs(d).max()),
                 COORDINATE_ROUNDING * turns,
             ),
@@ -190,7 +197,7 @@ class _RotationFit(NamedTuple):
 
     @property
     def angle_error(self) -> float:
-        return max(self.turn_error, ROUNDING, self.turn_rounding)
+        return max(min(self.turn_error, COARSE), ROUNDING, self.turn_rounding)
 
     def error(self, lever: float) -> float:
         """The error of the place of a point of M at the distance `lever` from its origin."""
@@ -199,7 +206,16 @@ class _RotationFit(NamedTuple):
 
     def explains(self, miss: ComplexArray | FloatArray, lever: float) -> bool:
         """Whether errors alone explain the residuals (N,) of a model."""
-        return bool(np.abs(miss).max() <= MAX_RESIDUAL_ERRORS * self.error(lever))
+        return bool(np.abs(miss).max() <= max_residual_errors(len(self.d)) * self.error(lever))
+
+
+def max_residual_errors(count: int) -> float:
+    """The greatest residual of `count` poses that errors alone explain, in pose errors.
+
+    Errors spread evenly never exceed it.  Of measured ones, which are normal, one in so many poses
+    may be greater: the bound is exceeded once in 20 tasks.
+    """
+    return max(MAX_RESIDUAL_ERRORS, float(np.sqrt(2 / 3 * np.log(20 * count))))
 
 
 def _tolerance(motion: _RotationFit) -> float:
@@ -228,6 +244,8 @@ def _kind(
         kind = rotation
     elif (sliders := _two_sliders(motion, unit)) is not None:
         kind = sliders
+    elif nullity <= max(0, 8 - distinct) and _scatters(motion, task):
+        kind = _scattered_rotation(motion, unit)
     elif len(representatives) < min(MAX_COUNTED_POSES, distinct):
         kind = FewPoses(count, representatives, len(representatives) == distinct)
     elif nullity > max(3, 8 - distinct):
@@ -276,7 +294,24 @@ def _rotation(motion: _RotationFit, unit: str | None) -> Rotation | None:
     free = motion.error(lever) / turned
     reach = abs(motion.c)
     size = motion.length if motion.length > ROUNDING * reach else reach
-    return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, unit)
+    return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, unit=unit)
+
+
+def _scatters(motion: _RotationFit, task: Task) -> bool:
+    """Whether the poses are meant as measured, and differ from a turn by scatter alone."""
+    if task.tolerances is not None or (task.exact is not None and task.exact.any()):
+        return False
+    if not is_scatter(motion.residual, motion.turn):
+        return False
+    most = MAX_STEPS * last_digit(task.poses.translation)
+    return len(motion.d) >= ENOUGH_POSES or motion.length <= most
+
+
+def _scattered_rotation(motion: _RotationFit, unit: str | None) -> Rotation:
+    free = motion.length / _rms(motion.turn - motion.turn.mean())
+    size = _rms(motion.d - motion.d.mean())
+    scatter = float(np.abs(motion.residual).max())
+    return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, scatter, unit)
 
 
 def _two_sliders(motion: _RotationFit, unit: str | None) -> TwoSliders | None:
