@@ -26,7 +26,7 @@ from burmester.tasks.motion_class import (
 )
 from burmester.tasks.motion_task import COARSE, CONDITIONS, MOST, MOST_RATIO, MOST_TURN
 from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
-from burmester.tasks.scatter import is_scatter
+from burmester.tasks.scatter import SLIDERS, is_scatter, is_steady
 
 __all__ = ["computable", "plain_tasks"]
 
@@ -56,7 +56,8 @@ def plain_tasks(
     plain = nullity <= most
     plain &= ~motions.constant_angle & ~motions.about_point & motions.differ()
     plain[plain] = ~is_scatter(motions.residual[plain], motions.turn[plain])
-    near = np.flatnonzero(plain & (values[:, 2] <= FAR_FROM_SPECIAL * tolerance))
+    special = (values[:, 2] <= FAR_FROM_SPECIAL * tolerance) | is_steady(motions.turn)
+    near = np.flatnonzero(plain & special)
     if len(near):
         some = motions.take(near)
         plain[near] = ~some.two_sliders() & ~some.two_angles()
@@ -205,7 +206,8 @@ class _Motions(NamedTuple):
             b = (term.conj() * residual).sum(axis=1) / np.where(size > 0, size, 1.0)
             # More than the lever of the motion, which is the sum of no more than these.
             lever = self.lever + np.abs(b) * (2 + np.abs(a) + np.abs(self.turn.mean(axis=1)))
-            may |= self.explains(residual - b[:, None] * term, lever)
+            miss = residual - b[:, None] * term
+            may |= self.explains(miss, lever) | is_scatter(miss, turn, SLIDERS)
         return may
 
     def two_angles(self) -> Mask:

@@ -44,7 +44,7 @@ from burmester.tasks.repeated_poses import (
     rotation_range,
     spanning,
 )
-from burmester.tasks.scatter import ENOUGH_POSES, MAX_STEPS, is_scatter, last_digit
+from burmester.tasks.scatter import SLIDERS, is_scatter, max_scatter
 from burmester.tasks.special_motions import (
     CircularTranslation,
     FreeTranslation,
@@ -232,6 +232,7 @@ def _kind(
         task.poses[first], motion.error(0.0), motion.angle_error, MAX_COUNTED_POSES
     )
     representatives = tuple(int(i) for i in first[apart])
+    most_scatter = max_scatter(task.poses.translation) if _may_scatter(task) else 0.0
     kind: MotionKind = General(nullity)
     if len(representatives) == 1:
         kind = Rest(count)
@@ -242,9 +243,13 @@ def _kind(
         kind = _translation(motion, unit)
     elif (rotation := _rotation(motion, unit)) is not None:
         kind = rotation
-    elif (sliders := _two_sliders(motion, unit)) is not None:
+    elif (sliders := _two_sliders(motion, most_scatter, unit)) is not None:
         kind = sliders
-    elif nullity <= max(0, 8 - distinct) and _scatters(motion, task):
+    elif (
+        nullity <= max(0, 8 - distinct)
+        and motion.length <= most_scatter
+        and is_scatter(motion.residual, motion.turn)
+    ):
         kind = _scattered_rotation(motion, unit)
     elif len(representatives) < min(MAX_COUNTED_POSES, distinct):
         kind = FewPoses(count, representatives, len(representatives) == distinct)
@@ -254,6 +259,11 @@ def _kind(
     elif (angles := _two_angles(motion)) is not None:
         kind = TwoOrientations(angles, nullity)
     return kind
+
+
+def _may_scatter(task: Task) -> bool:
+    """Whether poses may have errors that nobody stated: none of them is meant exactly."""
+    return task.tolerances is None and (task.exact is None or not task.exact.any())
 
 
 # --- the models
@@ -297,16 +307,6 @@ def _rotation(motion: _RotationFit, unit: str | None) -> Rotation | None:
     return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, unit=unit)
 
 
-def _scatters(motion: _RotationFit, task: Task) -> bool:
-    """Whether the poses are meant as measured, and differ from a turn by scatter alone."""
-    if task.tolerances is not None or (task.exact is not None and task.exact.any()):
-        return False
-    if not is_scatter(motion.residual, motion.turn):
-        return False
-    most = MAX_STEPS * last_digit(task.poses.translation)
-    return len(motion.d) >= ENOUGH_POSES or motion.length <= most
-
-
 def _scattered_rotation(motion: _RotationFit, unit: str | None) -> Rotation:
     free = motion.length / _rms(motion.turn - motion.turn.mean())
     size = _rms(motion.d - motion.d.mean())
@@ -314,7 +314,7 @@ def _scattered_rotation(motion: _RotationFit, unit: str | None) -> Rotation:
     return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, scatter, unit)
 
 
-def _two_sliders(motion: _RotationFit, unit: str | None) -> TwoSliders | None:
+def _two_sliders(motion: _RotationFit, most_scatter: float, unit: str | None) -> TwoSliders | None:
     """The two-slider motion or its inverse, if the poses are one.
 
     Fitted to the residual, where far origins of F and M cost no digits; neither motion has a part
@@ -334,13 +334,18 @@ def _two_sliders(motion: _RotationFit, unit: str | None) -> TwoSliders | None:
         lever = abs(moving) + abs(b)
         shows = abs(b) * np.abs(more - term * (np.vdot(term, more) / power)).max()
         miss, error = residual - b * term, motion.error(lever)
+        explained, scatter = motion.explains(miss, lever), 0.0
+        if not explained and _rms(miss) <= most_scatter and is_scatter(miss, turn, SLIDERS):
+            explained, scatter = True, float(np.abs(miss).max())
+            error = max(error, _rms(miss))
         sure = shows > MIN_NEXT_TERM_ERRORS * error
         likely = shows > LIKELY_NEXT_TERM_ERRORS * error and _rms(miss) <= LIKELY_RMS_ERRORS * error
-        if motion.explains(miss, lever) and (sure or likely):
+        if explained and (sure or likely):
             middle, rotation = orientation_arc(np.angle(motion.turn))
             centres = _pairs_of(fixed), _pairs_of(moving)
             phase = float(np.angle(b))
-            return TwoSliders(inverse, *centres, abs(b), phase, middle, rotation, not sure, unit)
+            swing = abs(b), phase, middle, rotation
+            return TwoSliders(inverse, *centres, *swing, not sure, scatter, unit)
     return None
 
 

@@ -1,8 +1,8 @@
 """Whether what a model of a motion leaves over is scatter: noise from pose to pose.
 
-What a linkage moves changes smoothly as the body turns; errors of measurement do not.  So poses
-that differ from a turn about one point by scatter alone know of no linkage, however large the
-scatter is.  Nothing here depends on where the origins of F and M are.
+What a linkage moves changes smoothly as the body turns; errors of measurement do not.  So where
+poses differ from a special motion by scatter alone, they tell nothing of another linkage, however
+large the scatter is.  Nothing here depends on where the origins of F and M are.
 """
 
 from __future__ import annotations
@@ -12,46 +12,62 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray
 
-__all__ = ["is_scatter", "last_digit"]
+__all__ = ["SLIDERS", "TURN", "is_scatter", "is_steady", "last_digit", "max_scatter"]
 
-FEWEST_POSES = 6
-# Poses that show scatter of any size.  Fewer show it up to `MAX_STEPS` steps of the last digit.
-ENOUGH_POSES = 8
-MAX_STEPS = 5.0
+# Powers of exp(i angle) in the model of a motion, then the next ones, by which linkages differ.
+TURN = (0, 1), (-1, 2)
+SLIDERS = (0, 1, -1), (2, -2)
+LEFT_OVER = 2  # poses more than powers, at least
+# Poses that show scatter of any size; fewer show scatter of few steps of the last digit.
+ENOUGH_POSES, MAX_STEPS = 8, 20.0
 MAX_TURN = np.radians(32)  # between two poses in a row; beyond it a linkage's motion looks rough
-# Of steps squared over deviations squared: 2 of white noise, 12 / (N (N + 1)) of a steady motion.
-MIN_ROUGHNESS, MAX_ANGLE_ROUGHNESS = 1.6, 0.1
-# Of the part of white noise that two more terms leave over.  By `benchmarks.pins_from_two_origins`
-# 2 to 6 % of scattered turns are missed so.
-MIN_SHARE_LEFT = 0.3
+# The sum of squared steps over that of squared deviations: 2 of white noise, 0.05 of 15 poses
+# at equal angles.
+MIN_ROUGHNESS, MAX_ANGLE_ROUGHNESS = 1.4, 0.1
+# Of the part of white noise that the next powers leave over.  With these bounds 3 to 9 % of
+# scattered turns are missed, and of 1500 motions of four-bars none is taken for a scattered turn
+# (`python -m benchmarks.two_origins`).
+MIN_SHARE_LEFT = 0.4
 MAX_DECIMALS = 9
 
 
-def is_scatter(residual: ComplexArray, turn: ComplexArray) -> NDArray[np.bool_]:
-    """Whether residuals (*, N) of a turn about a point are scatter, at turn = exp(i angle) (*, N).
+def is_scatter(
+    residual: ComplexArray,
+    turn: ComplexArray,
+    powers: tuple[tuple[int, ...], tuple[int, ...]] = TURN,
+) -> NDArray[np.bool_]:
+    """Whether the residuals (*, N) of a model are scatter, at turn = exp(i angle), (*, N).
 
-    residual: after c + a turn has been fitted.  The poses are in the order of the motion.
-    Two things have to hold: the angles go on steadily while the residuals jump to and fro, and
-    1 / turn and turn^2, the first terms by which a linkage differs from a turn, leave most of
-    them unexplained.
+    powers: of `turn`, those of the model, which leaves `residual`, and the next ones.
+    The poses are in the order of the motion.  The angles have to go on steadily while the
+    residuals jump to and fro, and the next powers have to leave most of them unexplained.
     """
-    count = turn.shape[-1]
-    if count < FEWEST_POSES:
+    model, following = powers
+    count, every = turn.shape[-1], len(model) + len(following)
+    if count < every + LEFT_OVER:
         return np.zeros(turn.shape[:-1], dtype=bool)
+    q, _ = np.linalg.qr(np.stack([turn**power for power in model + following], axis=-1))
+    left = residual - (q @ (q.conj().swapaxes(-1, -2) @ residual[..., None]))[..., 0]
+    share = MIN_SHARE_LEFT * (count - every) / (count - len(model))
+    unexplained = _power(left) > share * _power(residual)
+    return np.asarray(is_steady(turn) & unexplained & (_roughness(residual) > MIN_ROUGHNESS))
+
+
+def is_steady(turn: ComplexArray) -> NDArray[np.bool_]:
+    """Whether angles go on steadily from pose to pose, by turn = exp(i angle), (*, N)."""
     steps = np.angle(turn[..., 1:] * turn[..., :-1].conj())
     angle = np.concatenate([np.zeros_like(steps[..., :1]), np.cumsum(steps, axis=-1)], axis=-1)
+    rough = _roughness(angle - angle.mean(axis=-1, keepdims=True))
     one_way = (steps > 0).all(axis=-1) | (steps < 0).all(axis=-1)
-    steady = one_way | (
-        _roughness(angle - angle.mean(axis=-1, keepdims=True)) < MAX_ANGLE_ROUGHNESS
-    )
     dense = np.abs(steps).max(axis=-1) <= MAX_TURN
-    rough = _roughness(residual) > MIN_ROUGHNESS
-    terms = np.stack([np.ones_like(turn), turn, turn.conj(), turn**2], axis=-1)
-    q, _ = np.linalg.qr(terms)
-    left = residual - (q @ (q.conj().swapaxes(-1, -2) @ residual[..., None]))[..., 0]
-    share = MIN_SHARE_LEFT * (count - 4) / (count - 2)
-    unexplained = _power(left) > share * _power(residual)
-    return np.asarray(steady & dense & rough & unexplained)
+    return np.asarray(dense & (one_way | (rough < MAX_ANGLE_ROUGHNESS)))
+
+
+def max_scatter(positions: FloatArray) -> float:
+    """The greatest scatter, rms, that poses at positions (N, 2) can show to be scatter."""
+    if len(positions) >= ENOUGH_POSES:
+        return np.inf
+    return MAX_STEPS * last_digit(positions)
 
 
 def last_digit(values: FloatArray) -> float:

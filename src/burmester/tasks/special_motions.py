@@ -236,6 +236,8 @@ class TwoSliders(MotionKindBase):
     fixed_centre (2,) in F, moving_centre (2,) in M, radius |b|, phase the angle of b;
     middle, rotation: of the least arc of all angles, its middle and its length.  Radians.
     within_digits: whether more digits could show another motion.
+    scatter: the greatest distance of a pose from the motion, where the poses differ from it by
+        noise that their errors do not explain; else 0.
     """
 
     code: ClassVar[str] = "R316"
@@ -248,6 +250,7 @@ class TwoSliders(MotionKindBase):
     middle: float
     rotation: float
     within_digits: bool = False
+    scatter: float = 0.0
     unit: str | None = None
 
     @property
@@ -257,6 +260,10 @@ class TwoSliders(MotionKindBase):
         if not self.inverse:
             own, other = other, own
         within = "within the digits given, " if self.within_digits else ""
+        if self.scatter:
+            within = (
+                f"within {self.scatter:.2g}{_unit(self.unit)}, which scatter from pose to pose, "
+            )
         return (
             f"{within}a two-slider motion{' (inverted)' if self.inverse else ''}: "
             f"every point of the {on} on the circle of radius "
@@ -269,7 +276,7 @@ class TwoSliders(MotionKindBase):
     @property
     def help(self) -> str:
         other = "for another four-bar give a pose off this motion"
-        if self.within_digits:
+        if self.within_digits and not self.scatter:
             other = "for another four-bar give more digits, or a pose off this motion"
         if not self.inverse and self.rotation >= np.pi:
             return (
