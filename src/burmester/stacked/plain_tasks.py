@@ -8,7 +8,7 @@ the road of one task.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +18,15 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray, complex_of
 from burmester.numerics.bundles import take
 from burmester.stacked.task_stack import TaskStack
-from burmester.tasks.motion_class import MAX_COUNTED_POSES, MAX_RESIDUAL_ERRORS
+from burmester.tasks.motion_class import (
+    LARGE_ROTATION,
+    MAX_COUNTED_POSES,
+    MAX_RESIDUAL_ERRORS,
+    max_residual_errors,
+)
 from burmester.tasks.motion_task import COARSE, CONDITIONS, MOST, MOST_RATIO, MOST_TURN
 from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
+from burmester.tasks.scatter import SLIDERS, is_scatter, is_steady
 
 __all__ = ["computable", "plain_tasks"]
 
@@ -49,7 +55,9 @@ def plain_tasks(
     most = max(2, CONDITIONS + 3 - count)  # quadrics
     plain = nullity <= most
     plain &= ~motions.constant_angle & ~motions.about_point & motions.differ()
-    near = np.flatnonzero(plain & (values[:, 2] <= FAR_FROM_SPECIAL * tolerance))
+    plain[plain] = ~is_scatter(motions.residual[plain], motions.turn[plain])
+    special = (values[:, 2] <= FAR_FROM_SPECIAL * tolerance) | is_steady(motions.turn)
+    near = np.flatnonzero(plain & special)
     if len(near):
         some = motions.take(near)
         plain[near] = ~some.two_sliders() & ~some.two_angles()
@@ -80,7 +88,7 @@ class _Motions(NamedTuple):
     lever: FloatArray
     length: FloatArray
     position_error: FloatArray
-    turn_error: Any  # a float, of all tasks
+    turn_error: FloatArray
     rounding: FloatArray
     turn_rounding: FloatArray
     constant_angle: Mask
@@ -101,10 +109,11 @@ class _Motions(NamedTuple):
         power = (around.real**2 + around.imag**2).sum(axis=1)
         share = (around.conj() * centred).sum(axis=1) / np.where(power > 0, power, 1.0)
         residual = centred - share[:, None] * around
+        large = _rms(around) >= LARGE_ROTATION / SAFE
         motions = cls(
             *(d, turn, angle, offsets, residual, np.abs(share), _rms(residual)),
-            np.where(spread > 0, np.minimum(position, COARSE * spread), position),
-            min(turned, COARSE),
+            np.where((spread > 0) & ~large, np.minimum(position, COARSE * spread), position),
+            np.where(large, turned, min(turned, COARSE)),
             COORDINATE_ROUNDING * np.abs(d).max(axis=1),
             *(turn_rounding, constant, constant),
         )
@@ -115,12 +124,12 @@ class _Motions(NamedTuple):
 
     def take(self, index: NDArray[np.intp]) -> _Motions:
         """Those at the indices."""
-        arrays = take(self._replace(turn_error=self.rounding), index)
-        return arrays._replace(turn_error=self.turn_error)
+        return take(self, index)
 
     @property
     def angle_error(self) -> FloatArray:
-        return np.maximum(max(self.turn_error, ROUNDING), self.turn_rounding)
+        error = np.maximum(np.minimum(self.turn_error, COARSE), ROUNDING)
+        return np.asarray(np.maximum(error, self.turn_rounding))
 
     def error(self, lever: FloatArray) -> FloatArray:
         """The errors (T,) of the places of points of M at distances (T,) from its origin."""
@@ -130,7 +139,7 @@ class _Motions(NamedTuple):
 
     def explains(self, miss: ComplexArray, lever: FloatArray) -> Mask:
         """Whether errors alone may explain the residuals (T, N) of a model."""
-        most = SAFE * MAX_RESIDUAL_ERRORS * self.error(lever)
+        most = SAFE * max_residual_errors(self.d.shape[1]) * self.error(lever)
         return np.asarray(np.abs(miss).max(axis=1) <= most)
 
     def singular_values(self) -> FloatArray:
@@ -197,7 +206,8 @@ class _Motions(NamedTuple):
             b = (term.conj() * residual).sum(axis=1) / np.where(size > 0, size, 1.0)
             # More than the lever of the motion, which is the sum of no more than these.
             lever = self.lever + np.abs(b) * (2 + np.abs(a) + np.abs(self.turn.mean(axis=1)))
-            may |= self.explains(residual - b[:, None] * term, lever)
+            miss = residual - b[:, None] * term
+            may |= self.explains(miss, lever) | is_scatter(miss, turn, SLIDERS)
         return may
 
     def two_angles(self) -> Mask:

@@ -10,7 +10,10 @@ constant, or in complex numbers, with turn = exp(i angle),
 or the inverse of the last, two points of F on lines of M.  All are linear in c, m and b.  A
 model holds where it misses no pose by more than the errors of the poses allow
 (`Task.resolution`, taken as a bound).  So a general motion is never taken for a special one, and
-few digits hide none.  Weights have no part in it: a motion does not depend on them.
+few digits hide none.  A turn is also claimed where the residuals are scatter (`tasks/scatter`),
+whatever the errors are said to be.  Weights have no part in it: a motion does not depend on them.
+Nor do the origins of F and M: a body that turns about its own origin has no travel to compare
+errors with, so errors are compared with residuals alone.
 """
 
 from __future__ import annotations
@@ -41,6 +44,7 @@ from burmester.tasks.repeated_poses import (
     rotation_range,
     spanning,
 )
+from burmester.tasks.scatter import SLIDERS, is_scatter, max_scatter
 from burmester.tasks.special_motions import (
     CircularTranslation,
     FreeTranslation,
@@ -49,7 +53,7 @@ from burmester.tasks.special_motions import (
     TwoSliders,
 )
 
-__all__ = ["MotionClass", "classify_motion"]
+__all__ = ["LARGE_ROTATION", "MotionClass", "classify_motion", "max_residual_errors"]
 
 MAX_RESIDUAL_ERRORS = 2.0  # pose errors; a model with a greater residual does not hold
 MIN_NEXT_TERM_ERRORS = 100.0  # pose errors that one more term of a model makes, where it is sure
@@ -155,15 +159,18 @@ class _RotationFit(NamedTuple):
     @classmethod
     def of(cls, poses: Displacement, resolution: tuple[float, float]) -> _RotationFit:
         d, turn = complex_of(poses.translation), np.exp(1j * poses.angle)
+        # Of a large rotation errors count as stated, since travel depends on the origin of M.
+        large = _rms(turn - turn.mean()) >= LARGE_ROTATION
         turns = max(1.0, float(np.abs(poses.angle).max()))
         spread = _rms(d - d.mean())
         position, angle = resolution
-        position = min(position, COARSE * spread) if spread > 0 else position
+        if spread > 0 and not large:
+            position = min(position, COARSE * spread)
         motion = cls(
             *(d, turn, True, False, complex(d.mean()), 0j, d - d.mean(), spread),
             *(
                 position,
-                min(angle, COARSE),
+                angle if large else min(angle, COARSE),
                 COORDINATE_ROUNDING * float(np.abs(d).max()),
                 COORDINATE_ROUNDING * turns,
             ),
@@ -190,7 +197,7 @@ class _RotationFit(NamedTuple):
 
     @property
     def angle_error(self) -> float:
-        return max(self.turn_error, ROUNDING, self.turn_rounding)
+        return max(min(self.turn_error, COARSE), ROUNDING, self.turn_rounding)
 
     def error(self, lever: float) -> float:
         """The error of the place of a point of M at the distance `lever` from its origin."""
@@ -199,7 +206,16 @@ class _RotationFit(NamedTuple):
 
     def explains(self, miss: ComplexArray | FloatArray, lever: float) -> bool:
         """Whether errors alone explain the residuals (N,) of a model."""
-        return bool(np.abs(miss).max() <= MAX_RESIDUAL_ERRORS * self.error(lever))
+        return bool(np.abs(miss).max() <= max_residual_errors(len(self.d)) * self.error(lever))
+
+
+def max_residual_errors(count: int) -> float:
+    """The greatest residual of `count` poses that errors alone explain, in pose errors.
+
+    Errors spread evenly never exceed it.  Of measured ones, which are normal, one in so many poses
+    may be greater: the bound is exceeded once in 20 tasks.
+    """
+    return max(MAX_RESIDUAL_ERRORS, float(np.sqrt(2 / 3 * np.log(20 * count))))
 
 
 def _tolerance(motion: _RotationFit) -> float:
@@ -216,6 +232,7 @@ def _kind(
         task.poses[first], motion.error(0.0), motion.angle_error, MAX_COUNTED_POSES
     )
     representatives = tuple(int(i) for i in first[apart])
+    most_scatter = max_scatter(task.poses.translation) if _may_scatter(task) else 0.0
     kind: MotionKind = General(nullity)
     if len(representatives) == 1:
         kind = Rest(count)
@@ -226,8 +243,14 @@ def _kind(
         kind = _translation(motion, unit)
     elif (rotation := _rotation(motion, unit)) is not None:
         kind = rotation
-    elif (sliders := _two_sliders(motion, unit)) is not None:
+    elif (sliders := _two_sliders(motion, most_scatter, unit)) is not None:
         kind = sliders
+    elif (
+        nullity <= max(0, 8 - distinct)
+        and motion.length <= most_scatter
+        and is_scatter(motion.residual, motion.turn)
+    ):
+        kind = _scattered_rotation(motion, unit)
     elif len(representatives) < min(MAX_COUNTED_POSES, distinct):
         kind = FewPoses(count, representatives, len(representatives) == distinct)
     elif nullity > max(3, 8 - distinct):
@@ -236,6 +259,11 @@ def _kind(
     elif (angles := _two_angles(motion)) is not None:
         kind = TwoOrientations(angles, nullity)
     return kind
+
+
+def _may_scatter(task: Task) -> bool:
+    """Whether poses may have errors that nobody stated: none of them is meant exactly."""
+    return task.tolerances is None and (task.exact is None or not task.exact.any())
 
 
 # --- the models
@@ -276,10 +304,17 @@ def _rotation(motion: _RotationFit, unit: str | None) -> Rotation | None:
     free = motion.error(lever) / turned
     reach = abs(motion.c)
     size = motion.length if motion.length > ROUNDING * reach else reach
-    return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, unit)
+    return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, unit=unit)
 
 
-def _two_sliders(motion: _RotationFit, unit: str | None) -> TwoSliders | None:
+def _scattered_rotation(motion: _RotationFit, unit: str | None) -> Rotation:
+    free = motion.length / _rms(motion.turn - motion.turn.mean())
+    size = _rms(motion.d - motion.d.mean())
+    scatter = float(np.abs(motion.residual).max())
+    return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, scatter, unit)
+
+
+def _two_sliders(motion: _RotationFit, most_scatter: float, unit: str | None) -> TwoSliders | None:
     """The two-slider motion or its inverse, if the poses are one.
 
     Fitted to the residual, where far origins of F and M cost no digits; neither motion has a part
@@ -299,13 +334,18 @@ def _two_sliders(motion: _RotationFit, unit: str | None) -> TwoSliders | None:
         lever = abs(moving) + abs(b)
         shows = abs(b) * np.abs(more - term * (np.vdot(term, more) / power)).max()
         miss, error = residual - b * term, motion.error(lever)
+        explained, scatter = motion.explains(miss, lever), 0.0
+        if not explained and _rms(miss) <= most_scatter and is_scatter(miss, turn, SLIDERS):
+            explained, scatter = True, float(np.abs(miss).max())
+            error = max(error, _rms(miss))
         sure = shows > MIN_NEXT_TERM_ERRORS * error
         likely = shows > LIKELY_NEXT_TERM_ERRORS * error and _rms(miss) <= LIKELY_RMS_ERRORS * error
-        if motion.explains(miss, lever) and (sure or likely):
+        if explained and (sure or likely):
             middle, rotation = orientation_arc(np.angle(motion.turn))
             centres = _pairs_of(fixed), _pairs_of(moving)
             phase = float(np.angle(b))
-            return TwoSliders(inverse, *centres, abs(b), phase, middle, rotation, not sure, unit)
+            swing = abs(b), phase, middle, rotation
+            return TwoSliders(inverse, *centres, *swing, not sure, scatter, unit)
     return None
 
 

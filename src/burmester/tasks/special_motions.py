@@ -178,7 +178,9 @@ class FreeTranslation(MotionKindBase):
 class Rotation(MotionKindBase):
     """The body turns about one point: `fixed_centre` (2,) of F, `moving_centre` (2,) of M.
 
-    uncertainty: of the centre, by the digits of the poses; a length.
+    uncertainty: of the centre, by the errors of the poses; a length.
+    scatter: the greatest distance of a pose from the turn, where the poses differ from it by noise
+        that their errors do not explain; else 0.
     """
 
     code: ClassVar[str] = "R315"
@@ -187,24 +189,36 @@ class Rotation(MotionKindBase):
     moving_centre: FloatArray
     uncertainty: float
     size: float
+    scatter: float = 0.0
     unit: str | None = None
 
     @property
     def message(self) -> str:
-        about = ""
-        if self.uncertainty > 10.0**-SIGNIFICANT_DIGITS * self.size:
+        about = within = scatter = ""
+        if self.scatter:
+            within = f" within {self.scatter:.2g}{_unit(self.unit)} at every pose"
+            scatter = "; the rest scatters from pose to pose, and no linkage follows that"
+        elif self.uncertainty > 10.0**-SIGNIFICANT_DIGITS * self.size:
             about = f" (within {self.uncertainty:.1g}{_unit(self.unit)}, as the digits go)"
         return (
-            f"the body turns about the point {_point(self.fixed_centre, self.size, self.unit)}"
-            f"{about}: one pin joint does this, you do not need four bars"
+            f"the body turns about the point {_point(self.fixed_centre, self._digits, self.unit)}"
+            f"{about}: one pin joint does this{within}, you do not need four bars{scatter}"
         )
 
     @property
+    def _digits(self) -> float:
+        """The size whose digits are printed: those below a tenth of the uncertainty are noise."""
+        if not self.uncertainty > 10.0**-SIGNIFICANT_DIGITS * self.size:
+            return self.size
+        return max(self.size, 10.0 ** (SIGNIFICANT_DIGITS - 2) * self.uncertainty)
+
+    @property
     def help(self) -> str:
+        meant = ", or mark one pose as exact if the scatter is meant" if self.scatter else ""
         return (
-            f"pin the body at its point {_point(self.moving_centre, self.size)} to the ground at "
-            f"{_point(self.fixed_centre, self.size)}; for a four-bar give two poses or more that "
-            "do not turn about this point"
+            f"pin the body at its point {_point(self.moving_centre, self._digits)} to the ground "
+            f"at {_point(self.fixed_centre, self._digits)}; for a four-bar give two poses or more "
+            f"that do not turn about this point{meant}"
         )
 
 
@@ -222,6 +236,8 @@ class TwoSliders(MotionKindBase):
     fixed_centre (2,) in F, moving_centre (2,) in M, radius |b|, phase the angle of b;
     middle, rotation: of the least arc of all angles, its middle and its length.  Radians.
     within_digits: whether more digits could show another motion.
+    scatter: the greatest distance of a pose from the motion, where the poses differ from it by
+        noise that their errors do not explain; else 0.
     """
 
     code: ClassVar[str] = "R316"
@@ -234,6 +250,7 @@ class TwoSliders(MotionKindBase):
     middle: float
     rotation: float
     within_digits: bool = False
+    scatter: float = 0.0
     unit: str | None = None
 
     @property
@@ -243,6 +260,10 @@ class TwoSliders(MotionKindBase):
         if not self.inverse:
             own, other = other, own
         within = "within the digits given, " if self.within_digits else ""
+        if self.scatter:
+            within = (
+                f"within {self.scatter:.2g}{_unit(self.unit)}, which scatter from pose to pose, "
+            )
         return (
             f"{within}a two-slider motion{' (inverted)' if self.inverse else ''}: "
             f"every point of the {on} on the circle of radius "
@@ -255,7 +276,7 @@ class TwoSliders(MotionKindBase):
     @property
     def help(self) -> str:
         other = "for another four-bar give a pose off this motion"
-        if self.within_digits:
+        if self.within_digits and not self.scatter:
             other = "for another four-bar give more digits, or a pose off this motion"
         if not self.inverse and self.rotation >= np.pi:
             return (
