@@ -30,13 +30,19 @@ from burmester.progress import time_for
 from burmester.refinement.target import Target
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.quality import ENOUGH_TRANSMISSION, best_first, rule
+from burmester.verdicts.quality import best_first, rule
 
 __all__ = ["Family", "best_of_family"]
 
-# The figure of which linkages with about the least of it are recommended, by what is preferred.
-PREFERRED: Final[Mapping[Preference, str]] = {"size": "extent", "accuracy": "sensitivity"}
-AS_GOOD: Final = 1.1  # ratio to the least extent or sensitivity, up to which another one is as good
+# Of what the least, or nearly the least, is recommended, by what is preferred.
+PREFERRED: Final[Mapping[Preference, str]] = {
+    "transmission": "product of extent and sensitivity",
+    "size": "extent",
+    "accuracy": "sensitivity",
+}
+# Ratio to the least of it, up to which another one is as good, and in words.
+AS_GOOD: Final = {"transmission": 1.25, "size": 1.1, "accuracy": 1.1}
+AS_GOOD_WORDS: Final = {1.25: "quarter", 1.1: "tenth"}
 
 # How many dyads are drawn of each kind: RR, PR, RP; with pins alone, and with sliders.
 PINS: Final = {0: 450}
@@ -198,7 +204,7 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
     points = _pins(pool.trials, task) / task.conditions.span
     starts, aims = [], []
     for aim, most in enumerate(POPULATIONS):
-        cost = costs(pool.value, np.full(len(points), aim), task.conditions.enough)
+        cost = costs(pool.value, np.full(len(points), aim), task.conditions.aimed)
         first = np.argsort(cost, kind="stable")[:MOST_STARTS]
         apart = _spread(points[first], most)
         starts += first[apart].tolist()
@@ -222,7 +228,7 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
         return pool
     worth = concatenate([take(pool.value, good), value])
     most = MOST_COMPARED if task.conditions.around is None else MOST_COMPARED // 4
-    first = costs(worth, np.zeros(len(every), dtype=np.intp), task.conditions.enough)
+    first = costs(worth, np.zeros(len(every), dtype=np.intp), task.conditions.aimed)
     best = np.argsort(first, kind="stable")[: most // 4]
     some = np.union1d(best, np.arange(0, len(every), max(1, len(every) // most)))
     return _better_driven(pool._replace(trials=take(every, some), value=take(worth, some)), task)
@@ -267,11 +273,11 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     good = np.flatnonzero(value.good)
     asked = task.conditions
     best = good[_recommended(take(value, good), asked)]
-    transmission = np.minimum(value.transmission, max(asked.enough, ENOUGH_TRANSMISSION))
+    transmission = np.minimum(value.transmission, asked.enough)
     figures = np.stack([-transmission, value.extent, value.sensitivity], axis=1)
     on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
-    aims = [int(aim(take(value, on_front), asked.enough).argmin()) for aim in AIMS[1:]]
+    aims = [int(aim(take(value, on_front), asked.aimed).argmin()) for aim in AIMS[1:]]
     points = _pins(take(pool.trials, on_front), task) / task.conditions.span
     chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
     rest = on_front[chosen[1:]]
@@ -281,18 +287,26 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
 
 def _recommended(value: Assessment, asked: Conditions) -> int:
     """The index of the linkage that the rule recommends."""
-    alike = np.arange(len(value.violation))
-    if asked.prefer in PREFERRED:
-        figure = getattr(value, PREFERRED[asked.prefer])
-        alike = np.flatnonzero(figure <= AS_GOOD * figure.min())
+    figure = np.ones(len(value.violation))
+    if asked.prefer == "size" or _proportions_first(asked):
+        figure = figure * value.extent
+    if asked.prefer == "accuracy" or _proportions_first(asked):
+        figure = figure * value.sensitivity
+    alike = np.flatnonzero(figure <= AS_GOOD[asked.prefer] * figure.min())
     return int(alike[best_first(*take(value, alike)[1:], asked.enough)[0]])
+
+
+def _proportions_first(asked: Conditions) -> bool:
+    """Whether extent and sensitivity come before transmission: what a task asks is enough."""
+    return asked.prefer == "transmission" and asked.is_good
 
 
 def _rule(asked: Conditions) -> str:
     """The same rule as a sentence."""
     alike = ""
-    if asked.prefer in PREFERRED:
-        alike = f"of those within a tenth of the least {PREFERRED[asked.prefer]} "
+    if asked.prefer != "transmission" or _proportions_first(asked):
+        share = AS_GOOD_WORDS[AS_GOOD[asked.prefer]]
+        alike = f"of those within a {share} of the least {PREFERRED[asked.prefer]} "
     return (
         "Recommended is a linkage with pins before one with a slider, then "
         f"{alike}{rule(asked.enough)}"
