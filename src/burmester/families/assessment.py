@@ -28,7 +28,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
-from burmester.verdicts.quality import ENOUGH_TRANSMISSION
 from burmester.verdicts.tolerances import sensitivity_bound
 
 __all__ = ["AIMS", "Assessment", "assessed", "costs"]
@@ -222,10 +221,10 @@ def _of_proportions(linkage: Linkage, places: Displacement, conditions: Conditio
     return out
 
 
-def _by_transmission(value: Assessment, aimed: float) -> FloatArray:
+def _by_transmission(value: Assessment, enough: float) -> FloatArray:
     # The size of what makes the choice between linkages that transmit alike.
     other = 0.002 * np.minimum(np.log(value.extent * value.sensitivity), 10.0)
-    return np.asarray(other - np.minimum(value.transmission, aimed))
+    return np.asarray(other - np.minimum(value.transmission, enough))
 
 
 def _by_extent(value: Assessment, _: float) -> FloatArray:
@@ -236,22 +235,22 @@ def _by_sensitivity(value: Assessment, _: float) -> FloatArray:
     return np.asarray(np.log(value.sensitivity))
 
 
-def _by_all(value: Assessment, _: float) -> FloatArray:
-    sine = np.sin(np.clip(value.transmission, 1e-3, ENOUGH_TRANSMISSION))
+def _by_all(value: Assessment, enough: float) -> FloatArray:
+    sine = np.sin(np.clip(value.transmission, 1e-3, enough))
     return np.asarray(np.log(value.extent * value.sensitivity / sine**2))
 
 
 AIMS: Final = (_by_transmission, _by_extent, _by_sensitivity, _by_all)
 
 
-def costs(value: Assessment, aims: NDArray[np.intp], aimed: float) -> FloatArray:
+def costs(value: Assessment, aims: NDArray[np.intp], enough: float) -> FloatArray:
     """What is made least (k,): the violation, or where there is none one of the AIMS (k,).
 
-    aimed: radians, more transmission counts as that much for the first aim.
+    enough: radians, more transmission counts as that much.
     """
     out = np.zeros(len(aims))
     for number, aim in enumerate(AIMS):
         own = aims == number
-        out[own] = aim(take(value, own), aimed)
+        out[own] = aim(take(value, own), enough)
     with np.errstate(invalid="ignore"):
         return np.where(value.good, out, BAD * (1 + value.violation))

@@ -68,11 +68,6 @@ class Conditions:
         """Whether the task asks for so much transmission that proportions come first."""
         return self.transmission >= GOOD_TRANSMISSION
 
-    @property
-    def aimed(self) -> float:
-        """The transmission angle that is looked for, before the least extent and sensitivity."""
-        return self.transmission if self.is_good else self.enough
-
     @classmethod
     def of(
         cls, problem: SynthesisProblem, target: Target, assumed: Assumptions, *, pins: bool

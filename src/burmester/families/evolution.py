@@ -50,8 +50,8 @@ def improved(
     value: what the linkages are worth; aims: (k,), the number of each population's aim in AIMS.
     """
     count = len(trials)
-    aimed = task.conditions.aimed
-    best, cost = trials, costs(value, aims, aimed)
+    enough = task.conditions.enough
+    best, cost = trials, costs(value, aims, enough)
     mean = _genes(trials, task)
     size = mean.shape[1]
     covariance = np.broadcast_to(np.eye(size), (count, size, size)).copy()
@@ -71,7 +71,7 @@ def improved(
         children, met = projected(start, task, PROJECTION_STEPS)
         worth = assessed(children, task)
         worth = worth._replace(violation=np.where(met.all(axis=1), worth.violation, np.inf))
-        own = costs(worth, aims[parent], aimed).reshape(len(alive), CHILDREN)
+        own = costs(worth, aims[parent], enough).reshape(len(alive), CHILDREN)
         order = np.argsort(own, axis=1)[:, :PARENTS]
         at = np.arange(len(alive))[:, None]
         found = _genes(children, task).reshape(len(alive), CHILDREN, size)[at, order]

@@ -204,7 +204,7 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
     points = _pins(pool.trials, task) / task.conditions.span
     starts, aims = [], []
     for aim, most in enumerate(POPULATIONS):
-        cost = costs(pool.value, np.full(len(points), aim), task.conditions.aimed)
+        cost = costs(pool.value, np.full(len(points), aim), task.conditions.enough)
         first = np.argsort(cost, kind="stable")[:MOST_STARTS]
         apart = _spread(points[first], most)
         starts += first[apart].tolist()
@@ -228,9 +228,10 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
         return pool
     worth = concatenate([take(pool.value, good), value])
     most = MOST_COMPARED if task.conditions.around is None else MOST_COMPARED // 4
-    first = costs(worth, np.zeros(len(every), dtype=np.intp), task.conditions.aimed)
-    best = np.argsort(first, kind="stable")[: most // 4]
-    some = np.union1d(best, np.arange(0, len(every), max(1, len(every) // most)))
+    some = np.arange(0, len(every), max(1, len(every) // most))
+    for aim in (0, len(AIMS) - 1):
+        cost = costs(worth, np.full(len(every), aim), task.conditions.enough)
+        some = np.union1d(some, np.argsort(cost, kind="stable")[: most // 8])
     return _better_driven(pool._replace(trials=take(every, some), value=take(worth, some)), task)
 
 
@@ -277,7 +278,7 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     figures = np.stack([-transmission, value.extent, value.sensitivity], axis=1)
     on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
-    aims = [int(aim(take(value, on_front), asked.aimed).argmin()) for aim in AIMS[1:]]
+    aims = [int(aim(take(value, on_front), asked.enough).argmin()) for aim in AIMS[1:]]
     points = _pins(take(pool.trials, on_front), task) / task.conditions.span
     chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
     rest = on_front[chosen[1:]]
