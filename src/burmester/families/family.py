@@ -278,11 +278,11 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     figures = np.stack([-transmission, value.extent, value.sensitivity], axis=1)
     on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
-    aims = [int(aim(take(value, on_front), asked.enough).argmin()) for aim in AIMS[1:]]
+    aims = [int(aim(take(value, on_front), asked.enough).argmin()) for aim in AIMS]
     points = _pins(take(pool.trials, on_front), task) / task.conditions.span
     chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
     rest = on_front[chosen[1:]]
-    rest = rest[best_first(*(figure[rest] for figure in value[1:]), asked.enough)]
+    rest = rest[best_first(*(figure[rest] for figure in value[1:]), enough=asked.enough)]
     return np.concatenate([[best], rest])
 
 
@@ -294,7 +294,7 @@ def _recommended(value: Assessment, asked: Conditions) -> int:
     if asked.prefer == "accuracy" or _proportions_first(asked):
         figure = figure * value.sensitivity
     alike = np.flatnonzero(figure <= AS_GOOD[asked.prefer] * figure.min())
-    return int(alike[best_first(*take(value, alike)[1:], asked.enough)[0]])
+    return int(alike[best_first(*take(value, alike)[1:], enough=asked.enough)[0]])
 
 
 def _proportions_first(asked: Conditions) -> bool:

@@ -129,6 +129,7 @@ def best_first(
     transmission: FloatArray,
     extent: FloatArray,
     sensitivity: FloatArray,
+    *,
     enough: float = ENOUGH_TRANSMISSION,
 ) -> NDArray[np.intp]:
     """The order (n,) of linkages by the rule, the recommended one first.
