@@ -177,7 +177,7 @@ def test_nothing_that_moves_comes_near_what_is_kept_out(name):
 @pytest.mark.parametrize("name", NAMES)
 def test_brute_force_finds_no_much_better_one(name):
     """Not even without the surroundings, which may cost some degrees."""
-    tree, task, synthesis = solved(name)
+    tree, task, _ = solved(name)
     rows = rows_of(task)
     ratio = tree["requirements"].get("link_ratio", 5)
     search = FewPoses(rows, boxes_of(tree), Bounds(ratio))
