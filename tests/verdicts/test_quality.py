@@ -82,8 +82,7 @@ def test_the_rule_takes_the_best_angle_and_of_those_half_a_degree_the_least_prod
 def test_more_than_enough_transmission_counts_for_nothing():
     angle, size, same = np.radians([85.5, 67.0, 58.0]), np.array([3.0, 1.0, 0.5]), np.ones(3)
     assert best_first(angle, size, same).tolist() == [1, 0, 2]
-    assert best_first(angle, size, same, math.radians(50)).tolist() == [2, 1, 0]
-    assert best_first(angle, size, same, math.radians(80)).tolist() == [0, 1, 2]
-    # What a task asks for is enough, but for poor angles; where it asks for none, it is 60 degrees.
+    assert best_first(angle, size, same, enough=math.radians(50)).tolist() == [2, 1, 0]
+    assert best_first(angle, size, same, enough=math.radians(80)).tolist() == [0, 1, 2]
     told = [math.degrees(enough_transmission(math.radians(asked))) for asked in (0, 20, 45, 70)]
-    assert np.allclose(told, [60, 40, 45, 70])
+    assert np.allclose(told, [60, 60, 60, 70])

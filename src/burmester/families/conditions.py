@@ -33,7 +33,6 @@ class Conditions:
     transmission: the least transmission angle over the range, radians.
     shortest, longest: of the links; ratio: of the longest of four to the shortest.
     span: of the motion, by which the extent is measured.
-    enough: the transmission angle beyond which more counts for nothing, radians.
     prefer: by which figure the recommended linkage is chosen.
     types: (8,), whether 4R linkages are allowed, by the signs of their Grashof sums, in binary.
     kinds: the pairs of kinds of dyads that are allowed; drivers: the sides that may drive.
@@ -52,10 +51,14 @@ class Conditions:
     any_order: bool
     change_point: bool
     footprint: Polygon | None
-    enough: float
     prefer: Preference
     around: Surroundings | None = None
     body: Polygon | None = None
+
+    @property
+    def enough(self) -> float:
+        """The transmission angle beyond which more counts for nothing, radians."""
+        return enough_transmission(self.transmission)
 
     @classmethod
     def of(
@@ -88,7 +91,6 @@ class Conditions:
             any_order=asked.any_order,
             change_point=Standard.of(task).change_point,
             footprint=footprint,
-            enough=enough_transmission(asked.transmission),
             prefer=problem.options.prefer,
             around=None if task.surroundings is None else _moved_around(task.surroundings, target),
             body=None if task.body is None else _in_frame(task.body, frames.moving_origin, unit),

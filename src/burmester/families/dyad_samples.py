@@ -124,7 +124,7 @@ def _centres(points: FloatArray, near: FloatArray) -> FloatArray:
     chords = points[:, 1:] - points[:, :1]
     middles = (points[:, 1:] + points[:, :1]) / 2
     short = (chords * (middles - near[:, None])).sum(axis=-1)
-    return near + np.einsum("kij,kj->ki", np.linalg.pinv(chords), short)
+    return np.asarray(near + np.einsum("kij,kj->ki", np.linalg.pinv(chords), short))
 
 
 def _brought(start: FloatArray, kind: int, offsets: FloatArray, task: OpenTask) -> FloatArray:

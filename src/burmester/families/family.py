@@ -7,6 +7,7 @@ of quality, far from each other.  A search: that none better exists is not prove
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Final, NamedTuple, final
@@ -31,19 +32,21 @@ from burmester.refinement.target import Target
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.quality import (
-    ENOUGH_TRANSMISSION,
-    Quality,
-    best_first,
-    enough_transmission,
-    rule,
-)
+from burmester.verdicts.quality import Quality, best_first, enough_transmission, rule
 
 __all__ = ["Family", "best_of_family", "recommended_first"]
 
-# The figure of which linkages with about the least of it are recommended, by what is preferred.
-PREFERRED: Final[Mapping[Preference, str]] = {"size": "extent", "accuracy": "sensitivity"}
-AS_GOOD: Final = 1.1  # ratio to the least extent or sensitivity, up to which another one is as good
+# Of what the least, or nearly the least, is recommended, by what is preferred.
+PREFERRED: Final[Mapping[Preference, str]] = {
+    "transmission": "product of extent and sensitivity",
+    "size": "extent",
+    "accuracy": "sensitivity",
+}
+# Ratio to the least of it, up to which another one is as good, and in words.
+AS_GOOD: Final = {"transmission": 1.25, "size": 1.1, "accuracy": 1.1}
+AS_GOOD_WORDS: Final = {1.25: "quarter", 1.1: "tenth"}
+# Radians; more than is assumed.  Where a task asks for as much, proportions come first.
+GOOD_TRANSMISSION: Final = math.radians(40)
 
 # How many dyads are drawn of each kind: RR, PR, RP; with pins alone, and with sliders.
 PINS: Final = {0: 450}
@@ -229,9 +232,10 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
         return pool
     worth = concatenate([take(pool.value, good), value])
     most = MOST_COMPARED if task.conditions.around is None else MOST_COMPARED // 4
-    first = costs(worth, np.zeros(len(every), dtype=np.intp), task.conditions.enough)
-    best = np.argsort(first, kind="stable")[: most // 4]
-    some = np.union1d(best, np.arange(0, len(every), max(1, len(every) // most)))
+    some = np.arange(0, len(every), max(1, len(every) // most))
+    for aim in (0, len(AIMS) - 1):
+        cost = costs(worth, np.full(len(every), aim), task.conditions.enough)
+        some = np.union1d(some, np.argsort(cost, kind="stable")[: most // 8])
     return _better_driven(pool._replace(trials=take(every, some), value=take(worth, some)), task)
 
 
@@ -273,33 +277,45 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
         return np.argsort(value.violation, kind="stable")[:SHOWN_FAILING]
     good = np.flatnonzero(value.good)
     asked = task.conditions
-    best = good[_recommended(take(value, good), asked.prefer, asked.enough)]
-    transmission = np.minimum(value.transmission, max(asked.enough, ENOUGH_TRANSMISSION))
+    best = good[_recommended(take(value, good), asked.prefer, asked.transmission)]
+    transmission = np.minimum(value.transmission, asked.enough)
     figures = np.stack([-transmission, value.extent, value.sensitivity], axis=1)
     on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
-    aims = [int(aim(take(value, on_front), asked.enough).argmin()) for aim in AIMS[1:]]
+    aims = [int(aim(take(value, on_front), asked.enough).argmin()) for aim in AIMS]
     points = _pins(take(pool.trials, on_front), task) / task.conditions.span
     chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
     rest = on_front[chosen[1:]]
-    rest = rest[best_first(*(figure[rest] for figure in value[1:]), asked.enough)]
+    rest = rest[best_first(*(figure[rest] for figure in value[1:]), enough=asked.enough)]
     return np.concatenate([[best], rest])
 
 
-def _recommended(value: Assessment, prefer: Preference, enough: float) -> int:
-    """The index of the linkage that the rule recommends."""
-    alike = np.arange(len(value.violation))
-    if prefer in PREFERRED:
-        figure = getattr(value, PREFERRED[prefer])
-        alike = np.flatnonzero(figure <= AS_GOOD * figure.min())
-    return int(alike[best_first(*take(value, alike)[1:], enough)[0]])
+def _recommended(value: Assessment, prefer: Preference, least: float) -> int:
+    """The index of the linkage that the rule recommends.
+
+    least: the transmission angle that is asked for, radians.
+    """
+    figure = np.ones(len(value.violation))
+    proportions = _proportions_first(prefer, least)
+    if prefer == "size" or proportions:
+        figure = figure * value.extent
+    if prefer == "accuracy" or proportions:
+        figure = figure * value.sensitivity
+    alike = np.flatnonzero(figure <= AS_GOOD[prefer] * figure.min())
+    return int(alike[best_first(*take(value, alike)[1:], enough=enough_transmission(least))[0]])
+
+
+def _proportions_first(prefer: Preference, least: float) -> bool:
+    """Whether extent and sensitivity come before transmission: what a task asks is enough."""
+    return prefer == "transmission" and least >= GOOD_TRANSMISSION
 
 
 def _rule(asked: Conditions) -> str:
     """The same rule as a sentence."""
     alike = ""
-    if asked.prefer in PREFERRED:
-        alike = f"of those within a tenth of the least {PREFERRED[asked.prefer]} "
+    if asked.prefer != "transmission" or _proportions_first(asked.prefer, asked.transmission):
+        share = AS_GOOD_WORDS[AS_GOOD[asked.prefer]]
+        alike = f"of those within a {share} of the least {PREFERRED[asked.prefer]} "
     return (
         "Recommended is a linkage with pins before one with a slider, then "
         f"{alike}{rule(asked.enough)}"
@@ -341,13 +357,13 @@ def recommended_first(
     groups: dict[tuple[bool, bool, bool], list[int]] = {}
     for k in range(len(found)):
         groups.setdefault(group(k), []).append(k)
-    enough = enough_transmission(problem.task.requirements.transmission)
+    least = problem.task.requirements.transmission
     order = []
     for _, index in sorted(groups.items()):
         rows = [_figures(found[k].quality) for k in index]
         value = Assessment(np.zeros(len(rows)), *np.array(rows).reshape(-1, 3).T)
-        best = _recommended(value, problem.options.prefer, enough)
-        rest = best_first(*value[1:], enough)
+        best = _recommended(value, problem.options.prefer, least)
+        rest = best_first(*value[1:], enough=enough_transmission(least))
         order += [index[k] for k in (best, *rest[rest != best])]
     return [found[k] for k in order]
 

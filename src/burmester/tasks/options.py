@@ -38,8 +38,8 @@ class SynthesisOptions:
         What is least: "rms", the sum of squared distances, or "worst", the greatest distance.
     prefer
         By which figure of quality the recommended linkage is chosen where few poses leave
-        infinitely many: "transmission", the greatest least transmission angle; "size", the least
-        extent; "accuracy", the least sensitivity.
+        infinitely many: "transmission", the greatest least transmission angle, up to 60 degrees;
+        "size", the least extent; "accuracy", the least sensitivity.
     normalise
         False lets the pencil fit the numbers as they come, as the paper does.
     certify

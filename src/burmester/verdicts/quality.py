@@ -37,16 +37,14 @@ __all__ = [
 
 SAME_TRANSMISSION = math.radians(0.5)  # an angle lower by no more counts as good
 ENOUGH_TRANSMISSION = math.radians(60)  # beyond it a linkage runs no better
-GOOD_TRANSMISSION = math.radians(40)  # is enough where a task asks for that much or less
 
 
 def enough_transmission(asked: float) -> float:
     """The transmission angle beyond which more of it counts for nothing, in radians.
 
-    asked: the least angle that a task asks for, radians: that much is enough, if it is a good
-    angle.  0 where the task asks for none.
+    asked: the least angle that a task asks for, radians; 0 where it asks for none.
     """
-    return max(asked, GOOD_TRANSMISSION) if asked else ENOUGH_TRANSMISSION
+    return max(asked, ENOUGH_TRANSMISSION)
 
 
 def rule(enough: float = ENOUGH_TRANSMISSION) -> str:
@@ -131,6 +129,7 @@ def best_first(
     transmission: FloatArray,
     extent: FloatArray,
     sensitivity: FloatArray,
+    *,
     enough: float = ENOUGH_TRANSMISSION,
 ) -> NDArray[np.intp]:
     """The order (n,) of linkages by the rule, the recommended one first.

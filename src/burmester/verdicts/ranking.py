@@ -74,7 +74,7 @@ def by_quality(found: Sequence[FoundLinkage], asked: Requirements) -> list[Found
         for name in names
     ]
     enough = enough_transmission(asked.transmission)
-    return [found[k] for k in best_first(*figures, enough).tolist()]
+    return [found[k] for k in best_first(*figures, enough=enough).tolist()]
 
 
 def closest_usable(found: Iterable[FoundLinkage]) -> FoundLinkage | None:
