@@ -16,6 +16,7 @@ from burmester.geometry.regions import Point
 from burmester.io.reading.poses import read_task
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.ranking import only_too_far
 from tests.oracles.swept import TooFineError, circuits
 from tests.oracles.tracer import driven
 from tests.oracles.witness import misses, places, random_four_bar, random_poses, span, turned
@@ -51,7 +52,7 @@ def drive_all(synthesis, slack=0.0):
             )
             witness = witness[min(numbers)] if together else witness.min(axis=0)
         assert (ours >= witness - 1e-6 * length).all()
-        if found.usable:
+        if found.usable or (found.from_search and only_too_far(found)):  # on a branch, too
             # Poses that lie nearer to each other than they are missed have no order.
             gap = np.diff(at, axis=0) * [1, 1, length]
             near = np.linalg.norm(gap, axis=1) <= 3 * ours.max()
