@@ -747,7 +747,9 @@ def test_no_order_of_a_kite_that_passes_its_change_point_is_certain(driver):
     rng, orders = np.random.default_rng(5), 0
     for _ in range(30):
         ground, link = rng.choice(np.arange(1.0, 9.0), 2, replace=False)
-        most = 2 * np.arcsin(min(1.0, link / ground)) - 0.2  # where coupler and follower are in line
+        most = (
+            2 * np.arcsin(min(1.0, link / ground)) - 0.2
+        )  # where coupler and follower are in line
         angles = rng.uniform(0.1, most, 4) * rng.permutation([1, 1, -1, -1])
         angles[rng.integers(4)] = rng.choice([0.0, angles[0]])
         dyads, some = kite_at(ground, link, angles, spun=False)
