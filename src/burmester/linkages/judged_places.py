@@ -60,7 +60,7 @@ def places_to_judge(batch: LinkageBatch, target: Target) -> tuple[NDArray[np.int
     """
     near = NearestPlaces.of(batch, target)
     both = near.both
-    exists = np.isfinite(both).all(axis=(-1, -2))
+    exists = np.asarray(np.isfinite(both).all(axis=(-1, -2)))
     mixed = np.where(np.isfinite(near.best).all(axis=(1, 2), keepdims=True), near.best, near.one)
     every = np.concatenate([both, mixed[:, None]], axis=1)
     index, way = np.nonzero(np.column_stack([exists, near.apart | ~exists.any(axis=1)]))

@@ -236,7 +236,7 @@ def _ways(
     away = np.sqrt(gap[every, near].max(axis=1))
     least = np.sqrt(gap.min(axis=1).max(axis=1))
     apart = (away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)) & np.isfinite(least)
-    exists = np.isfinite(rows).all(axis=(-1, -2))
+    exists = np.asarray(np.isfinite(rows).all(axis=(-1, -2)))
     none = ~exists.any(axis=1)
     mixed = np.where(np.isfinite(least)[:, None, None], best, one)
     index, way = np.nonzero(np.column_stack([exists, apart | none]))
