@@ -6,12 +6,16 @@ import numpy as np
 import pytest
 
 from burmester import synthesize
+from burmester.describe.dimensions import dimensions
+from burmester.families.family import recommended_first
 from burmester.families.front import far_apart, front
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment, box
+from burmester.synthesis import motion_generation
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
 from tests.oracles.few_pose_tasks import few_pose_task
 from tests.oracles.pair_verdicts import verdict
@@ -234,3 +238,42 @@ def test_a_region_out_of_reach_has_no_linkage():
     synthesis = synthesize(task_of(FOUR, limits=(limits,)))
     assert not synthesis.usable
     assert synthesis.outcome.code in {"R303", "R309"}
+
+
+def test_rounded_linkages_keep_the_order_of_the_rule_and_are_printed_whole():
+    """Once the smallest error came first: 57 degrees before 77, and pivots were told as open."""
+    poses = Displacement.from_poses(
+        [(x, y, np.radians(a)) for x, y, a in [(0, 0, 5), (60, 180, 48), (20, 330, 92)]]
+    )
+    limits = Limits(
+        fixed_pivot=box([-250, -200], [300, 300]), moving_pivot=box([-400, -60], [50, 60])
+    )
+    task = Task(poses, limits=(limits,), length_unit="mm")
+    result = motion_generation.synthesize(task, SynthesisOptions(rounding_step=1.0))
+    found = list(result.linkages)
+    assert len(found) > 1
+    assert recommended_first(found[::-1], result.problem) == found
+    assert "W209" not in {each.code for each in result.warnings}
+    for each in dimensions(result, found[0]):
+        if each.what in ("fixed pivot", "moving pivot", "length"):
+            assert "." not in each.value
+
+
+def test_the_rule_orders_linkages_as_they_are_to_be_built():
+    poses = Displacement.from_poses([(0, 0, 0), (3, 2, 0.6), (4, 5, 1.3)])
+    result = motion_generation.synthesize(Task(poses))
+    one = next(each for each in result.linkages if each.usable and not each.shortcomings)
+    assert one.quality is not None
+
+    def like(least, extent, **other):
+        degrees = np.radians(least)
+        figures = replace(one.quality, transmission=degrees, extent=extent, sensitivity=3.0)
+        return replace(one, quality=figures, **other)
+
+    slider = replace(one.dyads[0], dyad=PR(0.3, 1.0, [1, 2]))
+    best, small = like(50, 4.0), like(49.7, 1.0)
+    weak, sliding = like(40, 1.0), like(55, 1.0, dyads=(slider, one.dyads[1]))
+    poor, broken = like(58, 1.0, shortcomings=("...",)), like(59, 1.0, usable=False)
+    order = [small, best, weak, sliding, poor, broken]
+    for mixed in (order[::-1], [best, broken, sliding, poor, weak, small]):
+        assert recommended_first(mixed, result.problem) == order

@@ -725,6 +725,45 @@ def test_passing_a_change_point_is_a_defect_but_not_a_certain_one(name):
                 assert 2 in passing[0].poses
 
 
+def kite_at(ground, link, angles, spun):
+    """The places of a kite (crank as long as the ground link), by circles: psi of the crank.
+
+    spun: whether the crank lies on the ground and the kite's other links spin about its pin.
+    """
+    other = np.array([link, 0.0])
+    pins = np.array([ground, 0.0]) + 0 * angles[:, None]
+    if not spun:
+        pins = ground * np.column_stack([np.cos(angles), np.sin(angles)])
+        gap = np.array([ground, 0.0]) - pins
+        reach = np.hypot(*gap.T)
+        angles = np.arctan2(gap[:, 1], gap[:, 0]) + np.arccos(reach / (2 * link))
+    return (RR([0, 0], [0, 0], ground), RR([ground, 0], other, link)), np.column_stack(
+        [pins, angles]
+    )
+
+
+@pytest.mark.parametrize("driver", ["first", "second"])
+def test_no_order_of_a_kite_that_passes_its_change_point_is_certain(driver):
+    rng, orders = np.random.default_rng(5), 0
+    for _ in range(30):
+        ground, link = rng.choice(np.arange(1.0, 9.0), 2, replace=False)
+        most = (
+            2 * np.arcsin(min(1.0, link / ground)) - 0.2
+        )  # where coupler and follower are in line
+        angles = rng.uniform(0.1, most, 4) * rng.permutation([1, 1, -1, -1])
+        angles[rng.integers(4)] = rng.choice([0.0, angles[0]])
+        dyads, some = kite_at(ground, link, angles, spun=False)
+        _, spin = kite_at(ground, link, rng.uniform(-2, 2, 1), spun=True)
+        poses = np.concatenate([some, spin])[rng.permutation(5)]
+        poses[:, 2] = np.unwrap(poses[:, 2])
+        verdict = one_verdict(*dyads, poses)
+        every = verdict.defects + getattr(verdict, driver).defects
+        if any(defect.kind in ("branch", "circuit") for defect in every):  # it passes, or is there
+            assert not any(defect.certain for defect in every)
+            orders += any(defect.kind == "order" for defect in every)
+    assert orders > 5
+
+
 @pytest.mark.parametrize("name", ["parallelogram", "tie of four lengths", "Rapson slide"])
 def test_the_order_is_not_certain_where_a_pose_is_beyond_the_change_point(name):
     """Four poses on one assembly out of order, a fifth on the other that meets it: which way?"""

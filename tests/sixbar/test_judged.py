@@ -276,3 +276,20 @@ def test_what_cannot_be_judged(six_bars):
     with pytest.raises(InputError) as refused:
         judge_six_bar(task(BENT, requirements=Requirements(types={"crank-rocker"})), linkage)
     assert refused.value.code == "E196"
+
+
+def test_joints_of_a_link_that_nearly_fall_together_make_it_degenerate(six_bars):
+    """The joints D and G of the second crank: far enough apart, and too near."""
+    made = six_bars[0][0]
+    joints = made.joints(made.drive[:1])
+    floating = np.linalg.norm(joints["D"] - joints["H"])
+    span = np.hypot(*np.ptp(np.array(REACH)[:, :2], axis=0))
+    for apart, degenerate in ((span / 150, False), (span / 300, True)):
+        at = np.array([float(made.linkage.second_crank) + apart, 0.0])
+        near = replace(made.linkage, crank_joint=at, floating_link=np.array(floating))
+        found, _ = judged(task(REACH), near)
+        told = [each.message for each in found.defects if each.kind == "degenerate"]
+        assert bool(told) == degenerate
+        if degenerate:
+            assert "shorter than 1/200 of the motion's span" in told[0]
+            assert not found.usable

@@ -202,9 +202,10 @@ def near_dead_point_defect(
 def order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames) -> Defect:
     """The defect of linkage k, which meets its poses in another order."""
     on_circuit, order = traversal.on_circuit[k], traversal.order
-    # At a change point the linkage may go either way.
-    passed = traversal.circuits.near_change_point[k]
-    passed = passed and ranged.least_transmission[k] < DEAD_POINT_ANGLE
+    # At a change point the linkage may go either way: it passes one where the range comes to it,
+    # and wherever it goes from one branch to another.
+    passed = ranged.least_transmission[k] < DEAD_POINT_ANGLE or traversal.crosses_branches[k]
+    passed = passed and traversal.circuits.near_change_point[k]
     certain = order.back[k] > CERTAIN_STEP_BACK and not traversal.order_doubtful[k] and not passed
     poses = np.flatnonzero(on_circuit)
     steps = np.round(order.along[k][on_circuit] / (REPEATED_POSE_STEP * traversal.step_unit[k]))

@@ -148,6 +148,10 @@ class Evaluation:
         candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
         if self.target.path is not None:
             return self._judged(self._along_path(candidates))
+        own, frames = candidates.own, self.target.frames
+        if own is None:  # judged by the numbers that are told, to the last digit
+            own = candidates.batch.from_canonical(frames)
+            candidates = candidates._replace(own=own, batch=own.to_canonical(frames))
         every, boxes = np.arange(len(candidates.batch)), self.target.boxes
         index, rows = places_to_judge(candidates.batch, self.target)
         if boxes is not None:

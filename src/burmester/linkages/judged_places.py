@@ -38,8 +38,8 @@ class NearestPlaces(NamedTuple):
 
     @classmethod
     def of(cls, batch: LinkageBatch, target: Target) -> NearestPlaces:
-        """Those of linkages (k,)."""
-        found = on_circuits(batch, target.poses, target.length)
+        """Those of linkages (k,), whichever of their dyads is the first."""
+        found = on_circuits(_in_one_order(batch), target.poses, target.length)
         both, wanted = (rows_of(each, target.length) for each in (found, target.poses))
         cost = np.nan_to_num(target.cost(both), nan=np.inf)
         one = both[np.arange(len(both)), cost.argmin(axis=1)]
@@ -60,11 +60,24 @@ def places_to_judge(batch: LinkageBatch, target: Target) -> tuple[NDArray[np.int
     """
     near = NearestPlaces.of(batch, target)
     both = near.both
-    exists = np.isfinite(both).all(axis=(-1, -2))
+    exists = np.asarray(np.isfinite(both).all(axis=(-1, -2)))
     mixed = np.where(np.isfinite(near.best).all(axis=(1, 2), keepdims=True), near.best, near.one)
     every = np.concatenate([both, mixed[:, None]], axis=1)
     index, way = np.nonzero(np.column_stack([exists, near.apart | ~exists.any(axis=1)]))
     return index, every[index, way]
+
+
+def _in_one_order(batch: LinkageBatch) -> LinkageBatch:
+    """The same linkages, their dyads in the order of kinds and dimensions.
+
+    The search for the nearest places samples the motion by the first dyad's input.
+    """
+    numbers = np.concatenate([batch.kinds[..., None], batch.dimensions], axis=-1)
+    gap = numbers[:, 1] - numbers[:, 0]
+    first = np.take_along_axis(gap, (gap != 0).argmax(axis=1)[:, None], axis=1)[:, 0]
+    order = np.where((first < 0)[:, None], (1, 0), (0, 1))
+    every = np.arange(len(batch))[:, None]
+    return LinkageBatch(batch.kinds[every, order], batch.dimensions[every, order])
 
 
 def best_places(found: Sequence[FoundLinkage]) -> int:

@@ -35,7 +35,7 @@ from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.motion import joints_at, poses_of, transmission
 from burmester.sixbar.nearest_places import PoseMeasure, nearest_drives
 from burmester.sixbar.requirement_check import violations
-from burmester.sixbar.standard import SAME_PIN, least_bars, shortcomings
+from burmester.sixbar.standard import least_bars, shortcomings
 from burmester.sixbar.travel import Travel, least_transmission
 from burmester.sixbar.watt import Drive, WattLinkage
 from burmester.tasks.problem import SynthesisProblem
@@ -261,9 +261,9 @@ def _verdict(driven: _OneDriver, k: int, problem: SynthesisProblem) -> _Verdict:
 
 
 def _degenerate(linkage: WattLinkage, problem: SynthesisProblem) -> list[Defect]:
-    """That two joints of one link are too near to each other, if they are not one pin."""
+    """That two joints of one link are too near to each other."""
     lengths, least = linkage.lengths(), least_bars(problem)
-    short = (lengths < least) & (lengths > SAME_PIN * problem.motion_size)
+    short = lengths < least
     if not short.any():
         return []
     at = int(np.where(short, lengths, np.inf).argmin())

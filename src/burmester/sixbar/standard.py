@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import Final
 
 import numpy as np
 
@@ -22,9 +21,7 @@ from burmester.verdicts.standard import (
 )
 from burmester.wording import figure
 
-__all__ = ["SAME_PIN", "least_bars", "shortcomings"]
-
-SAME_PIN: Final = 1e-9  # sizes of the motion; joints of one link that are nearer are one pin
+__all__ = ["least_bars", "shortcomings"]
 
 
 def shortcomings(

@@ -37,6 +37,7 @@ __all__ = ["USABLE", "Scales", "pair_linkages"]
 PLACES_AT_ONCE = 1500  # of linkages computed together; their samples fit a cache
 RADIAN = 1.0  # in its own unit
 USABLE, DEGENERATE = map(LinkageRows.VERDICTS.index, ("usable", "degenerate"))
+OF_ANY_DRIVER = [*map(LinkageRows.VERDICTS.index, ("assembly", "circuit"))]
 
 Indices = NDArray[np.intp]
 Mask = NDArray[np.bool_]
@@ -145,9 +146,38 @@ def _judged(
     pairs = pairs._replace(batch=pairs.batch.to_canonical(frames))
     sound = np.flatnonzero(sizable(pairs.batch, size))
     pairs, frames, unit, size = take((pairs, frames, unit, size), sound)
-    batch, wanted = pairs.batch, frames.to_canonical(poses[pairs.task])
+    wanted = frames.to_canonical(poses[pairs.task])
     share = shares(None if weights is None else weights[pairs.task], wanted.shape)
-    rows = _places(batch, wanted, share)
+    here = _Here(pairs, wanted, share, unit, size)
+    # On the nearer circuit first; where a linkage does not work there, elsewhere too.
+    index, rows, first = _ways(pairs.batch, wanted, share)
+    told = _at_places(take(here, index[first]), rows[first], scales)
+    failed = np.zeros(len(size), dtype=bool)
+    failed[index[first][told.verdict != USABLE]] = True
+    more = ~first & failed[index]
+    out = concatenate([told, _at_places(take(here, index[more]), rows[more], scales)])
+    index = np.concatenate([index[first], index[more]])
+    best = np.lexsort([out.combined, out.verdict != USABLE, index])
+    return take(out, best[np.unique(index[best], return_index=True)[1]])
+
+
+class _Here(NamedTuple):
+    """Linkages (k,) with their poses (k, N) in frames of their own, the share of each pose.
+
+    unit: of the frames, in the task's; size: of the motion, in the frames.
+    """
+
+    pairs: _Pairs
+    wanted: Displacement
+    share: FloatArray
+    unit: FloatArray
+    size: FloatArray
+
+
+def _at_places(here: _Here, rows: FloatArray, scales: Scales) -> LinkageRows:
+    """Linkages (k,) judged at places (k, N, 3)."""
+    pairs, wanted, share, unit, size = here
+    batch = pairs.batch
     places, gap = places_of(rows, RADIAN), rows - rows_of(wanted, RADIAN)
     away = np.hypot(gap[..., 0], gap[..., 1])
     turn = np.abs(wrapped_angle(places.angle - wanted.angle))
@@ -185,12 +215,19 @@ def _judged(
         out.extent[exists] = quality[1] * (unit / scales.motion[pairs.task])[exists]
     shortest = unit * np.fmin.reduce(pin_distances(batch), axis=1, initial=np.inf)
     degenerate = (shortest < scales.least[pairs.task]) | (out.sensitivity > MAX_SENSITIVITY)
-    out.verdict[degenerate & (out.verdict == USABLE)] = DEGENERATE
+    # As `FoundLinkage` has them: after assembly and circuit, before what depends on the driver.
+    out.verdict[degenerate & ~np.isin(out.verdict, OF_ANY_DRIVER)] = DEGENERATE
     return out
 
 
-def _places(batch: LinkageBatch, wanted: Displacement, share: FloatArray) -> FloatArray:
-    """Rows (k, N, 3) of the places nearest to poses (k, N), on one circuit unless it is far off."""
+def _ways(
+    batch: LinkageBatch, wanted: Displacement, share: FloatArray
+) -> tuple[Indices, FloatArray, Mask]:
+    """The ways (n,) to judge linkages (k,) at poses (k, N): whose, and their places (n, N, 3).
+
+    As `linkages.judged_places` has them, and which of them is the first of each linkage: on the
+    nearer circuit.
+    """
     rows, target = rows_of(on_circuits(batch, wanted, RADIAN), RADIAN), rows_of(wanted, RADIAN)
     gap = np.nan_to_num(((rows - target[:, None]) ** 2).sum(axis=-1), nan=np.inf)
     every = np.arange(len(batch))
@@ -198,8 +235,13 @@ def _places(batch: LinkageBatch, wanted: Displacement, share: FloatArray) -> Flo
     one, best = rows[every, near], rows_of(nearest(places_of(rows, RADIAN), wanted, RADIAN), RADIAN)
     away = np.sqrt(gap[every, near].max(axis=1))
     least = np.sqrt(gap.min(axis=1).max(axis=1))
-    apart = away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)
-    return np.where(apart[:, None, None], best, one)
+    apart = (away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)) & np.isfinite(least)
+    exists = np.asarray(np.isfinite(rows).all(axis=(-1, -2)))
+    none = ~exists.any(axis=1)
+    mixed = np.where(np.isfinite(least)[:, None, None], best, one)
+    index, way = np.nonzero(np.column_stack([exists, apart | none]))
+    first = way == np.where(none, 2, near)[index]
+    return index, np.concatenate([rows, mixed[:, None]], axis=1)[index, way], first
 
 
 def _better_side(verdict: Verdict) -> int:
