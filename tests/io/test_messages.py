@@ -704,6 +704,12 @@ CASES: dict[str, Case] = {
         Args(f'{S} --rail "direction:0 travel:box:-20,-9:20,9"'),
         ALL,
     ),
+    "rail beside its travel": Case(
+        "E138",
+        f'{S} --rail "direction:0 through:0,0 travel:box:-9,1:9,2"',
+        Args(f'{S} --rail "direction:0 through:0,0 travel:box:-9,-1:9,2"'),
+        ALL,
+    ),
     "rail of a link": Case(
         "E132",
         f"{S} --rail direction:0 --kinds RR --kinds any",
