@@ -72,6 +72,7 @@ if TYPE_CHECKING:
     from burmester.synthesis.result import Synthesis as Synthesis
     from burmester.tasks.limits import Limits as Limits
     from burmester.tasks.motion_task import Task as Task
+    from burmester.tasks.rails import Rail as Rail
     from burmester.tasks.requirements import Requirements as Requirements
     from burmester.tasks.surroundings import KeepOut as KeepOut
     from burmester.tasks.surroundings import Surroundings as Surroundings
@@ -95,6 +96,7 @@ _ROOMS = {
     "InputError": "errors",
     "KeepOut": "tasks.surroundings",
     "Limits": "tasks.limits",
+    "Rail": "tasks.rails",
     "Line": "geometry.regions",
     "Linkage": "fourbar.linkage",
     "Point": "geometry.regions",
@@ -163,6 +165,7 @@ __all__ = [
     "Polygon",
     "PoseError",
     "Progress",
+    "Rail",
     "Requirements",
     "Result",
     "ResultLinkage",

@@ -299,12 +299,12 @@ def test_every_block_is_tried_below():
         "pose_sigma",
         "[[keep_out]]",
     ]
-    starts += ["[surroundings]", "[limits]", "[[limits]]", "[requirements]"]
+    starts += ["[surroundings]", "[limits]", "[[limits]]", "[[limits]] #", "[requirements]"]
     assert [start.startswith(each) for start, each in zip(blocks(), starts, strict=True)] == [
         True
-    ] * 11
+    ] * 12
     keys = ("weight", "name", "exact", "tolerance", "free", "axes")
-    keys += ("fixed_pivot", "moving_pivot", "length", "kinds", *FILE_KEYS)
+    keys += ("fixed_pivot", "moving_pivot", "length", "kinds", "rail", *FILE_KEYS)
     for key in keys:
         assert re.search(rf"\b{key} = ", templates.text()), key
 
@@ -375,6 +375,9 @@ def test_blocks_of_limits_and_requirements():
     assert (len(one), len(two)) == (1, 2)
     assert (one[0].length, one[0].kinds) == ((20, 100), {"RR", "PR"})
     assert two[1].kinds == {"RR"}
+    slider, link = read(uncommented("[[limits]] # the slider")).limits
+    assert (slider.allowed, link.allowed) == ({"PR"}, {"RR"})
+    assert (slider.rail.direction_deg, slider.rail.tolerance_deg) == (30, 30)
     asked = read(uncommented("[requirements]")).requirements
     assert math.degrees(asked.transmission) == pytest.approx(40)
     assert (asked.link_ratio, asked.within, asked.driver) == (5, 0.5, "any")

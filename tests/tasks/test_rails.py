@@ -31,6 +31,19 @@ def test_a_rail_that_is_malformed(stated, message):
     assert caught.value.code == "E137"
 
 
+def test_a_line_that_misses_the_travel():
+    """A square two units beside the line through the origin: within 45° it is met."""
+    far = box((2, 2), (3, 3))
+    with pytest.raises(InputError, match="misses the travel of its pin by 2") as caught:
+        Rail(0, through=Point([0, 0]), travel=far)
+    assert caught.value.code == "E138"
+    with pytest.raises(InputError, match="misses"):
+        Rail(0, 33, Point([0, 0]), far)
+    Rail(0, 34, Point([0, 0]), far)  # atan(2 / 3) is 33.69°
+    Rail(0, through=Segment([0, -9], [0, 9]), travel=far)
+    Rail(through=Point([0, 0]), travel=far)
+
+
 @pytest.mark.parametrize(
     "limits",
     [

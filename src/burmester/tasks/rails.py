@@ -3,7 +3,7 @@
 The rail of a PR dyad lies on the ground: its line and the pin's places are seen in F.  The slot of
 an RP dyad lies in the body: all of it is seen in M.
 
-E137 (a rail that is malformed).
+E137 (a rail that is malformed), E138 (a rail whose line misses the travel of its pin).
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ from burmester.values import real_numbers, require_instance
 
 __all__ = ["Rail", "moved_region"]
 
+ROUNDING = 1e-9  # share of coordinates by which a line may miss its travel
+DIRECTIONS = 181  # number of directions in which a line may meet its travel
 HALF_TURN = 180.0  # degrees, after which a line has the same direction
 
 
@@ -46,7 +48,7 @@ class Rail:
     Raises
     ------
     InputError
-        E137 (malformed).
+        E137 (malformed), E138 (no line with that direction and place meets the travel).
 
     Examples
     --------
@@ -105,6 +107,28 @@ class Rail:
                 f"the line of a rail is given twice: its pin stays {self.travel}",
                 why="the pin of a straight rail runs along its line",
                 help="leave out direction and through, or give the travel as a box",
+            )
+
+        self._require_meeting()
+
+    def _require_meeting(self) -> None:
+        """Refuse a travel that no line meets with this direction and place: E138."""
+        if self.heading is None or self.anchors is None or not isinstance(self.travel, Polygon):
+            return
+        direction, within = self.heading
+        angle = direction + np.pi / 2 + within * np.linspace(-1, 1, DIRECTIONS)
+        low, high = self._offsets(angle)
+        normal = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+        across = normal @ self.travel.vertices.T
+        slack = ROUNDING * max(np.abs(self.travel.vertices).max(), np.abs(self.anchors).max())
+        beside = np.maximum(across.min(axis=-1) - high, low - across.max(axis=-1))
+        if (miss := float(beside.min())) > slack:
+            raise InputError(
+                "E138",
+                f"the line of a rail misses the travel of its pin by {miss:.3g}",
+                why=f"the rail is {self}",
+                help="widen the travel, move what the rail passes through, or give the direction a "
+                "greater tolerance",
             )
 
     def __str__(self) -> str:

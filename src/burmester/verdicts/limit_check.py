@@ -86,7 +86,8 @@ def _off_rail(
         off, within = float(rail.turned(line[0])), rail.heading[1]
         if not abs(off) <= within + LIMIT_TOLERANCE:
             allowed = f"at most {math.degrees(within):g}°" if within else "no angle"
-            yield f"its {what} is turned by {math.degrees(off):.3g}°; {allowed} is allowed"
+            turned = f"its {what} is turned by {math.degrees(off):.3g}° from its direction"
+            yield f"{turned}; {allowed} is allowed"
     if not (beside := float(rail.passed(*line))) <= slack:
         place = "the line of its travel" if rail.is_thin else "what it is to pass through"
         yield f"its {what} lies {_length(beside, unit)} beside {place}"

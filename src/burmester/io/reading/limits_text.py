@@ -2,15 +2,16 @@
 
 A region is X,Y (a point) or line:X,Y:X,Y, segment:X,Y:X,Y, box:X,Y:X,Y or
 polygon:X,Y:X,Y:X,Y with any more corners; a length is MIN:MAX, either side may be empty; kinds
-are RR,PR.  `any` is no limit.  Numbers have a decimal point; what does not fit is E131, with a
-caret below the text.
+are RR,PR.  A rail or slot is direction:DEG+-DEG, through:REGION and travel:REGION, or some of them,
+with blanks between.  `any` is no limit.  Numbers have a decimal point; what does not fit is E131,
+with a caret below the text.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -19,6 +20,7 @@ from burmester.geometry.regions import Region
 from burmester.io.reading.pose_table import Source, plain_number, shown
 from burmester.io.reading.specification import SHAPES, LengthRange, OptionalKinds, Specification
 from burmester.tasks.limits import KINDS, Kind
+from burmester.tasks.rails import Rail
 
 __all__ = [
     "ANY",
@@ -31,6 +33,10 @@ __all__ = [
 
 ANY = "any"
 REGION_HELP = "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
+RAIL_HELP = (
+    "write direction:DEG or direction:DEG+-DEG, through:REGION and travel:REGION, or some of them, "
+    'such as "direction:0+-2 through:0,0", or any'
+)
 LENGTH_HELP = "write 10:200, 10: for at least 10, :200 for at most 200, or any"
 
 T = TypeVar("T")
@@ -46,8 +52,6 @@ def limits_from_options(
     slot: Sequence[str] = (),
 ) -> Specification:
     """The limits in the texts of the options; raises E131, E132 for an empty box, and E137."""
-    from burmester.io.reading.rails_text import rail_from_text
-
     given = {
         "fixed_pivot": fixed_pivot,
         "moving_pivot": moving_pivot,
@@ -61,8 +65,8 @@ def limits_from_options(
         _each(moving_pivot, "--moving-pivot", region_from_text),
         _each(length, "--length", _length),
         _each(kinds, "--kinds", _kinds),
-        _each(rail, "--rail", rail_from_text),
-        _each(slot, "--slot", rail_from_text),
+        _each(rail, "--rail", _rail),
+        _each(slot, "--slot", _rail),
         {n: option_text(f"--{n.replace('_', '-')}", texts) for n, texts in given.items() if texts},
     )
 
@@ -145,6 +149,40 @@ def _kinds(source: Source) -> OptionalKinds:
         kinds.update(known)
         at += len(item) + 1
     return frozenset(kinds)
+
+
+def _rail(source: Source) -> Rail:
+    """The rail in a text; raises E131 and E137."""
+    stated: dict[str, Any] = {}
+    at = 0
+    for word in source.text.split():
+        at = source.text.index(word, at)
+        name, _, rest = word.partition(":")
+        part, begin = Source(source.label, rest), at + len(name) + 1
+        fault = None
+        if name not in ("direction", "through", "travel") or not rest:
+            fault = f"{shown(word)} says nothing of a rail"
+        elif name in stated or f"{name}_deg" in stated:
+            fault = f"{name} is given twice"
+        if fault is not None:
+            raise option_fault(source, fault, RAIL_HELP, at=at, width=len(word))
+        if name == "direction":
+            mark = "±" if "±" in rest else "+-"
+            angle, within, tolerance = rest.partition(mark)
+            stated["direction_deg"] = number_from_text(source, angle, begin)
+            if within:
+                place = begin + len(angle) + len(mark)
+                stated["tolerance_deg"] = number_from_text(source, tolerance, place)
+        else:
+            stated[name] = region_from_text(part)
+        at += len(word)
+    if not stated:
+        raise option_fault(source, "it is empty", RAIL_HELP)
+    try:
+        return Rail(**stated)
+    except InputError as error:
+        error.where = error.where or source.where(0, len(source.text))
+        raise
 
 
 def number_from_text(source: Source, cell: str, at: int, code: str = "E131") -> float:
