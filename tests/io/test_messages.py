@@ -118,6 +118,7 @@ ODD_PAIR = (
 LOCKED = "input_deg,output_deg\n0,0\n40,80\n80,20\n120,90\n160,10\n"
 TOLERANT = "x,y,angle_deg,tol_{},tol_{}\n" + ROWS.replace("\n", ",0.1,0.2\n")
 DIRECTIONS = table(written(crank_rocker(), "directions"), "x,y,cos,sin")
+DIRECTION_ROWS = DIRECTIONS.partition("\n")[2]
 BOXES = "--fixed-pivot box:-50,-100:150,20 --moving-pivot box:-60,-60:60,60"
 WIDE = "--fixed-pivot box:-200,-200:250,250 --moving-pivot box:-150,-150:150,150"
 FEW = {"poses.csv": "\n".join(FIVE.splitlines()[:4])}
@@ -399,10 +400,8 @@ CASES: dict[str, Case] = {
     "no header above cosine and sine": Case(
         "E105",
         S,
-        lambda help: Write(
-            "poses.csv", f"{in_backticks(help)}\n{DIRECTIONS.partition(chr(10))[2]}"
-        ),
-        {"poses.csv": DIRECTIONS.partition("\n")[2]},
+        lambda help: Write("poses.csv", f"{in_backticks(help)}\n{DIRECTION_ROWS}"),
+        {"poses.csv": DIRECTION_ROWS},
     ),
     "no header above five columns": Case(
         "E105",

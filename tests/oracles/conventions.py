@@ -24,6 +24,10 @@ def crank_rocker(count=12, first=20.0, step=24.0, decimals=4):
     return rows
 
 
+def _rounded(turn, decimals=6):
+    return round(turn.real, decimals), round(turn.imag, decimals)
+
+
 def table(rows, header="x,y,angle_deg"):
     """Rows as a CSV file."""
     return header + "\n" + "".join(",".join(f"{v:.8g}" for v in row) + "\n" for row in rows)
@@ -37,12 +41,7 @@ def written(rows, *conventions):
         "swap-xy": lambda x, y, a: (y, x, a),
         "radians": lambda x, y, a: (x, y, round(math.radians(a), 6)),
         "degrees": lambda x, y, a: (x, y, math.degrees(a)),
-        "directions": lambda x, y, a: (
-            x,
-            y,
-            round(math.cos(math.radians(a)), 6),
-            round(math.sin(math.radians(a)), 6),
-        ),  # fmt: skip
+        "directions": lambda x, y, a: (x, y, *_rounded(cmath.rect(1, math.radians(a)))),
     }
     for name in conventions:
         rows = [change[name](*row) for row in rows]

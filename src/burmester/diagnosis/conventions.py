@@ -148,15 +148,16 @@ def other_convention(
     comparison = _Comparison(poses, weights, *(each / math.sqrt(3) for each in task.resolution))
     if comparison.fits_as_read(dyads):
         return None
-    found, bound = comparison.likeliest()
-    if found is None:
-        return None
-    error = comparison.least_error(found, found.ratio)
-    if not comparison.is_certain(found, bound, error):
-        return None
-    as_read = comparison.least_error(AS_READ, found.ratio_as_read, dyads)
-    if not comparison.is_certain(found, as_read, error):
-        return None
+    with np.errstate(all="ignore"):  # angles that are taken for what they are not
+        found, bound = comparison.likeliest()
+        if found is None:
+            return None
+        error = comparison.least_error(found, found.ratio)
+        if not comparison.is_certain(found, bound, error):
+            return None
+        as_read = comparison.least_error(AS_READ, found.ratio_as_read, dyads)
+        if not comparison.is_certain(found, as_read, error):
+            return None
     length = comparison.length
     return OtherConvention(task, found.names, as_read * length, error * length)
 
