@@ -47,6 +47,7 @@ from burmester.wording import figure
 
 __all__ = ["OtherConvention", "other_convention"]
 
+COMPARING = "comparing each pose with the others"  # with odd_pose, as one step
 MIN_POSES = 7  # distinct ones; any six fit too well in both readings
 MAX_POSES = 60  # of more distinct ones so many are looked at, evenly chosen
 MIN_ERROR_RATIO = 30.0  # of the errors as read to those in the other convention
@@ -139,7 +140,7 @@ def other_convention(
     Weights count; limits, tolerances and requirements have no part.
     dyads: the best of all poses, where they are known; that saves time.
     """
-    if motion.distinct < MIN_POSES or not time_for("comparing conventions of angles", whole=True):
+    if motion.distinct < MIN_POSES or not time_for(COMPARING, whole=True):
         return None
     some = even_numbers(motion.distinct, MAX_POSES)
     poses, weights = task.poses[motion.first[some]], None
