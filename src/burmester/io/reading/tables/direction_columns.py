@@ -67,4 +67,5 @@ def are_directions(cosine: Sequence[str], sine: Sequence[str]) -> bool:
 
 def _tolerance(printed: float) -> float:
     """Of a direction's length, printed with so many decimals."""
-    return min(MAX_LENGTH_ERROR + math.sqrt(0.5) * 10.0**-printed, MOST_LENGTH_ERROR)
+    last_digit: float = 10.0**-printed
+    return min(MAX_LENGTH_ERROR + math.sqrt(0.5) * last_digit, MOST_LENGTH_ERROR)
