@@ -44,6 +44,7 @@ from burmester.io.result import failure, synthesis_data
 from burmester.io.saved import read_result
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.traced_path import TracedPath
+from tests.oracles.conventions import crank_rocker, table, written
 from tests.oracles.coupler_curves import CABRERA, CABRERA_TURNS
 from tests.oracles.drawings import svg
 from tests.oracles.measured import as_csv, measured
@@ -115,6 +116,9 @@ ODD_PAIR = (
     "70,84.57\n80,88.63\n90,90\n"
 )
 LOCKED = "input_deg,output_deg\n0,0\n40,80\n80,20\n120,90\n160,10\n"
+TOLERANT = "x,y,angle_deg,tol_{},tol_{}\n" + ROWS.replace("\n", ",0.1,0.2\n")
+DIRECTIONS = table(written(crank_rocker(), "directions"), "x,y,cos,sin")
+DIRECTION_ROWS = DIRECTIONS.partition("\n")[2]
 BOXES = "--fixed-pivot box:-50,-100:150,20 --moving-pivot box:-60,-60:60,60"
 WIDE = "--fixed-pivot box:-200,-200:250,250 --moving-pivot box:-150,-150:150,150"
 FEW = {"poses.csv": "\n".join(FIVE.splitlines()[:4])}
@@ -392,6 +396,38 @@ CASES: dict[str, Case] = {
         S,
         lambda help: Write("poses.csv", f"{in_backticks(help)}\n{ROWS}"),
         {"poses.csv": ROWS},
+    ),
+    "no header above cosine and sine": Case(
+        "E105",
+        S,
+        lambda help: Write("poses.csv", f"{in_backticks(help)}\n{DIRECTION_ROWS}"),
+        {"poses.csv": DIRECTION_ROWS},
+    ),
+    "no header above five columns": Case(
+        "E105",
+        S,
+        Args(f"{S} --columns x,y,angle_deg,weight,#mark"),
+        {"poses.csv": ROWS.replace("\n", ",1,7\n")},
+    ),
+    "no such convention": Case(
+        "E115", f"{S} --convention ydown", Args(f"{S} --convention y-down"), {"poses.csv": FIVE}
+    ),
+    "a convention of points": Case(
+        "E115", f"{S} --convention clockwise", Args(S), {"poses.csv": POINTS}
+    ),
+    "a convention of tolerances": Case(
+        "E115",
+        f"{S} --convention swap-xy",
+        lambda _: Write(
+            "poses.csv", TOLERANT.format("x", "y").replace("x,y,angle", "y,x,angle"), S
+        ),
+        {"poses.csv": TOLERANT.format("x", "y")},
+    ),
+    "no direction": Case(
+        "E116",
+        S,
+        Edit("poses.csv", "0.8,0.2", "0.8,0.6"),
+        {"poses.csv": "x,y,cos,sin\n0,0,1,0\n3,1,0.8,0.2\n4,3,0.3420,0.9397\n"},
     ),
     "no column y": Case(
         "E105",
@@ -1226,6 +1262,27 @@ CASES: dict[str, Case] = {
         lambda help: Args(f"{S} " + re.search(r"--drop \d+", help)[0]),
         {"poses.csv": TEN.replace("52.87", "52.67")},
         exit=0,
+    ),
+    "angles that count clockwise": Case(
+        "W242",
+        "check poses.csv",
+        lambda help: Args(f"check poses.csv {re.search('--convention clockwise', help)[0]}"),
+        {"poses.csv": table(written(crank_rocker(), "clockwise"))},
+        exit=1,
+    ),
+    "radians for degrees": Case(
+        "W242",
+        "check poses.csv",
+        lambda help: Args(f"check poses.csv {re.search('--convention radians$', help)[0]}"),
+        {"poses.csv": table(written(crank_rocker(), "radians"))},
+        exit=1,
+    ),
+    "a cosine for an angle": Case(
+        "W243",
+        "check poses.csv",
+        lambda help: Args(f"check poses.csv --columns {re.search('x,y,cos,sin', help)[0]}"),
+        {"poses.csv": DIRECTIONS.replace("cos,sin", "angle_deg,#4")},
+        exit=1,
     ),
     "two poses exchanged": Case(
         "W202",

@@ -47,6 +47,7 @@ from burmester.wording import figure
 
 __all__ = ["OtherConvention", "other_convention"]
 
+COMPARING = "comparing each pose with the others"  # with odd_pose, as one step
 MIN_POSES = 7  # distinct ones; any six fit too well in both readings
 MAX_POSES = 60  # of more distinct ones so many are looked at, evenly chosen
 MIN_ERROR_RATIO = 30.0  # of the errors as read to those in the other convention
@@ -139,7 +140,7 @@ def other_convention(
     Weights count; limits, tolerances and requirements have no part.
     dyads: the best of all poses, where they are known; that saves time.
     """
-    if motion.distinct < MIN_POSES or not time_for("comparing conventions of angles", whole=True):
+    if motion.distinct < MIN_POSES or not time_for(COMPARING, whole=True):
         return None
     some = even_numbers(motion.distinct, MAX_POSES)
     poses, weights = task.poses[motion.first[some]], None
@@ -148,15 +149,16 @@ def other_convention(
     comparison = _Comparison(poses, weights, *(each / math.sqrt(3) for each in task.resolution))
     if comparison.fits_as_read(dyads):
         return None
-    found, bound = comparison.likeliest()
-    if found is None:
-        return None
-    error = comparison.least_error(found, found.ratio)
-    if not comparison.is_certain(found, bound, error):
-        return None
-    as_read = comparison.least_error(AS_READ, found.ratio_as_read, dyads)
-    if not comparison.is_certain(found, as_read, error):
-        return None
+    with np.errstate(all="ignore"):  # angles that are taken for what they are not
+        found, bound = comparison.likeliest()
+        if found is None:
+            return None
+        error = comparison.least_error(found, found.ratio)
+        if not comparison.is_certain(found, bound, error):
+            return None
+        as_read = comparison.least_error(AS_READ, found.ratio_as_read, dyads)
+        if not comparison.is_certain(found, as_read, error):
+            return None
     length = comparison.length
     return OtherConvention(task, found.names, as_read * length, error * length)
 

@@ -319,10 +319,11 @@ def _require_header(source: Source, first: re.Match[str], where: str) -> None:
             + f", or pass --columns {','.join(names)}"
         )
     else:
+        points = "`px,py,qx,qy`" if len(cells) == len(POINTS) else "px, py, qx and qy"
         help = (
             f"name the {len(cells)} columns in a line on top, or in --columns: x, y and angle_deg "
-            "(or angle_rad, or cos and sin), or px, py, qx and qy for two points; weight; and a "
-            "name that begins with # for a column to be passed over"
+            f"(or angle_rad, or cos and sin), or {points} for two points; weight; and a name that "
+            "begins with # for a column to be passed over"
         )
     above = source.text[: first.start()].rstrip("\n").rpartition("\n")[2].strip()
     if above.startswith("#") and _is_header(above.lstrip("# ")):

@@ -5,6 +5,7 @@ E116 two numbers that are no cosine and sine of one angle
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -15,6 +16,7 @@ from burmester.io.reading.pose_table import NUMBER, Rows, decimals
 __all__ = ["MAX_COSINE", "are_directions", "direction_notes", "require_directions"]
 
 MAX_LENGTH_ERROR = 0.02  # of a direction's length 1, beyond what its digits explain
+MOST_LENGTH_ERROR = 0.1  # the same with what digits explain, where these are few
 MAX_COSINE = 1.1  # numbers beyond it are no cosines
 LEAST_ROWS = 4  # of which all directions have length 1; fewer may do so by chance
 
@@ -65,4 +67,5 @@ def are_directions(cosine: Sequence[str], sine: Sequence[str]) -> bool:
 
 def _tolerance(printed: float) -> float:
     """Of a direction's length, printed with so many decimals."""
-    return MAX_LENGTH_ERROR + 10.0**-printed
+    last_digit: float = 10.0**-printed
+    return min(MAX_LENGTH_ERROR + math.sqrt(0.5) * last_digit, MOST_LENGTH_ERROR)
