@@ -73,6 +73,23 @@ def test_stated_errors_name_the_pin_from_both_origins(tmp_path, sigma):
         assert isinstance(classify_motion(stated).kind, Rotation)
 
 
+@pytest.mark.parametrize(("column", "by"), [("x", 6.0), ("angle", 12.0)])
+def test_a_bad_row_among_poses_that_scatter_is_named(tmp_path, column, by):
+    rows = np.array([row.split(",") for row in NOISY_AWAY.split()], float)
+    rows[4, 0 if column == "x" else 2] += by
+    text = " ".join(",".join(f"{value:.3f}" for value in row) for row in rows)
+    outcome = synthesize(read(tmp_path / "door.csv", text)).outcome
+    assert outcome.code == "R315"
+    off = by if column == "x" else 2 * 239.84 * np.sin(np.radians(by / 2))
+    x, y, _, _, stated = map(float, re.findall(r"-?\d+\.?\d*", outcome.message)[:5])
+    assert np.hypot(x, y) < 0.2
+    assert stated == pytest.approx(off, rel=0.1)
+    assert "at every pose but pose 5" in outcome.message
+    assert outcome.help.startswith("correct pose 5 or leave it out")
+    left = " ".join(row for number, row in enumerate(text.split()) if number != 4)
+    assert classify_motion(read(tmp_path / "door.csv", left)).kind.odd is None
+
+
 def test_scatter_that_is_meant_is_marked_as_exact(tmp_path):
     task = read(tmp_path / "door.csv", AT_PIN)
     kind = classify_motion(task).kind
