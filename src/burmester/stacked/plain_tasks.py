@@ -57,9 +57,11 @@ def plain_tasks(
     most = max(2, CONDITIONS + 3 - count)  # quadrics
     plain = nullity <= most
     plain &= ~motions.constant_angle & ~motions.about_point & motions.differ()
-    plain &= ~is_scatter(motions.residual, motions.turn)
     plain &= odd_one(motions.residual, motions.turn) < 0
-    special = (values[:, 2] <= FAR_FROM_SPECIAL * tolerance) | is_steady(motions.turn)
+    steady = is_steady(motions.turn)
+    may = np.flatnonzero(plain & steady)
+    plain[may] = ~is_scatter(motions.residual[may], motions.turn[may])
+    special = (values[:, 2] <= FAR_FROM_SPECIAL * tolerance) | steady
     near = np.flatnonzero(plain & special)
     if len(near):
         some = motions.take(near)

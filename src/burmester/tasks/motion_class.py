@@ -298,7 +298,7 @@ def _scattered_rotation(
     most_scatter: float,
     unit: str | None,
 ) -> Rotation | None:
-    """The rotation about which the poses scatter, all or all but one, where none is exact."""
+    """The rotation about which poses scatter, all or all but one, where none is exact."""
     d, turn, residual = motion.d, motion.turn, motion.residual
     centre, minus_m, odd = motion.c, motion.minus_m, int(odd_one(residual, turn))
     kept = np.arange(len(d)) != odd
