@@ -1233,6 +1233,13 @@ CASES: dict[str, Case] = {
         {"poses.csv": rows("2,3,0 2,3,20 2,3,45 2,3,80 2,3,100")},
         exit=1,
     ),
+    "about a point but for scatter": Case(
+        "R315",
+        S,
+        Write("poses.csv", rows("0,0,0 0.3,0.1,20 0.8,0.4,45 1.4,1.3,80 1.5,1.9,100")),
+        {"poses.csv": rows("2,-1,0 -1,3,18 1,2,36 -3,1,54 0,-2,72 2,1,90")},
+        exit=1,
+    ),
     "two sliders": Case(
         "R316",
         S,

@@ -18,15 +18,17 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray, complex_of
 from burmester.numerics.bundles import take
 from burmester.stacked.task_stack import TaskStack
-from burmester.tasks.motion_class import (
-    LARGE_ROTATION,
-    MAX_COUNTED_POSES,
-    MAX_RESIDUAL_ERRORS,
-    max_residual_errors,
-)
+from burmester.tasks.motion_class import LARGE_ROTATION, MAX_COUNTED_POSES
 from burmester.tasks.motion_task import COARSE, CONDITIONS, MOST, MOST_RATIO, MOST_TURN
 from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
-from burmester.tasks.scatter import SLIDERS, is_scatter, is_steady
+from burmester.tasks.scatter import (
+    MAX_RESIDUAL_ERRORS,
+    SLIDERS,
+    is_scatter,
+    is_steady,
+    max_residual_errors,
+    odd_one,
+)
 
 __all__ = ["computable", "plain_tasks"]
 
@@ -55,8 +57,11 @@ def plain_tasks(
     most = max(2, CONDITIONS + 3 - count)  # quadrics
     plain = nullity <= most
     plain &= ~motions.constant_angle & ~motions.about_point & motions.differ()
-    plain[plain] = ~is_scatter(motions.residual[plain], motions.turn[plain])
-    special = (values[:, 2] <= FAR_FROM_SPECIAL * tolerance) | is_steady(motions.turn)
+    plain &= odd_one(motions.residual, motions.turn) < 0
+    steady = is_steady(motions.turn)
+    may = np.flatnonzero(plain & steady)
+    plain[may] = ~is_scatter(motions.residual[may], motions.turn[may])
+    special = (values[:, 2] <= FAR_FROM_SPECIAL * tolerance) | steady
     near = np.flatnonzero(plain & special)
     if len(near):
         some = motions.take(near)

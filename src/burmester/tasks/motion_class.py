@@ -10,10 +10,9 @@ constant, or in complex numbers, with turn = exp(i angle),
 or the inverse of the last, two points of F on lines of M.  All are linear in c, m and b.  A
 model holds where it misses no pose by more than the errors of the poses allow
 (`Task.resolution`, taken as a bound).  So a general motion is never taken for a special one, and
-few digits hide none.  A turn is also claimed where the residuals are scatter (`tasks/scatter`),
-whatever the errors are said to be.  Weights have no part in it: a motion does not depend on them.
-Nor do the origins of F and M: a body that turns about its own origin has no travel to compare
-errors with, so errors are compared with residuals alone.
+few digits hide none.  Turns and two sliders are also claimed where the residuals are scatter
+(`tasks/scatter`).  Weights have no part in it, nor has the origin of M: a body that turns about it
+has no travel to compare errors with, so errors are compared with residuals alone.
 """
 
 from __future__ import annotations
@@ -44,7 +43,14 @@ from burmester.tasks.repeated_poses import (
     rotation_range,
     spanning,
 )
-from burmester.tasks.scatter import SLIDERS, is_scatter, max_scatter
+from burmester.tasks.scatter import (
+    MAX_RESIDUAL_ERRORS,
+    SLIDERS,
+    is_scatter,
+    max_residual_errors,
+    max_scatter,
+    odd_one,
+)
 from burmester.tasks.special_motions import (
     CircularTranslation,
     FreeTranslation,
@@ -53,16 +59,13 @@ from burmester.tasks.special_motions import (
     TwoSliders,
 )
 
-__all__ = ["LARGE_ROTATION", "MotionClass", "classify_motion", "max_residual_errors"]
+__all__ = ["LARGE_ROTATION", "MotionClass", "classify_motion"]
 
-MAX_RESIDUAL_ERRORS = 2.0  # pose errors; a model with a greater residual does not hold
 MIN_NEXT_TERM_ERRORS = 100.0  # pose errors that one more term of a model makes, where it is sure
 # Pose errors, the same where it is claimed within the digits, and the rms residual of such a model.
 # By `benchmarks.two_slider_motions` up to 1 % of general motions are then taken for two sliders.
 LIKELY_NEXT_TERM_ERRORS, LIKELY_RMS_ERRORS = 20.0, 1.0
-LARGE_ROTATION = (
-    0.1  # radians, rms; a rotation as large shows by itself whether it is about a point
-)
+LARGE_ROTATION = 0.1  # radians, rms; as large a one shows by itself whether it is about a point
 MAX_COUNTED_POSES = 6  # that can be told apart; the class does not depend on more
 
 
@@ -159,7 +162,7 @@ class _RotationFit(NamedTuple):
     @classmethod
     def of(cls, poses: Displacement, resolution: tuple[float, float]) -> _RotationFit:
         d, turn = complex_of(poses.translation), np.exp(1j * poses.angle)
-        # Of a large rotation errors count as stated, since travel depends on the origin of M.
+        # The travel depends on the origin of M, so errors of a large rotation count as stated.
         large = _rms(turn - turn.mean()) >= LARGE_ROTATION
         turns = max(1.0, float(np.abs(poses.angle).max()))
         spread = _rms(d - d.mean())
@@ -209,15 +212,6 @@ class _RotationFit(NamedTuple):
         return bool(np.abs(miss).max() <= max_residual_errors(len(self.d)) * self.error(lever))
 
 
-def max_residual_errors(count: int) -> float:
-    """The greatest residual of `count` poses that errors alone explain, in pose errors.
-
-    Errors spread evenly never exceed it.  Of measured ones, which are normal, one in so many poses
-    may be greater: the bound is exceeded once in 20 tasks.
-    """
-    return max(MAX_RESIDUAL_ERRORS, float(np.sqrt(2 / 3 * np.log(20 * count))))
-
-
 def _tolerance(motion: _RotationFit) -> float:
     """The most that errors of the poses make of a singular value of zero."""
     error = motion.error(abs(motion.minus_m)) / (motion.length or 1.0) + motion.angle_error
@@ -232,7 +226,6 @@ def _kind(
         task.poses[first], motion.error(0.0), motion.angle_error, MAX_COUNTED_POSES
     )
     representatives = tuple(int(i) for i in first[apart])
-    most_scatter = max_scatter(task.poses.translation) if _may_scatter(task) else 0.0
     kind: MotionKind = General(nullity)
     if len(representatives) == 1:
         kind = Rest(count)
@@ -243,14 +236,10 @@ def _kind(
         kind = _translation(motion, unit)
     elif (rotation := _rotation(motion, unit)) is not None:
         kind = rotation
-    elif (sliders := _two_sliders(motion, most_scatter, unit)) is not None:
+    elif (sliders := _two_sliders(motion, max_scatter(task), unit)) is not None:
         kind = sliders
-    elif (
-        nullity <= max(0, 8 - distinct)
-        and motion.length <= most_scatter
-        and is_scatter(motion.residual, motion.turn)
-    ):
-        kind = _scattered_rotation(motion, unit)
+    elif scattered := _scattered_rotation(motion, first, nullity, max_scatter(task), unit):
+        kind = scattered
     elif len(representatives) < min(MAX_COUNTED_POSES, distinct):
         kind = FewPoses(count, representatives, len(representatives) == distinct)
     elif nullity > max(3, 8 - distinct):
@@ -259,11 +248,6 @@ def _kind(
     elif (angles := _two_angles(motion)) is not None:
         kind = TwoOrientations(angles, nullity)
     return kind
-
-
-def _may_scatter(task: Task) -> bool:
-    """Whether poses may have errors that nobody stated: none of them is meant exactly."""
-    return task.tolerances is None and (task.exact is None or not task.exact.any())
 
 
 # --- the models
@@ -307,11 +291,33 @@ def _rotation(motion: _RotationFit, unit: str | None) -> Rotation | None:
     return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, unit=unit)
 
 
-def _scattered_rotation(motion: _RotationFit, unit: str | None) -> Rotation:
-    free = motion.length / _rms(motion.turn - motion.turn.mean())
-    size = _rms(motion.d - motion.d.mean())
-    scatter = float(np.abs(motion.residual).max())
-    return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, scatter, unit)
+def _scattered_rotation(
+    motion: _RotationFit,
+    first: NDArray[np.int_],
+    nullity: int,
+    most_scatter: float,
+    unit: str | None,
+) -> Rotation | None:
+    """The rotation about which poses scatter, all or all but one, where none is exact."""
+    d, turn, residual = motion.d, motion.turn, motion.residual
+    centre, minus_m, odd = motion.c, motion.minus_m, int(odd_one(residual, turn))
+    kept = np.arange(len(d)) != odd
+    if odd >= 0:
+        residual, centre, minus_m = _rotation_residual(d[kept], turn[kept])
+    turned = _rms(turn[kept] - turn[kept].mean())
+    exact = (
+        _rms(residual) <= motion.error(abs(minus_m)) if odd >= 0 else nullity > max(0, 8 - len(d))
+    )
+    if exact or turned < LARGE_ROTATION or _rms(residual) > most_scatter:
+        return None
+    if not is_scatter(residual, turn[kept]):
+        return None
+    off = None
+    if odd >= 0:
+        off = int(first[odd]), float(abs(d[odd] - centre - minus_m * turn[odd]))
+    centres = _pairs_of(centre), _pairs_of(-minus_m)
+    free, size = _rms(residual) / turned, _rms(d[kept] - d[kept].mean())
+    return Rotation(*centres, free, size, float(np.abs(residual).max()), off, unit)
 
 
 def _two_sliders(motion: _RotationFit, most_scatter: float, unit: str | None) -> TwoSliders | None:

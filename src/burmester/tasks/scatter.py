@@ -1,4 +1,4 @@
-"""Whether what a model of a motion leaves over is scatter: noise from pose to pose.
+"""What a model of a motion leaves over: stated errors, or scatter, noise from pose to pose.
 
 What a linkage moves changes smoothly as the body turns; errors of measurement do not.  So where
 poses differ from a special motion by scatter alone, they tell nothing of another linkage, however
@@ -11,13 +11,27 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray
+from burmester.tasks.motion_task import Task
 
-__all__ = ["SLIDERS", "TURN", "is_scatter", "is_steady", "last_digit", "max_scatter"]
+__all__ = [
+    "MAX_RESIDUAL_ERRORS",
+    "SLIDERS",
+    "TURN",
+    "is_scatter",
+    "is_steady",
+    "last_digit",
+    "max_residual_errors",
+    "max_scatter",
+    "odd_one",
+]
+
+MAX_RESIDUAL_ERRORS = 2.0  # pose errors; a model with a greater residual does not hold
 
 # Powers of exp(i angle) in the model of a motion, then the next ones, by which linkages differ.
 TURN = (0, 1), (-1, 2)
 SLIDERS = (0, 1, -1), (2, -2)
 LEFT_OVER = 2  # poses more than powers, at least
+FEWEST = 6  # so many poses show that they scatter about a turn
 # Poses that show scatter of any size; fewer show scatter of few steps of the last digit.
 ENOUGH_POSES, MAX_STEPS = 8, 20.0
 MAX_TURN = np.radians(32)  # between two poses in a row; beyond it a linkage's motion looks rough
@@ -28,7 +42,17 @@ MIN_ROUGHNESS, MAX_ANGLE_ROUGHNESS = 1.4, 0.1
 # scattered turns are missed, and of 1500 motions of four-bars none is taken for a scattered turn
 # (`python -m benchmarks.two_origins`).
 MIN_SHARE_LEFT = 0.4
+ODD_SHARE = 15 / 16  # of the sum of squares goes with the one odd pose
 MAX_DECIMALS = 9
+
+
+def max_residual_errors(count: int) -> float:
+    """The greatest residual of `count` poses that errors alone explain, in pose errors.
+
+    Errors spread evenly never exceed it.  Of measured ones, which are normal, one in so many poses
+    may be greater: the bound is exceeded once in 20 tasks.
+    """
+    return max(MAX_RESIDUAL_ERRORS, float(np.sqrt(2 / 3 * np.log(20 * count))))
 
 
 def is_scatter(
@@ -63,11 +87,26 @@ def is_steady(turn: ComplexArray) -> NDArray[np.bool_]:
     return np.asarray(dense & (one_way | (rough < MAX_ANGLE_ROUGHNESS)))
 
 
-def max_scatter(positions: FloatArray) -> float:
-    """The greatest scatter, rms, that poses at positions (N, 2) can show to be scatter."""
-    if len(positions) >= ENOUGH_POSES:
+def odd_one(residual: ComplexArray, turn: ComplexArray) -> NDArray[np.int_]:
+    """The pose (*,) without which residuals (*, N) of a turn are a quarter, rms; -1 for none."""
+    around = turn - turn.mean(axis=-1, keepdims=True)
+    power = np.maximum(_power(around), np.finfo(np.float64).tiny)[..., None]
+    leverage = 1 / turn.shape[-1] + np.abs(around) ** 2 / power
+    saved = np.abs(residual) ** 2 / np.maximum(1 - leverage, ROUNDING)
+    odd = saved.max(axis=-1) > ODD_SHARE * _power(residual)
+    return np.where(odd & (turn.shape[-1] > FEWEST), saved.argmax(axis=-1), -1)
+
+
+def max_scatter(task: Task) -> float:
+    """The greatest scatter, rms, that a task's poses can show to be scatter.
+
+    None where a pose is meant exactly, or has tolerances.
+    """
+    if task.tolerances is not None or (task.exact is not None and task.exact.any()):
+        return 0.0
+    if task.poses.shape[0] >= ENOUGH_POSES:
         return np.inf
-    return MAX_STEPS * last_digit(positions)
+    return MAX_STEPS * last_digit(task.poses.translation)
 
 
 def last_digit(values: FloatArray) -> float:

@@ -181,6 +181,7 @@ class Rotation(MotionKindBase):
     uncertainty: of the centre, by the errors of the poses; a length.
     scatter: the greatest distance of a pose from the turn, where the poses differ from it by noise
         that their errors do not explain; else 0.
+    odd: a pose (number from 0) that is no part of that scatter, and its distance from the turn.
     """
 
     code: ClassVar[str] = "R315"
@@ -190,6 +191,7 @@ class Rotation(MotionKindBase):
     uncertainty: float
     size: float
     scatter: float = 0.0
+    odd: tuple[int, float] | None = None
     unit: str | None = None
 
     @property
@@ -197,6 +199,9 @@ class Rotation(MotionKindBase):
         about = within = scatter = ""
         if self.scatter:
             within = f" within {self.scatter:.2g}{_unit(self.unit)} at every pose"
+            if self.odd is not None:
+                off = f"{self.odd[1]:.2g}{_unit(self.unit)}"
+                within += f" but pose {self.odd[0] + 1}, which is {off} off"
             scatter = "; the rest scatters from pose to pose, and no linkage follows that"
         elif self.uncertainty > 10.0**-SIGNIFICANT_DIGITS * self.size:
             about = f" (within {self.uncertainty:.1g}{_unit(self.unit)}, as the digits go)"
@@ -214,11 +219,12 @@ class Rotation(MotionKindBase):
 
     @property
     def help(self) -> str:
+        check = f"correct pose {self.odd[0] + 1} or leave it out, and " if self.odd else ""
         meant = ", or mark one pose as exact if the scatter is meant" if self.scatter else ""
         return (
-            f"pin the body at its point {_point(self.moving_centre, self._digits)} to the ground "
-            f"at {_point(self.fixed_centre, self._digits)}; for a four-bar give two poses or more "
-            f"that do not turn about this point{meant}"
+            f"{check}pin the body at its point {_point(self.moving_centre, self._digits)} to the "
+            f"ground at {_point(self.fixed_centre, self._digits)}; for a four-bar give two poses "
+            f"or more that do not turn about this point{meant}"
         )
 
 
