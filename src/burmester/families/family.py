@@ -31,7 +31,16 @@ from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.quality import best_first
 
-__all__ = ["RULES", "Family", "best_of_family"]
+__all__ = [
+    "RULES",
+    "Family",
+    "Pool",
+    "best_of_family",
+    "driver_first",
+    "drawn_pool",
+    "pin_places",
+    "spread_out",
+]
 
 _PINS: Final = "Recommended is a linkage with pins before one with a slider, then "
 _ALIKE: Final = "of those within a tenth of the least {} the one that transmits best"
@@ -88,7 +97,7 @@ class Family:
     pairs: int
 
 
-class _Pool(NamedTuple):
+class Pool(NamedTuple):
     """Linkages that were judged, and of how many dyads and pairs."""
 
     trials: Trials
@@ -118,7 +127,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     """The best linkages of an open task, or the nearest to meeting its conditions."""
     rng = np.random.default_rng(0)
     kinds = task.conditions.kinds
-    pools: list[_Pool] = []
+    pools: list[Pool] = []
     for counts, pairs, generations in (
         (PINS, kinds & {PINNED}, GENERATIONS.get(task.poses.shape[0], MOST_GENERATIONS)),
         (SLIDERS, kinds - {PINNED}, SLIDER_GENERATIONS),
@@ -128,7 +137,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
             continue
         if any(pool.value.good.any() for pool in pools) and not time_for("looking at sliders"):
             break
-        pool = _drawn(task, pairs, counts, rng)
+        pool = drawn_pool(task, pairs, counts, rng)
         if pool is not None:
             many = generations if pools or counts is PINS else MOST_GENERATIONS  # sliders alone
             pools.append(_improved(pool, task, many, rng))
@@ -144,7 +153,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     chosen = [take(pool.trials, k) for pool, k in zip(pools, index, strict=True)]
     trials = concatenate(chosen)
     return Family(
-        _driver_first(trials, task),
+        driver_first(trials, task),
         np.zeros_like(trials.driver) if task.is_symmetric else trials.driver,
         task.rows(trials.offsets),
         any(good),
@@ -155,12 +164,12 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     )
 
 
-def _drawn(
+def drawn_pool(
     task: OpenTask,
     kinds: frozenset[frozenset[type]],
     counts: Mapping[int, int],
     rng: np.random.Generator,
-) -> _Pool | None:
+) -> Pool | None:
     """Linkages of dyads drawn at random, judged; None where no two dyads meet the poses.
 
     kinds: the pairs of kinds of dyads; counts: how many dyads of each kind.
@@ -193,17 +202,17 @@ def _drawn(
     every_trial = concatenate(trials)
     if not len(every_trial):
         return None
-    return _Pool(every_trial, assessed(every_trial, task), dyads, pairs)
+    return Pool(every_trial, assessed(every_trial, task), dyads, pairs)
 
 
-def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Generator) -> _Pool:
+def _improved(pool: Pool, task: OpenTask, generations: int, rng: np.random.Generator) -> Pool:
     """The linkages that work, with those that evolve from the best of each aim."""
-    points = _pins(pool.trials, task) / task.conditions.span
+    points = pin_places(pool.trials, task) / task.conditions.span
     starts, aims = [], []
     for aim, most in enumerate(POPULATIONS):
         cost = costs(pool.value, np.full(len(points), aim))
         first = np.argsort(cost, kind="stable")[:MOST_STARTS]
-        apart = _spread(points[first], most)
+        apart = spread_out(points[first], most)
         starts += first[apart].tolist()
         aims += [aim] * len(apart)
         if not pool.value.good.any():
@@ -230,7 +239,7 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
     return _better_driven(pool._replace(trials=take(every, some), value=take(worth, some)), task)
 
 
-def _better_driven(pool: _Pool, task: OpenTask) -> _Pool:
+def _better_driven(pool: Pool, task: OpenTask) -> Pool:
     """The same linkages, driven by the other dyad where that transmits better and is allowed.
 
     All of them are held against the surroundings thoroughly.
@@ -250,7 +259,7 @@ def _better_driven(pool: _Pool, task: OpenTask) -> _Pool:
     )
 
 
-def _spread(points: FloatArray, most: int) -> list[int]:
+def spread_out(points: FloatArray, most: int) -> list[int]:
     """The first of points (k, n), best first, and further ones that are APART from these."""
     chosen: list[int] = []
     for k in range(len(points)):
@@ -261,7 +270,7 @@ def _spread(points: FloatArray, most: int) -> list[int]:
     return chosen
 
 
-def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
+def _shown(pool: Pool, task: OpenTask) -> NDArray[np.intp]:
     """The recommended linkage and others of the front, far from each other, best first."""
     value = pool.value
     if not value.good.any():
@@ -272,7 +281,7 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
     aims = [int(aim(take(value, on_front)).argmin()) for aim in AIMS[1:]]
-    points = _pins(take(pool.trials, on_front), task) / task.conditions.span
+    points = pin_places(take(pool.trials, on_front), task) / task.conditions.span
     chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
     rest = on_front[chosen[1:]]
     rest = rest[best_first(*(figure[rest] for figure in value[1:]))]
@@ -288,9 +297,9 @@ def _recommended(value: Assessment, prefer: Preference) -> int:
     return int(best_first(*value[1:])[0])
 
 
-def _pins(trials: Trials, task: OpenTask) -> FloatArray:
+def pin_places(trials: Trials, task: OpenTask) -> FloatArray:
     """Where pivots and lines (k, 8) are at the first pose, the driver first."""
-    batch = _driver_first(trials, task, always=True)
+    batch = driver_first(trials, task, always=True)
     z = batch.dimensions[..., :4].copy()
     first = task.poses[0]
     for side in (0, 1):
@@ -299,7 +308,7 @@ def _pins(trials: Trials, task: OpenTask) -> FloatArray:
     return z.reshape(len(z), -1)
 
 
-def _driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> LinkageBatch:
+def driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> LinkageBatch:
     """The linkages with the driver first, unless each side has limits of its own."""
     if not (always or task.is_symmetric):
         return trials.batch

@@ -1,0 +1,305 @@
+"""Why there is no linkage: the limit that stops them all, how little would do, and near misses.
+
+Each limit of a task is loosened alone, the others as they are, by as little as lets a sound linkage
+in.  What is told was tried: the task with the looser limit is solved as any other, and has a sound
+linkage.  A search, not a proof: less may do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Final, Self, TypeAlias, final
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.geometry.regions import Polygon
+from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
+from burmester.linkages.from_dyads import target_of
+from burmester.numerics.arrays import FloatArray
+from burmester.progress import time_for
+from burmester.synthesis.loosening import (
+    Loosening,
+    StatedLimit,
+    loosened,
+    stated_limits,
+    without,
+)
+from burmester.synthesis.result import Synthesis
+from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
+from burmester.wording import listed
+
+if TYPE_CHECKING:  # loaded for few poses only
+    from burmester.families.assumptions import Assumptions
+    from burmester.families.open_task import OpenTask, Trials
+
+__all__ = ["explained"]
+
+Solve: TypeAlias = Callable[[Task, SynthesisOptions], Synthesis]
+
+FEW: Final = ("R308", "R309")  # outcomes of few poses
+MANY: Final = ("R301", "R302", "R306")
+SHARES: Final = (1.0, 1.2, 2.0)  # of the way to a near miss, until a search finds a linkage
+BISECTIONS: Final = 3  # number of times that a way is halved where each is a search of its own
+COMPARED: Final = 12  # number of sound linkages of which the nearest to a limit is looked for
+ON_OFF: Final = ("kinds", "type", "driver", "order")  # limits that are kept or not
+DYADS: Final = frozenset({"fixed pivot", "moving pivot", "length", "kinds"})  # limits of dyads
+NEED_SURROUNDINGS: Final = ("margin", "keep-out")
+
+
+def explained(synthesis: Synthesis, solve: Solve) -> Synthesis:
+    """The synthesis; where it has no sound linkage, with the limits that are to blame for that.
+
+    solve: from a task to its linkages, without this explanation.
+    """
+    search = _search(synthesis, solve)
+    if search is None:
+        return synthesis
+    causes = sorted(search.alone(), key=lambda each: each.size)
+    if not causes:
+        causes = search.together()
+        return synthesis if not causes else _told(synthesis, causes, alone=False)
+    return _told(synthesis, causes, alone=True)
+
+
+def _search(synthesis: Synthesis, solve: Solve) -> _FewPoses | _ManyPoses | None:
+    """The search for what is to blame; None where there is nothing to explain."""
+    task, code = synthesis.task, synthesis.outcome.code
+    if task.path is not None or not any(stated_limits(task)):
+        return None
+    if code in FEW and (not synthesis.works or _given_up(synthesis)):
+        return _FewPoses.of(synthesis.problem, solve)
+    limited = bool(task.limits) or replace(task.requirements, any_order=False).has_any
+    limited |= task.surroundings is not None
+    if code in MANY and limited and task.tolerances is None:
+        return _ManyPoses(synthesis.problem, solve)
+    return None
+
+
+def _given_up(synthesis: Synthesis) -> bool:
+    return synthesis.family is not None and synthesis.family.given_up
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Search:
+    """What both searches share.
+
+    problem: of the task as stated.
+    """
+
+    problem: SynthesisProblem
+    solve: Solve
+
+    @property
+    def task(self) -> Task:
+        return self.problem.given
+
+    @property
+    def size(self) -> float:
+        return self.problem.motion_size
+
+    def judged(self, batch: LinkageBatch, rows: FloatArray) -> list[FoundLinkage]:
+        """Linkages (k,) at their rows (k, N, 3), judged by the task as stated."""
+        target = target_of(self.problem)
+        own, every = batch.from_canonical(target.frames), np.ones(len(batch), dtype=bool)
+        pairs = [numbered_pair(own.linkage(k), 2 * k + 1) for k in range(len(own))]
+        evaluation = Evaluation(self.problem, target)
+        return evaluation.members(Candidates(batch, rows, pairs, every, own))
+
+    def sound(self, task: Task) -> list[FoundLinkage]:
+        """The sound linkages that a task has; none where it contradicts itself."""
+        try:
+            answer = self.solve(task, self.problem.options)
+        except InputError:
+            return []
+        return [each for each in answer.usable if not each.shortcomings]
+
+    def tried(self, limit: StatedLimit, found: FoundLinkage) -> Loosening | None:
+        """The least loosening for a linkage with which the task has a sound one."""
+        for share in SHARES:
+            told = loosened(self.task, limit, found, self.size, share)
+            if told is None or self.sound(told.task):
+                return told
+            if limit.kind in ON_OFF or not time_for("looking for what little would do"):
+                break
+        return None
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class _FewPoses(_Search):
+    """Poses that leave infinitely many linkages: those that evolve towards keeping the limit.
+
+    assumed: where the task says nothing; stated: the task with all limits; drawn: linkages within
+        those of the dyads.
+    """
+
+    assumed: Assumptions
+    stated: OpenTask
+    drawn: Trials | None
+
+    @classmethod
+    def of(cls, problem: SynthesisProblem, solve: Solve) -> Self:
+        """The search for a problem."""
+        from burmester.families.least_excess import drawn_near, to_build  # noqa: PLC0415  few tasks need it
+        from burmester.families.open_task import OpenTask  # noqa: PLC0415  the same
+
+        assumed = to_build(problem)
+        stated = OpenTask.of(problem, target_of(problem), assumed)
+        return cls(problem, solve, assumed, stated, drawn_near(stated))
+
+    def alone(self) -> Iterator[Loosening]:
+        """Each limit loosened alone, where that is enough."""
+        for limit in stated_limits(self.task):
+            if limit.kind == "within" or not time_for(f"looking without the limit on {limit.kind}"):
+                continue
+            for found in self._nearest([limit])[:1]:
+                told = self.tried(limit, found)
+                if told is not None:
+                    yield told
+
+    def together(self) -> list[Loosening]:
+        """All limits that have to be loosened together, for the linkage nearest to keeping them."""
+        limits = [each for each in stated_limits(self.task) if each.kind != "within"]
+        if len(limits) < 2 or not time_for("looking without any limit"):
+            return []
+        for found in self._nearest(limits):
+            told, task = [], self.task
+            for limit in limits:
+                one = loosened(task, limit, found, self.size)
+                if one is not None and limit.kind not in ("driver", "order"):
+                    told.append(one)
+                    task = one.task
+            if told and self.sound(task):
+                return told
+        return []
+
+    def _nearest(self, limits: Sequence[StatedLimit]) -> list[FoundLinkage]:
+        """Linkages that keep all but some limits, those nearest to keeping them first."""
+        # Few tasks need these.
+        from burmester.families.family import driver_first  # noqa: PLC0415
+        from burmester.families.least_excess import (  # noqa: PLC0415
+            LEAST_USEFUL,
+            least_excess,
+            to_build,
+        )
+        from burmester.families.open_task import OpenTask  # noqa: PLC0415
+
+        boxes: dict[str, Polygon] = {
+            "fixed pivot": self.assumed.fixed,
+            "moving pivot": self.assumed.moving,
+        }
+        loosest, kinds = self.task, {limit.kind for limit in limits}
+        for limit in sorted(
+            limits, key=lambda each: -each.number
+        ):  # regions are taken from the end
+            if loosest.surroundings is not None or limit.kind not in NEED_SURROUNDINGS:
+                loosest = without(loosest, limit, boxes.get)
+        problem = SynthesisProblem.of(loosest, self.problem.motion, self.problem.options).merged()
+        open_ = to_build(problem)
+        if "transmission" in kinds:
+            open_ = replace(open_, transmission=min(open_.transmission, LEAST_USEFUL))
+        if "link ratio" in kinds:
+            open_ = replace(open_, ratio=math.inf)
+        loose = OpenTask.of(problem, target_of(problem), open_)
+        wide = bool(kinds & DYADS)
+        near = least_excess(self.stated, loose, self.drawn, wide=wide)
+        if near is None:
+            return []
+        batch = driver_first(near.trials, loose)
+        found = self.judged(batch, loose.rows(near.trials.offsets))
+        return list(at_given_poses(found, self.problem))
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class _ManyPoses(_Search):
+    """Five poses and more: the linkages of the task without the limit, nearest to keeping it."""
+
+    def alone(self) -> Iterator[Loosening]:
+        """Each limit loosened alone, where that is enough."""
+        for limit in stated_limits(self.task):
+            if not time_for(f"looking without the limit on {limit.kind}"):
+                break
+            near = self._near(limit, without(self.task, limit, lambda _: None))
+            told = None if near is None else self.tried(limit, near.found)
+            if told is not None:
+                yield told if limit.kind in ON_OFF else self._least(limit, told)
+
+    def together(self) -> list[Loosening]:
+        """Nothing: what lies beyond two limits is not looked for."""
+        return []
+
+    def _near(self, limit: StatedLimit, task: Task) -> Loosening | None:
+        """The least loosening for one of the sound linkages of a task."""
+        found = self.sound(task)[:COMPARED]
+        if not found:
+            return None
+        target = target_of(self.problem)
+        numbers = self.problem.pose_numbers
+        rows = np.stack([target.rows_at(each.error.places[numbers]) for each in found])
+        batch = LinkageBatch.of([each.linkage for each in found]).to_canonical(target.frames)
+        told = [
+            loosened(self.task, limit, each, self.size)
+            for each in at_given_poses(self.judged(batch, rows), self.problem)
+        ]
+        return min(filter(None, told), key=lambda each: each.size, default=None)
+
+    def _least(self, limit: StatedLimit, most: Loosening) -> Loosening:
+        """The least loosening known to be enough, by halving the way to one that is."""
+        low, high, best = 0.0, 1.0, most
+        for _ in range(BISECTIONS):
+            if not time_for("looking for what little would do"):
+                break
+            middle = (low + high) / 2
+            told = loosened(self.task, limit, most.found, self.size, middle)
+            near = None if told is None else self._near(limit, told.task)
+            if told is None or near is None:
+                low = middle
+                continue
+            high, best = middle, replace(told, found=near.found)
+        return best
+
+
+def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> Synthesis:
+    """The synthesis with what is to blame, and the near misses."""
+    words = [each.message for each in causes]
+    last = "or" if alone else "and"
+    head = (
+        "one limit looser is enough" if alone else "no limit looser alone is enough, but together"
+    )
+    why = f"{head}: {listed(words, last)} (the least that a search found)"
+    glue = "; or " if alone else " and "
+    help = f"use {glue.join(each.option for each in causes)}"
+    if synthesis.works:
+        warnings = tuple(
+            replace(each, why=why, help=help) if each.code == "W216" else each
+            for each in synthesis.warnings
+        )
+        return replace(synthesis, warnings=warnings, causes=tuple(causes))
+    before = () if synthesis.outcome.code in FEW else synthesis.linkages
+    number = len(synthesis.dyads) if before else 0
+    added = []
+    for k, each in enumerate(causes if alone else causes[:1]):
+        dyads = tuple(
+            replace(dyad, id=f"D{number + 2 * k + at}")
+            for at, dyad in enumerate(each.found.dyads, start=1)
+        )
+        rank = len(before) + k + 1
+        added.append(replace(each.found, id=f"L{rank}", rank=rank, dyads=dyads))
+    causes = [replace(each, found=near) for each, near in zip(causes, added, strict=False)]
+    outcome = replace(synthesis.outcome, why=why, help=help)
+    dyads = synthesis.dyads if before else tuple(d for each in added for d in each.dyads)
+    return replace(
+        synthesis,
+        outcome=outcome,
+        linkages=(*before, *added),
+        dyads=dyads,
+        causes=tuple(causes),
+    )
