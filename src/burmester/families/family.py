@@ -36,8 +36,8 @@ __all__ = [
     "Family",
     "Pool",
     "best_of_family",
-    "driver_first",
     "drawn_pool",
+    "driver_first",
     "pin_places",
     "spread_out",
 ]

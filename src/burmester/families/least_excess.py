@@ -20,8 +20,8 @@ from burmester.families.family import (
     PINNED,
     SLIDERS,
     Family,
-    driver_first,
     drawn_pool,
+    driver_first,
     pin_places,
     spread_out,
 )
@@ -64,7 +64,7 @@ class LeastExcess(NamedTuple):
 def least_excess(
     stated: OpenTask, loose: OpenTask, near: Trials | None, *, wide: bool
 ) -> LeastExcess | None:
-    """The linkages nearest to keeping the limits that `loose` lacks; None where none keeps the rest.
+    """The linkages nearest to keeping the limits that `loose` lacks; None if none keeps the rest.
 
     stated, loose: the same task with and without these limits, in the same frames.
     near: linkages drawn within the limits as stated (`drawn_near`).  wide: whether others are drawn

@@ -21,17 +21,12 @@ from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.progress import time_for
-from burmester.synthesis.loosening import (
-    Loosening,
-    StatedLimit,
-    loosened,
-    stated_limits,
-    without,
-)
+from burmester.synthesis.loosening import Loosening, loosened
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.stated_limits import StatedLimit, stated_limits, without
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 from burmester.wording import listed
 
@@ -287,12 +282,13 @@ def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> 
     number = len(synthesis.dyads) if before else 0
     added = []
     for k, each in enumerate(causes if alone else causes[:1]):
-        dyads = tuple(
-            replace(dyad, id=f"D{number + 2 * k + at}")
-            for at, dyad in enumerate(each.found.dyads, start=1)
+        first, second = each.found.dyads
+        pair = (
+            replace(first, id=f"D{number + 2 * k + 1}"),
+            replace(second, id=f"D{number + 2 * k + 2}"),
         )
         rank = len(before) + k + 1
-        added.append(replace(each.found, id=f"L{rank}", rank=rank, dyads=dyads))
+        added.append(replace(each.found, id=f"L{rank}", rank=rank, dyads=pair))
     causes = [replace(each, found=near) for each, near in zip(causes, added, strict=False)]
     outcome = replace(synthesis.outcome, why=why, help=help)
     dyads = synthesis.dyads if before else tuple(d for each in added for d in each.dyads)
