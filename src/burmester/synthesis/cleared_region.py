@@ -20,7 +20,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.surroundings import KeepOut
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["cleared", "swept_pivots"]
+__all__ = ["bars_clear", "cleared", "swept_pivots"]
 
 PLACES: Final = 181  # number of places between the poses at which pivots, body and links are
 DIRECTIONS: Final = 8  # number of directions in which a region is moved out of the way
@@ -68,6 +68,19 @@ def cleared(
     regions = list(around.keep_out)
     regions[number] = KeepOut(Polygon(one.polygon.vertices + shift), one.name)
     return replace(task, surroundings=replace(around, keep_out=tuple(regions))), shift
+
+
+def bars_clear(task: Task, number: int, dimensions: FloatArray) -> NDArray[np.bool_]:
+    """Whether the links of RR dyads (k, 5) are clear of a keep-out region at poses: (k, N)."""
+    import shapely  # noqa: PLC0415  only tasks with surroundings need it
+
+    around = task.surroundings
+    assert around is not None
+    pins = task.poses.act(dimensions[:, None, 2:4])
+    fixed = np.broadcast_to(dimensions[:, None, :2], pins.shape)
+    bars = shapely.linestrings(np.stack([fixed, pins], axis=2))
+    away = shapely.distance(bars, shapely.Polygon(around.keep_out[number].polygon.vertices))
+    return np.asarray(away > around.link_width / 2 + around.margin)
 
 
 def _places(found: FoundLinkage) -> Displacement | None:

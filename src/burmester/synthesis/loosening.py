@@ -23,7 +23,7 @@ from burmester.tasks.requirements import TYPES
 from burmester.tasks.stated_limits import PIVOTS, StatedLimit, with_limits
 from burmester.verdicts.explanation import above, below
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.wording import listed
+from burmester.wording import figure, listed
 
 __all__ = ["Loosening", "loosened"]
 
@@ -104,7 +104,7 @@ def _pivots(
     changed = with_limits(task, limit.number, **{name: told.region})
     texts = [region_text(getattr(each, name)) for each in changed.limits]
     option = " ".join(f"--{name.replace('_', '-')} {text}" for text in texts)
-    x, y = (plain(value) for value in told.near)
+    x, y = (figure(float(value)) for value in told.near)
     what = f"{limit.kind}s" if len(dyads) > 1 else f"the {limit.kind}{_whose(task, limit.number)}"
     words = f"{what} {told.words}, near ({x}, {y})"
     return Loosening(limit, words, option, told.by / size, changed, found)

@@ -21,14 +21,15 @@ from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.progress import time_for
+from burmester.synthesis.cleared_region import bars_clear
 from burmester.synthesis.loosening import Loosening, loosened
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import poses_in_words
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.stated_limits import StatedLimit, stated_limits, without
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
-from burmester.wording import listed
 
 if TYPE_CHECKING:  # loaded for few poses only
     from burmester.families.assumptions import Assumptions
@@ -40,7 +41,7 @@ Solve: TypeAlias = Callable[[Task, SynthesisOptions], Synthesis]
 
 FEW: Final = ("R308", "R309")  # outcomes of few poses
 MANY: Final = ("R301", "R302", "R306")
-SHARES: Final = (1.0, 1.2, 2.0)  # of the way to a near miss, until a search finds a linkage
+SHARES: Final = (1.0, 1.1, 1.3, 2.0)  # of the way to a near miss, until a search finds a linkage
 BISECTIONS: Final = 3  # number of times that a way is halved where each is a search of its own
 COMPARED: Final = 12  # number of sound linkages of which the nearest to a limit is looked for
 ON_OFF: Final = ("kinds", "type", "driver", "order")  # limits that are kept or not
@@ -157,22 +158,43 @@ class _FewPoses(_Search):
             for found in self._nearest([limit])[:1]:
                 told = self.tried(limit, found)
                 if told is not None:
-                    yield told
+                    yield replace(told, message=told.message + self._share(limit))
+
+    def _share(self, limit: StatedLimit) -> str:
+        """How many of the dyads drawn within their limits clear a keep-out region, in words."""
+        if limit.kind != "keep-out" or self.drawn is None:
+            return ""
+        batch = self.drawn.batch.from_canonical(target_of(self.problem).frames)
+        z = batch.dimensions[batch.kinds == 0]
+        clear = bars_clear(self.task, limit.number, np.unique(z, axis=0))
+        few, count = int(clear.all(axis=1).sum()), len(clear)
+        if not count or few == count:
+            return ""
+        lost = (~clear).sum(axis=0)
+        pose = int(lost.argmax())
+        which = "all" if lost[pose] == count else f"{lost[pose]:,}"
+        at = poses_in_words(self.task, [pose])
+        return f" ({few:,} of {count:,} links clear it at all poses, {which} touch it at {at})"
 
     def together(self) -> list[Loosening]:
-        """All limits that have to be loosened together, for the linkage nearest to keeping them."""
-        limits = [each for each in stated_limits(self.task) if each.kind != "within"]
-        if len(limits) < 2 or not time_for("looking without any limit"):
-            return []
-        for found in self._nearest(limits):
-            told, task = [], self.task
-            for limit in limits:
-                one = loosened(task, limit, found, self.size)
-                if one is not None and limit.kind not in ("driver", "order"):
-                    told.append(one)
-                    task = one.task
-            if told and self.sound(task):
-                return told
+        """Limits that have to be loosened together: those of the dyads, or else all."""
+        every = [each for each in stated_limits(self.task) if each.kind not in ("within", "order")]
+        of_dyads = [each for each in every if each.kind in DYADS]
+        for limits in (of_dyads, every):
+            if len(limits) < 2 or (limits is every and len(of_dyads) == len(every)):
+                continue
+            if not time_for("looking without several limits"):
+                break
+            for found in self._nearest(limits)[:1]:
+                for share in SHARES:
+                    told, task = [], self.task
+                    for limit in limits:
+                        one = loosened(task, limit, found, self.size, share)
+                        if one is not None and limit.kind != "driver":
+                            told.append(one)
+                            task = one.task
+                    if told and self.sound(task):
+                        return told
         return []
 
     def _nearest(self, limits: Sequence[StatedLimit]) -> list[FoundLinkage]:
@@ -265,11 +287,11 @@ class _ManyPoses(_Search):
 def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> Synthesis:
     """The synthesis with what is to blame, and the near misses."""
     words = [each.message for each in causes]
-    last = "or" if alone else "and"
-    head = (
-        "one limit looser is enough" if alone else "no limit looser alone is enough, but together"
-    )
-    why = f"{head}: {listed(words, last)} (the least that a search found)"
+    if alone:
+        why = f"it takes {'; or '.join(words)}"
+    else:
+        why = f"no one limit is to blame: it takes {' and '.join(words)}"
+    why += "; a search found this, and less may do"
     glue = "; or " if alone else " and "
     help = f"use {glue.join(each.option for each in causes)}"
     if synthesis.works:
@@ -289,7 +311,8 @@ def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> 
         )
         rank = len(before) + k + 1
         added.append(replace(each.found, id=f"L{rank}", rank=rank, dyads=pair))
-    causes = [replace(each, found=near) for each, near in zip(causes, added, strict=False)]
+    near = added if alone else added * len(causes)  # one that breaks all of these limits
+    causes = [replace(each, found=found) for each, found in zip(causes, near, strict=True)]
     outcome = replace(synthesis.outcome, why=why, help=help)
     dyads = synthesis.dyads if before else tuple(d for each in added for d in each.dyads)
     return replace(
