@@ -8,7 +8,7 @@ linkage.  A search, not a proof: less may do.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, Self, TypeAlias, final
 
@@ -28,7 +28,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import poses_in_words
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.tasks.stated_limits import StatedLimit, stated_limits, without
+from burmester.tasks.stated_limits import LimitKind, StatedLimit, stated_limits, without
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 
 if TYPE_CHECKING:  # loaded for few poses only
@@ -43,6 +43,7 @@ FEW: Final = ("R308", "R309")  # outcomes of few poses
 MANY: Final = ("R301", "R302", "R306")
 SHARES: Final = (1.0, 1.1, 1.3, 2.0)  # of the way to a near miss, until a search finds a linkage
 BISECTIONS: Final = 3  # number of times that a way is halved where each is a search of its own
+WORTH: Final = 0.9  # of a loosening; one that is less is tried, too
 COMPARED: Final = 12  # number of sound linkages of which the nearest to a limit is looked for
 ON_OFF: Final = ("kinds", "type", "driver", "order")  # limits that are kept or not
 DYADS: Final = frozenset({"fixed pivot", "moving pivot", "length", "kinds"})  # limits of dyads
@@ -60,7 +61,7 @@ def explained(synthesis: Synthesis, solve: Solve) -> Synthesis:
     causes = sorted(search.alone(), key=lambda each: each.size)
     if not causes:
         causes = search.together()
-        return synthesis if not causes else _told(synthesis, causes, alone=False)
+        return _told(synthesis, causes, alone=False) if causes else _no_cause(synthesis, search)
     return _told(synthesis, causes, alone=True)
 
 
@@ -116,6 +117,10 @@ class _Search:
             return []
         return [each for each in answer.usable if not each.shortcomings]
 
+    def hopeless(self) -> bool:
+        """Whether no linkage was found without any limit either."""
+        return False
+
     def tried(self, limit: StatedLimit, found: FoundLinkage) -> Loosening | None:
         """The least loosening for a linkage with which the task has a sound one."""
         for share in SHARES:
@@ -158,7 +163,23 @@ class _FewPoses(_Search):
             for found in self._nearest([limit])[:1]:
                 told = self.tried(limit, found)
                 if told is not None:
+                    told = self._nearer(limit, told) if limit.kind in DYADS else told
                     yield replace(told, message=told.message + self._share(limit))
+
+    def _nearer(self, limit: StatedLimit, told: Loosening) -> Loosening:
+        """A smaller loosening, if one is found within what was found to be enough."""
+        if limit.kind in ON_OFF or not time_for("looking for what little would do"):
+            return told
+        for found in self._evolved(told.task, {limit.kind})[:1]:
+            less = loosened(self.task, limit, found, self.size)
+            if less is not None and less.size < WORTH * told.size:
+                return self.tried(limit, found) or told
+        return told
+
+    def hopeless(self) -> bool:
+        """Whether no linkage was found without any limit either."""
+        every = [each for each in stated_limits(self.task) if each.kind not in ("within", "order")]
+        return time_for("looking without any limit") and not self._nearest(every)
 
     def _share(self, limit: StatedLimit) -> str:
         """How many of the dyads drawn within their limits clear a keep-out region, in words."""
@@ -199,6 +220,23 @@ class _FewPoses(_Search):
 
     def _nearest(self, limits: Sequence[StatedLimit]) -> list[FoundLinkage]:
         """Linkages that keep all but some limits, those nearest to keeping them first."""
+        boxes: dict[str, Polygon] = {
+            "fixed pivot": self.assumed.fixed,
+            "moving pivot": self.assumed.moving,
+        }
+        loosest = self.task
+        for limit in sorted(
+            limits, key=lambda each: -each.number
+        ):  # regions are taken from the end
+            if loosest.surroundings is not None or limit.kind not in NEED_SURROUNDINGS:
+                loosest = without(loosest, limit, boxes.get)
+        return self._evolved(loosest, {limit.kind for limit in limits})
+
+    def _evolved(self, loosest: Task, kinds: Set[LimitKind]) -> list[FoundLinkage]:
+        """Linkages of a task with some limits looser, those nearest to the limits as stated first.
+
+        kinds: of these limits.
+        """
         # Few tasks need these.
         from burmester.families.family import driver_first  # noqa: PLC0415
         from burmester.families.least_excess import (  # noqa: PLC0415
@@ -208,16 +246,6 @@ class _FewPoses(_Search):
         )
         from burmester.families.open_task import OpenTask  # noqa: PLC0415
 
-        boxes: dict[str, Polygon] = {
-            "fixed pivot": self.assumed.fixed,
-            "moving pivot": self.assumed.moving,
-        }
-        loosest, kinds = self.task, {limit.kind for limit in limits}
-        for limit in sorted(
-            limits, key=lambda each: -each.number
-        ):  # regions are taken from the end
-            if loosest.surroundings is not None or limit.kind not in NEED_SURROUNDINGS:
-                loosest = without(loosest, limit, boxes.get)
         problem = SynthesisProblem.of(loosest, self.problem.motion, self.problem.options).merged()
         open_ = to_build(problem)
         if "transmission" in kinds:
@@ -282,6 +310,15 @@ class _ManyPoses(_Search):
                 continue
             high, best = middle, replace(told, found=near.found)
         return best
+
+
+def _no_cause(synthesis: Synthesis, search: _Search) -> Synthesis:
+    """The synthesis where no limit is to blame, as far as a search can tell."""
+    if synthesis.outcome.code != "R309" or not search.hopeless():
+        return synthesis
+    why = "without any of the limits no sound linkage was found either: the poses are to blame"
+    help = "move a pose, or leave one out"
+    return replace(synthesis, outcome=replace(synthesis.outcome, why=why, help=help))
 
 
 def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> Synthesis:

@@ -12,7 +12,7 @@ import numpy as np
 from burmester.geometry.regions import Polygon, Region
 from burmester.tasks.motion_task import Task
 
-__all__ = ["PIVOTS", "StatedLimit", "stated_limits", "with_limits", "without"]
+__all__ = ["PIVOTS", "LimitKind", "StatedLimit", "stated_limits", "with_limits", "without"]
 
 LimitKind: TypeAlias = Literal[
     "fixed pivot", "moving pivot", "length", "kinds", "transmission", "link ratio", "type",
