@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
@@ -49,6 +50,8 @@ def cleared(
         region = shapely.Polygon(one.polygon.vertices + shift)
         return bool((shapely.distance(parts, region) <= room).any())
 
+    if not touches(np.zeros(2)):
+        return None
     every = np.concatenate([shapely.get_coordinates(parts), one.polygon.vertices])
     best, ways = float(np.linalg.norm(np.ptp(every, axis=0))) + 2 * room, np.zeros(2)
     for angle in np.arange(DIRECTIONS) * 2 * math.pi / DIRECTIONS:
@@ -113,8 +116,8 @@ def _swept(task: Task, found: FoundLinkage) -> NDArray[np.object_] | None:
     places, around = _places(found), task.surroundings
     if places is None or around is None:
         return None
-    own = found.driver_first
-    bars = bars_of(own, places).reshape(-1, 2, 2)
+    own = LinkageBatch.of([found.driver_first]).linkage_of_all()
+    bars = bars_of(own, places[None]).reshape(-1, 2, 2)
     bars = bars[np.isfinite(bars).all(axis=(1, 2))]
     shapes = [shapely.buffer(shapely.linestrings(bars), max(around.link_width / 2, 1e-9))]
     if task.body is not None:
