@@ -3,7 +3,7 @@
 import json
 import math
 import shlex
-from dataclasses import replace
+from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -35,12 +35,13 @@ def task_of(*limits, **more):
 
 
 @pytest.fixture
-def run(capsys):
+def run(tmp_path, capsys):
     """The command on the three poses, and its answer as data."""
     (tmp_path / "lid.csv").write_text(CSV)
 
     def answer(line):
-        main(["synthesize", str(tmp_path / "lid.csv"), "--json", *line])
+        with suppress(SystemExit):
+            main(["synthesize", str(tmp_path / "lid.csv"), "--json", *line])
         return json.loads(capsys.readouterr().out)
 
     return answer
