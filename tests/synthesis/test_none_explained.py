@@ -82,7 +82,7 @@ def test_every_option_that_is_told_works_when_it_is_followed_to_the_letter(line,
         assert usable(run(followed(line, cause["option"])))
 
 
-def test_a_near_miss_keeps_all_but_the_limit_that_it_names():
+def test_a_near_miss_keeps_all_but_the_limit_that_it_names(tmp_path):
     low, high = np.array([-40.0, -60]), np.array([120.0, -50])
     asked = Requirements(types={"double-crank"}, driver="crank")
     synthesis = synthesize(task_of(Limits(box(low, high)), requirements=asked))
@@ -99,8 +99,9 @@ def test_a_near_miss_keeps_all_but_the_limit_that_it_names():
         assert misses(linkage, synthesis.task.poses, 145.0).max() < 1e-6
         assert cause.found.id in {each.id for each in synthesis.linkages}
     assert [each.size for each in synthesis.causes] == sorted(e.size for e in synthesis.causes)
-    again = read_result(json.dumps(synthesis_data(synthesis)))
-    assert again is not None
+    written = tmp_path / "none.json"
+    written.write_text(json.dumps(synthesis_data(synthesis)))
+    assert len(read_result(written).linkages) == len(synthesis.linkages)
 
 
 def test_two_limits_that_only_together_stop_all_are_told_together(run):
@@ -146,7 +147,6 @@ def test_six_poses_are_told_the_kind_that_is_missing():
     assert synthesis.outcome.help == "use --kinds RR,RP"
     works = synthesize(synthesis.causes[0].task).usable[0]
     assert np.degrees(works.driven.least_over_range) >= 40 - 1e-6
-    assert read_result(json.dumps(synthesis_data(synthesis))) is not None
 
 
 def test_a_time_limit_ends_the_explanation():
