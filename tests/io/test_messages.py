@@ -1103,7 +1103,7 @@ CASES: dict[str, Case] = {
     "four poses in boxes": Case(
         "R309",
         f"{S} {BOXES}",
-        Args(S),
+        lambda help: Args(f"{S} " + re.search(r"use (--.+)", help)[1].replace(" and ", " ")),
         {"poses.csv": rows(OPENING.replace(" ", " 12.5,40,20 ", 1))},
         exit=1,
     ),

@@ -10,6 +10,7 @@ it finds no optimum for certain.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import Final
 
@@ -44,10 +45,12 @@ def improved(
     *,
     generations: int,
     rng: np.random.Generator,
+    assess: Callable[[Trials], Assessment] | None = None,
 ) -> tuple[Trials, Assessment]:
     """All linkages that were met on the way from linkages (k,) and meet all conditions.
 
     value: what the linkages are worth; aims: (k,), the number of each population's aim in AIMS.
+    assess: what linkages are worth, `assessed` by the task where nothing else is given.
     """
     count = len(trials)
     enough = task.conditions.enough
@@ -69,7 +72,7 @@ def improved(
         parent = np.repeat(alive, CHILDREN)
         start = _with_genes(take(best, parent), genes.reshape(-1, size), task)
         children, met = projected(start, task, PROJECTION_STEPS)
-        worth = assessed(children, task)
+        worth = assessed(children, task) if assess is None else assess(children)
         worth = worth._replace(violation=np.where(met.all(axis=1), worth.violation, np.inf))
         own = costs(worth, aims[parent], enough).reshape(len(alive), CHILDREN)
         order = np.argsort(own, axis=1)[:, :PARENTS]

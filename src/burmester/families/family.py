@@ -34,7 +34,17 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.quality import Quality, best_first, enough_transmission, rule
 
-__all__ = ["Family", "best_of_family", "recommended_first"]
+__all__ = [
+    "Family",
+    "Pool",
+    "best_of_family",
+    "drawn_pool",
+    "driver_first",
+    "pin_places",
+    "recommended_first",
+    "rule_in_words",
+    "spread_out",
+]
 
 # Of what the least, or nearly the least, is recommended, by what is preferred.
 PREFERRED: Final[Mapping[Preference, str]] = {
@@ -94,7 +104,7 @@ class Family:
     pairs: int
 
 
-class _Pool(NamedTuple):
+class Pool(NamedTuple):
     """Linkages that were judged, and of how many dyads and pairs."""
 
     trials: Trials
@@ -124,7 +134,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     """The best linkages of an open task, or the nearest to meeting its conditions."""
     rng = np.random.default_rng(0)
     kinds = task.conditions.kinds
-    pools: list[_Pool] = []
+    pools: list[Pool] = []
     for counts, pairs, generations in (
         (PINS, kinds & {PINNED}, GENERATIONS.get(task.poses.shape[0], MOST_GENERATIONS)),
         (SLIDERS, kinds - {PINNED}, SLIDER_GENERATIONS),
@@ -134,7 +144,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
             continue
         if any(pool.value.good.any() for pool in pools) and not time_for("looking at sliders"):
             break
-        pool = _drawn(task, pairs, counts, rng)
+        pool = drawn_pool(task, pairs, counts, rng)
         if pool is not None:
             many = generations if pools or counts is PINS else MOST_GENERATIONS  # sliders alone
             pools.append(_improved(pool, task, many, rng))
@@ -150,8 +160,8 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     chosen = [take(pool.trials, k) for pool, k in zip(pools, index, strict=True)]
     trials = concatenate(chosen)
     return Family(
-        _rule(task.conditions),
-        _driver_first(trials, task),
+        rule_in_words(task.conditions),
+        driver_first(trials, task),
         np.zeros_like(trials.driver) if task.is_symmetric else trials.driver,
         task.rows(trials.offsets),
         any(good),
@@ -162,12 +172,12 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
     )
 
 
-def _drawn(
+def drawn_pool(
     task: OpenTask,
     kinds: frozenset[frozenset[type]],
     counts: Mapping[int, int],
     rng: np.random.Generator,
-) -> _Pool | None:
+) -> Pool | None:
     """Linkages of dyads drawn at random, judged; None where no two dyads meet the poses.
 
     kinds: the pairs of kinds of dyads; counts: how many dyads of each kind.
@@ -200,17 +210,17 @@ def _drawn(
     every_trial = concatenate(trials)
     if not len(every_trial):
         return None
-    return _Pool(every_trial, assessed(every_trial, task), dyads, pairs)
+    return Pool(every_trial, assessed(every_trial, task), dyads, pairs)
 
 
-def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Generator) -> _Pool:
+def _improved(pool: Pool, task: OpenTask, generations: int, rng: np.random.Generator) -> Pool:
     """The linkages that work, with those that evolve from the best of each aim."""
-    points = _pins(pool.trials, task) / task.conditions.span
+    points = pin_places(pool.trials, task) / task.conditions.span
     starts, aims = [], []
     for aim, most in enumerate(POPULATIONS):
         cost = costs(pool.value, np.full(len(points), aim), task.conditions.enough)
         first = np.argsort(cost, kind="stable")[:MOST_STARTS]
-        apart = _spread(points[first], most)
+        apart = spread_out(points[first], most)
         starts += first[apart].tolist()
         aims += [aim] * len(apart)
         if not pool.value.good.any():
@@ -239,7 +249,7 @@ def _improved(pool: _Pool, task: OpenTask, generations: int, rng: np.random.Gene
     return _better_driven(pool._replace(trials=take(every, some), value=take(worth, some)), task)
 
 
-def _better_driven(pool: _Pool, task: OpenTask) -> _Pool:
+def _better_driven(pool: Pool, task: OpenTask) -> Pool:
     """The same linkages, driven by the other dyad where that transmits better and is allowed.
 
     All of them are held against the surroundings thoroughly.
@@ -259,7 +269,7 @@ def _better_driven(pool: _Pool, task: OpenTask) -> _Pool:
     )
 
 
-def _spread(points: FloatArray, most: int) -> list[int]:
+def spread_out(points: FloatArray, most: int) -> list[int]:
     """The first of points (k, n), best first, and further ones that are APART from these."""
     chosen: list[int] = []
     for k in range(len(points)):
@@ -270,7 +280,7 @@ def _spread(points: FloatArray, most: int) -> list[int]:
     return chosen
 
 
-def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
+def _shown(pool: Pool, task: OpenTask) -> NDArray[np.intp]:
     """The recommended linkage and others of the front, far from each other, best first."""
     value = pool.value
     if not value.good.any():
@@ -283,7 +293,7 @@ def _shown(pool: _Pool, task: OpenTask) -> NDArray[np.intp]:
     on_front = good[front(figures[good])]
     on_front = np.concatenate([[best], on_front[on_front != best]])
     aims = [int(aim(take(value, on_front), asked.enough).argmin()) for aim in AIMS]
-    points = _pins(take(pool.trials, on_front), task) / task.conditions.span
+    points = pin_places(take(pool.trials, on_front), task) / task.conditions.span
     chosen = far_apart(points, [0, *aims], SHOWN, SHOWN_APART)
     rest = on_front[chosen[1:]]
     rest = rest[best_first(*(figure[rest] for figure in value[1:]), enough=asked.enough)]
@@ -310,8 +320,8 @@ def _proportions_first(prefer: Preference, least: float) -> bool:
     return prefer == "transmission" and least >= GOOD_TRANSMISSION
 
 
-def _rule(asked: Conditions) -> str:
-    """The same rule as a sentence."""
+def rule_in_words(asked: Conditions) -> str:
+    """The rule by which a linkage is recommended, as a sentence."""
     alike = ""
     if asked.prefer != "transmission" or _proportions_first(asked.prefer, asked.transmission):
         share = AS_GOOD_WORDS[AS_GOOD[asked.prefer]]
@@ -322,9 +332,9 @@ def _rule(asked: Conditions) -> str:
     )
 
 
-def _pins(trials: Trials, task: OpenTask) -> FloatArray:
+def pin_places(trials: Trials, task: OpenTask) -> FloatArray:
     """Where pivots and lines (k, 8) are at the first pose, the driver first."""
-    batch = _driver_first(trials, task, always=True)
+    batch = driver_first(trials, task, always=True)
     z = batch.dimensions[..., :4].copy()
     first = task.poses[0]
     for side in (0, 1):
@@ -333,7 +343,7 @@ def _pins(trials: Trials, task: OpenTask) -> FloatArray:
     return z.reshape(len(z), -1)
 
 
-def _driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> LinkageBatch:
+def driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> LinkageBatch:
     """The linkages with the driver first, unless each side has limits of its own."""
     if not (always or task.is_symmetric):
         return trials.batch

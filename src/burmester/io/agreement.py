@@ -55,6 +55,7 @@ __all__ = ["Judged", "judged_again"]
 CLOSENESS = 1e-9  # of the task's size or of a number itself; rounding changes less
 ROUNDING = 1e-14  # of the farthest pivot; rounding of what is computed from it
 SHARE_CLOSENESS = 1e-5  # of a tolerance; shares are of places that are written with all digits
+NONE = ("R302", "R306", "R309")  # outcomes without a linkage, or with near misses alone
 NOT_USABLE = ("R301", "R304", "R341")  # outcomes with linkages of which none is usable
 PLACE_ERROR = 1e-6  # of the task's size; places are found by iteration, to fewer digits
 # Of a figure of quality: beside a dead point, and for bodies that hardly are determined, rounding
@@ -216,9 +217,9 @@ def _task_parts(result: WrittenResult, task: Task) -> _Parts:
         given = known[0]
         if given is not (code == "R330"):
             yield _Part(keys, code, f"{'a' if given else 'no'} usable linkage as given")
-    elif result.linkages and code in ("R302", "R303", "R306"):
+    elif result.linkages and code == "R303":
         yield _Part(keys, code, "linkages")
-    elif usable is not (code in WORKING) and code in (*WORKING, *NOT_USABLE, "R309", "R351"):
+    elif usable is not (code in WORKING) and code in (*WORKING, *NOT_USABLE, *NONE, "R351"):
         yield _Part(keys, code, "a usable linkage" if usable else "no usable linkage")
 
 

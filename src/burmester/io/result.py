@@ -62,7 +62,7 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
     tolerance = synthesis.options.manufacturing_tolerance
     return {
         "schema": SCHEMA,
-        "outcome": message_data(outcome),
+        "outcome": {**message_data(outcome), **_causes(synthesis)},
         "method": synthesis.method,
         "task": task_data(task),
         "motion": None if motion is None else motion_data(motion),
@@ -86,6 +86,25 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         if synthesis.certificate is None
         else _certificate(synthesis.certificate),
         "six_bars": None if synthesis.six_bars is None else _six_bars(synthesis.six_bars),
+    }
+
+
+def _causes(synthesis: Synthesis) -> dict[str, Any]:
+    """The limits that are to blame where no linkage is sound, the least loosening first."""
+    if not synthesis.causes:
+        return {}
+    listed = {each.id for each in synthesis.linkages}
+    return {
+        "causes": [
+            {
+                "limit": each.limit.kind,
+                "number": each.limit.number + 1,
+                "message": each.message,
+                "option": each.option,
+                "near_miss": each.found.id if each.found.id in listed else None,
+            }
+            for each in synthesis.causes
+        ]
     }
 
 

@@ -22,6 +22,7 @@ from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import limited, step, time_for
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
 from burmester.synthesis.method import with_method
+from burmester.synthesis.none_explained import explained
 from burmester.synthesis.outcome import (
     dyad_advice,
     family,
@@ -69,7 +70,7 @@ def synthesize(
     """
     _require_few(task)
     with limited(options.time_limit) as watch:
-        return with_time_limit(_synthesis(task, options), watch)
+        return with_time_limit(explained(_synthesis(task, options), _synthesis), watch)
 
 
 def _require_few(task: Task) -> None:
@@ -169,11 +170,14 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     """Too few conditions leave infinitely many linkages: the best of them; None if none meets."""
     # Few tasks need them.
     from burmester.families.family import best_of_family, recommended_first  # noqa: PLC0415
+    from burmester.families.least_excess import found_at_last  # noqa: PLC0415
     from burmester.synthesis.family_outcome import family_summary  # noqa: PLC0415  the same
 
     target = target_of(problem)
     step("looking at the linkages of the family")
     found = best_of_family(problem, target)
+    if found is None or not found.works:
+        found = found_at_last(problem, target, found)
     if found is None:
         return None
     evaluation = Evaluation(problem, target)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to l
     from burmester.families.family import Family
     from burmester.points.real_linkages import PointLinkages
     from burmester.sixbar.six_bars import SixBars
+    from burmester.synthesis.loosening import Loosening
 
 __all__ = ["JUDGED", "Outcome", "Synthesis"]
 
@@ -60,6 +61,8 @@ class Synthesis:
     six_bars: what a search for six-bars has found, where one was asked for; or the one six-bar that
         was given.
     points: the solutions that were counted where poses and points determine finitely many.
+    causes: where no linkage is sound, the limits that are to blame, each with the least loosening
+        that was found to be enough, the least first.
     """
 
     problem: SynthesisProblem
@@ -72,6 +75,7 @@ class Synthesis:
     family: Family | None = None
     six_bars: SixBars | None = None
     points: PointLinkages | None = None
+    causes: tuple[Loosening, ...] = ()
 
     @property
     def task(self) -> Task:

@@ -21,6 +21,7 @@ __all__ = [
     "HasError",
     "above",
     "asked_for",
+    "below",
     "by_nearness",
     "error_bounds",
     "hints",
@@ -231,3 +232,11 @@ def above(value: float) -> str:
     """The value rounded up to three digits."""
     step = 10.0 ** (math.floor(math.log10(value)) - 2)
     return f"{math.ceil(value / step) * step:.3g}"
+
+
+def below(value: float) -> str:
+    """The value rounded down to three digits; 0 stays."""
+    if value <= 0:
+        return "0"
+    step = 10.0 ** (math.floor(math.log10(value)) - 2)
+    return f"{math.floor(value / step) * step:.3g}"

@@ -1,0 +1,361 @@
+"""Why there is no linkage: the limit that stops them all, how little would do, and near misses.
+
+Each limit of a task is loosened alone, the others as they are, by as little as lets a sound linkage
+in.  What is told was tried: the task with the looser limit is solved as any other, and has a sound
+linkage.  A search, not a proof: less may do.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence, Set
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Final, Self, TypeAlias, final
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.geometry.regions import Polygon
+from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
+from burmester.linkages.from_dyads import target_of
+from burmester.numerics.arrays import FloatArray
+from burmester.progress import time_for
+from burmester.synthesis.cleared_region import bars_clear
+from burmester.synthesis.loosening import Loosening, loosened
+from burmester.synthesis.result import Synthesis
+from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import poses_in_words
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.stated_limits import LimitKind, StatedLimit, stated_limits, without
+from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
+
+if TYPE_CHECKING:  # loaded for few poses only
+    from burmester.families.assumptions import Assumptions
+    from burmester.families.open_task import OpenTask, Trials
+
+__all__ = ["explained"]
+
+Solve: TypeAlias = Callable[[Task, SynthesisOptions], Synthesis]
+
+FEW: Final = ("R308", "R309")  # outcomes of few poses
+MANY: Final = ("R301", "R302", "R306")
+SHARES: Final = (1.0, 1.1, 1.3, 2.0)  # of the way to a near miss, until a search finds a linkage
+BISECTIONS: Final = 3  # number of times that a way is halved where each is a search of its own
+WORTH: Final = 0.9  # of a loosening; one that is less is tried, too
+COMPARED: Final = 12  # number of sound linkages of which the nearest to a limit is looked for
+ON_OFF: Final = ("kinds", "type", "driver", "order")  # limits that are kept or not
+DYADS: Final = frozenset({"fixed pivot", "moving pivot", "length", "kinds"})  # limits of dyads
+NEED_SURROUNDINGS: Final = ("margin", "keep-out")
+
+
+def explained(synthesis: Synthesis, solve: Solve) -> Synthesis:
+    """The synthesis; where it has no sound linkage, with the limits that are to blame for that.
+
+    solve: from a task to its linkages, without this explanation.
+    """
+    search = _search(synthesis, solve)
+    if search is None:
+        return synthesis
+    causes = sorted(search.alone(), key=lambda each: each.size)
+    if not causes:
+        causes = search.together()
+        return _told(synthesis, causes, alone=False) if causes else _no_cause(synthesis, search)
+    return _told(synthesis, causes, alone=True)
+
+
+def _search(synthesis: Synthesis, solve: Solve) -> _FewPoses | _ManyPoses | None:
+    """The search for what is to blame; None where there is nothing to explain."""
+    task, code = synthesis.task, synthesis.outcome.code
+    if task.path is not None or not any(stated_limits(task)):
+        return None
+    if code in FEW and (not synthesis.works or _given_up(synthesis)):
+        return _FewPoses.of(synthesis.problem, solve)
+    limited = bool(task.limits) or replace(task.requirements, any_order=False).has_any
+    limited |= task.surroundings is not None
+    if code in MANY and limited and task.tolerances is None:
+        return _ManyPoses(synthesis.problem, solve)
+    return None
+
+
+def _given_up(synthesis: Synthesis) -> bool:
+    return synthesis.family is not None and synthesis.family.given_up
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Search:
+    """What both searches share.
+
+    problem: of the task as stated.
+    """
+
+    problem: SynthesisProblem
+    solve: Solve
+
+    @property
+    def task(self) -> Task:
+        return self.problem.given
+
+    @property
+    def size(self) -> float:
+        return self.problem.motion_size
+
+    def judged(self, batch: LinkageBatch, rows: FloatArray) -> list[FoundLinkage]:
+        """Linkages (k,) at their rows (k, N, 3), judged by the task as stated."""
+        target = target_of(self.problem)
+        own, every = batch.from_canonical(target.frames), np.ones(len(batch), dtype=bool)
+        pairs = [numbered_pair(own.linkage(k), 2 * k + 1) for k in range(len(own))]
+        evaluation = Evaluation(self.problem, target)
+        return evaluation.members(Candidates(batch, rows, pairs, every, own))
+
+    def sound(self, task: Task) -> list[FoundLinkage]:
+        """The sound linkages that a task has; none where it contradicts itself."""
+        try:
+            answer = self.solve(task, self.problem.options)
+        except InputError:
+            return []
+        return [each for each in answer.usable if not each.shortcomings]
+
+    def hopeless(self) -> bool:
+        """Whether no linkage was found without any limit either."""
+        return False
+
+    def tried(self, limit: StatedLimit, found: FoundLinkage) -> Loosening | None:
+        """The least loosening for a linkage with which the task has a sound one."""
+        for share in SHARES:
+            told = loosened(self.task, limit, found, self.size, share)
+            if told is None or self.sound(told.task):
+                return told
+            if limit.kind in ON_OFF or not time_for("looking for what little would do"):
+                break
+        return None
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class _FewPoses(_Search):
+    """Poses that leave infinitely many linkages: those that evolve towards keeping the limit.
+
+    assumed: where the task says nothing; stated: the task with all limits; drawn: linkages within
+        those of the dyads.
+    """
+
+    assumed: Assumptions
+    stated: OpenTask
+    drawn: Trials | None
+
+    @classmethod
+    def of(cls, problem: SynthesisProblem, solve: Solve) -> Self:
+        """The search for a problem."""
+        from burmester.families.least_excess import drawn_near, to_build  # noqa: PLC0415  few tasks need it
+        from burmester.families.open_task import OpenTask  # noqa: PLC0415  the same
+
+        assumed = to_build(problem)
+        stated = OpenTask.of(problem, target_of(problem), assumed)
+        return cls(problem, solve, assumed, stated, drawn_near(stated))
+
+    def alone(self) -> Iterator[Loosening]:
+        """Each limit loosened alone, where that is enough."""
+        for limit in stated_limits(self.task):
+            if limit.kind == "within" or not time_for(f"looking without the limit on {limit.kind}"):
+                continue
+            for found in self._nearest([limit])[:1]:
+                told = self.tried(limit, found)
+                if told is not None:
+                    told = self._nearer(limit, told) if limit.kind in DYADS else told
+                    yield replace(told, message=told.message + self._share(limit))
+
+    def _nearer(self, limit: StatedLimit, told: Loosening) -> Loosening:
+        """A smaller loosening, if one is found within what was found to be enough."""
+        if limit.kind in ON_OFF or not time_for("looking for what little would do"):
+            return told
+        for found in self._evolved(told.task, {limit.kind})[:1]:
+            less = loosened(self.task, limit, found, self.size)
+            if less is not None and less.size < WORTH * told.size:
+                return self.tried(limit, found) or told
+        return told
+
+    def hopeless(self) -> bool:
+        """Whether no linkage was found without any limit either."""
+        every = [each for each in stated_limits(self.task) if each.kind not in ("within", "order")]
+        return time_for("looking without any limit") and not self._nearest(every)
+
+    def _share(self, limit: StatedLimit) -> str:
+        """How many of the dyads drawn within their limits clear a keep-out region, in words."""
+        if limit.kind != "keep-out" or self.drawn is None:
+            return ""
+        batch = self.drawn.batch.from_canonical(target_of(self.problem).frames)
+        z = batch.dimensions[batch.kinds == 0]
+        clear = bars_clear(self.task, limit.number, np.unique(z, axis=0))
+        few, count = int(clear.all(axis=1).sum()), len(clear)
+        if not count or few == count:
+            return ""
+        lost = (~clear).sum(axis=0)
+        pose = int(lost.argmax())
+        which = "all" if lost[pose] == count else f"{lost[pose]:,}"
+        at = poses_in_words(self.task, [pose])
+        return f" ({few:,} of {count:,} links clear it at all poses, {which} touch it at {at})"
+
+    def together(self) -> list[Loosening]:
+        """Limits that have to be loosened together: those of the dyads, or else all."""
+        every = [each for each in stated_limits(self.task) if each.kind not in ("within", "order")]
+        of_dyads = [each for each in every if each.kind in DYADS]
+        for limits in (of_dyads, every):
+            if len(limits) < 2 or (limits is every and len(of_dyads) == len(every)):
+                continue
+            if not time_for("looking without several limits"):
+                break
+            for found in self._nearest(limits)[:1]:
+                for share in SHARES:
+                    told, task = [], self.task
+                    for limit in limits:
+                        one = loosened(task, limit, found, self.size, share)
+                        if one is not None and limit.kind != "driver":
+                            told.append(one)
+                            task = one.task
+                    if told and self.sound(task):
+                        return told
+        return []
+
+    def _nearest(self, limits: Sequence[StatedLimit]) -> list[FoundLinkage]:
+        """Linkages that keep all but some limits, those nearest to keeping them first."""
+        boxes: dict[str, Polygon] = {
+            "fixed pivot": self.assumed.fixed,
+            "moving pivot": self.assumed.moving,
+        }
+        loosest = self.task
+        for limit in sorted(
+            limits, key=lambda each: -each.number
+        ):  # regions are taken from the end
+            if loosest.surroundings is not None or limit.kind not in NEED_SURROUNDINGS:
+                loosest = without(loosest, limit, boxes.get)
+        return self._evolved(loosest, {limit.kind for limit in limits})
+
+    def _evolved(self, loosest: Task, kinds: Set[LimitKind]) -> list[FoundLinkage]:
+        """Linkages of a task with some limits looser, those nearest to the limits as stated first.
+
+        kinds: of these limits.
+        """
+        # Few tasks need these.
+        from burmester.families.family import driver_first  # noqa: PLC0415
+        from burmester.families.least_excess import (  # noqa: PLC0415
+            LEAST_USEFUL,
+            least_excess,
+            to_build,
+        )
+        from burmester.families.open_task import OpenTask  # noqa: PLC0415
+
+        problem = SynthesisProblem.of(loosest, self.problem.motion, self.problem.options).merged()
+        open_ = to_build(problem)
+        if "transmission" in kinds:
+            open_ = replace(open_, transmission=min(open_.transmission, LEAST_USEFUL))
+        if "link ratio" in kinds:
+            open_ = replace(open_, ratio=math.inf)
+        loose = OpenTask.of(problem, target_of(problem), open_)
+        wide = bool(kinds & DYADS)
+        near = least_excess(self.stated, loose, self.drawn, wide=wide)
+        if near is None:
+            return []
+        batch = driver_first(near.trials, loose)
+        found = self.judged(batch, loose.rows(near.trials.offsets))
+        return list(at_given_poses(found, self.problem))
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class _ManyPoses(_Search):
+    """Five poses and more: the linkages of the task without the limit, nearest to keeping it."""
+
+    def alone(self) -> Iterator[Loosening]:
+        """Each limit loosened alone, where that is enough."""
+        for limit in stated_limits(self.task):
+            if not time_for(f"looking without the limit on {limit.kind}"):
+                break
+            near = self._near(limit, without(self.task, limit, lambda _: None))
+            told = None if near is None else self.tried(limit, near.found)
+            if told is not None:
+                yield told if limit.kind in ON_OFF else self._least(limit, told)
+
+    def together(self) -> list[Loosening]:
+        """Nothing: what lies beyond two limits is not looked for."""
+        return []
+
+    def _near(self, limit: StatedLimit, task: Task) -> Loosening | None:
+        """The least loosening for one of the sound linkages of a task."""
+        found = self.sound(task)[:COMPARED]
+        if not found:
+            return None
+        target = target_of(self.problem)
+        numbers = self.problem.pose_numbers
+        rows = np.stack([target.rows_at(each.error.places[numbers]) for each in found])
+        batch = LinkageBatch.of([each.linkage for each in found]).to_canonical(target.frames)
+        told = [
+            loosened(self.task, limit, each, self.size)
+            for each in at_given_poses(self.judged(batch, rows), self.problem)
+        ]
+        return min(filter(None, told), key=lambda each: each.size, default=None)
+
+    def _least(self, limit: StatedLimit, most: Loosening) -> Loosening:
+        """The least loosening known to be enough, by halving the way to one that is."""
+        low, high, best = 0.0, 1.0, most
+        for _ in range(BISECTIONS):
+            if not time_for("looking for what little would do"):
+                break
+            middle = (low + high) / 2
+            told = loosened(self.task, limit, most.found, self.size, middle)
+            near = None if told is None else self._near(limit, told.task)
+            if told is None or near is None:
+                low = middle
+                continue
+            high, best = middle, replace(told, found=near.found)
+        return best
+
+
+def _no_cause(synthesis: Synthesis, search: _Search) -> Synthesis:
+    """The synthesis where no limit is to blame, as far as a search can tell."""
+    if synthesis.outcome.code != "R309" or not search.hopeless():
+        return synthesis
+    why = "without any of the limits no sound linkage was found either: the poses are to blame"
+    help = "move a pose, or leave one out"
+    return replace(synthesis, outcome=replace(synthesis.outcome, why=why, help=help))
+
+
+def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> Synthesis:
+    """The synthesis with what is to blame, and the near misses."""
+    words = [each.message for each in causes]
+    if alone:
+        why = f"it takes {'; or '.join(words)}"
+    else:
+        why = f"no one limit is to blame: it takes {' and '.join(words)}"
+    why += "; a search found this, and less may do"
+    glue = "; or " if alone else " and "
+    help = f"use {glue.join(each.option for each in causes)}"
+    if synthesis.works:
+        warnings = tuple(
+            replace(each, why=why, help=help) if each.code == "W216" else each
+            for each in synthesis.warnings
+        )
+        return replace(synthesis, warnings=warnings, causes=tuple(causes))
+    before = () if synthesis.outcome.code in FEW else synthesis.linkages
+    number = len(synthesis.dyads) if before else 0
+    added = []
+    for k, each in enumerate(causes if alone else causes[:1]):
+        first, second = each.found.dyads
+        pair = (
+            replace(first, id=f"D{number + 2 * k + 1}"),
+            replace(second, id=f"D{number + 2 * k + 2}"),
+        )
+        rank = len(before) + k + 1
+        added.append(replace(each.found, id=f"L{rank}", rank=rank, dyads=pair))
+    near = added if alone else added * len(causes)  # one that breaks all of these limits
+    causes = [replace(each, found=found) for each, found in zip(causes, near, strict=True)]
+    outcome = replace(synthesis.outcome, why=why, help=help)
+    dyads = synthesis.dyads if before else tuple(d for each in added for d in each.dyads)
+    return replace(
+        synthesis,
+        outcome=outcome,
+        linkages=(*before, *added),
+        dyads=dyads,
+        causes=tuple(causes),
+    )

@@ -1,0 +1,115 @@
+"""A region with room for points beside it, in words and as the command line states it."""
+
+from __future__ import annotations
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from burmester.families.pivot_freedom import PivotFreedom
+from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import length_of
+from burmester.wording import listed
+
+__all__ = ["DIGITS", "WiderRegion", "plain", "region_text", "wider"]
+
+DIGITS: Final = 2  # with which an amount is told; the wider limit is rounded by as many
+HERE: Final = Polygon(
+    np.array([(0.0, 0), (1, 0), (0, 1)])
+)  # cuts off nothing where no points are drawn
+SIDES: Final = (("further left", "x"), ("lower", "y"), ("further right", "x"), ("higher", "y"))
+
+
+class WiderRegion(NamedTuple):
+    """A region that holds what another one does not.
+
+    by: how much wider it is, a length; words: the same; near: (2,), the farthest of the points.
+    """
+
+    region: Region
+    by: float
+    words: str
+    near: FloatArray
+
+
+def wider(region: Region, points: FloatArray, share: float, task: Task) -> WiderRegion | None:
+    """A region with room for points (k, 2); None where it holds them.
+
+    share: how much of the way to them, above 1 for some room to spare.  A box stays a box, a line a
+    line, a point a point; others become the hull of themselves and the points.
+    """
+    near = PivotFreedom(region, HERE, np.zeros(2), 1.0).nearest(points)[0]
+    away = np.linalg.norm(points - near, axis=1)
+    worst = int(away.argmax())
+    if not away[worst] > 0:
+        return None
+    step = 10.0 ** (math.floor(math.log10(away[worst])) - DIGITS + 1)
+    at, by = points[worst], share * float(away[worst])
+    wanted = near + share * (points - near)
+    if isinstance(region, Point):
+        other = Point(np.round(wanted[worst] / step) * step)
+        by = float(np.linalg.norm(other.at - region.at))
+        return WiderRegion(other, by, f"{length_of(by, task)} away", at)
+    if isinstance(region, Line):
+        shift = wanted[worst] - near[worst]
+        moved = Line(region.start + shift, region.end + shift)
+        return WiderRegion(moved, by, f"on a line {length_of(by, task)} away", at)
+    low, high = (turn(wanted / step) * step for turn in (np.floor, np.ceil))
+    cells = np.concatenate([low, high])[away[[*range(len(away))] * 2] > 0]
+    if isinstance(region, Polygon) and is_box(region):
+        return _wider_box(region, cells, at, task)
+    corners = region.corners()
+    assert corners is not None
+    import shapely  # noqa: PLC0415  seldom needed
+
+    more = [cells, np.stack([cells[:, 0], np.roll(cells[:, 1], len(cells) // 2)], axis=1)]
+    hull = shapely.convex_hull(shapely.multipoints(np.concatenate([corners, *more])))
+    grown = Polygon(shapely.get_coordinates(hull)[:-1])
+    return WiderRegion(grown, by, f"{length_of(by, task)} outside their region", at)
+
+
+def _wider_box(region: Polygon, points: FloatArray, at: FloatArray, task: Task) -> WiderRegion:
+    """A box with room for points (k, 2); at: (2,), the farthest of them."""
+    old = np.concatenate([region.vertices.min(axis=0), region.vertices.max(axis=0)])
+    first, last = np.minimum(old[:2], points.min(axis=0)), np.maximum(old[2:], points.max(axis=0))
+    new = np.array([float(f"{value:.12g}") for value in (*first, *last)])
+    words = [
+        f"{length_of(abs(side - before), task)} {way}, to {axis} = {plain(side)}"
+        for (way, axis), before, side in zip(SIDES, old, new, strict=True)
+        if side != before
+    ]
+    by = float(np.linalg.norm(new - old))
+    grown = box(new[:2].tolist(), new[2:].tolist())
+    return WiderRegion(grown, by, listed(words), at)
+
+
+def is_box(region: Polygon) -> bool:
+    """Whether a polygon is a box with sides along X and Y."""
+    v = region.vertices
+    return len(v) == 4 and bool(((v == np.roll(v, -1, axis=0)).sum(axis=1) == 1).all())
+
+
+def plain(value: float) -> str:
+    """A number with the digits that it has, up to six."""
+    return f"{float(value) + 0.0:.6g}"
+
+
+def region_text(region: Region | None) -> str:
+    """A region as the command line states it."""
+    if region is None:
+        return "any"
+
+    def points(rows: FloatArray) -> str:
+        return ":".join(",".join(f"{float(value) + 0.0:.12g}" for value in row) for row in rows)
+
+    if isinstance(region, Point):
+        return points(region.at[None])
+    if isinstance(region, Line | Segment):
+        return f"{type(region).__name__.lower()}:{points(np.stack([region.start, region.end]))}"
+    if is_box(region):
+        v = region.vertices
+        return f"box:{points(np.stack([v.min(axis=0), v.max(axis=0)]))}"
+    return f"polygon:{points(region.vertices)}"

@@ -1,0 +1,112 @@
+"""The limits and requirements that a task states, one by one, and the task without one of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any, Final, Literal, TypeAlias, final
+
+import numpy as np
+
+from burmester.geometry.regions import Polygon, Region
+from burmester.tasks.motion_task import Task
+
+__all__ = ["PIVOTS", "LimitKind", "StatedLimit", "stated_limits", "with_limits", "without"]
+
+LimitKind: TypeAlias = Literal[
+    "fixed pivot", "moving pivot", "length", "kinds", "transmission", "link ratio", "type",
+    "driver", "order", "footprint", "margin", "keep-out", "within",
+]  # fmt: skip
+PIVOTS: Final = ("fixed pivot", "moving pivot")
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class StatedLimit:
+    """One limit of a task; number: of the dyad's limits, or of the keep-out region, from 0."""
+
+    kind: LimitKind
+    number: int = 0
+
+
+def stated_limits(task: Task) -> Iterator[StatedLimit]:
+    """Every limit and requirement that a task states."""
+    asked, around = task.requirements, task.surroundings
+    for number, limits in enumerate(task.limits):
+        of_dyad: dict[LimitKind, bool] = {
+            "fixed pivot": limits.fixed_pivot is not None,
+            "moving pivot": limits.moving_pivot is not None,
+            "length": limits.has_length,
+        }
+        yield from (StatedLimit(kind, number) for kind, given in of_dyad.items() if given)
+    parts = around is not None and (around.margin or around.link_width or around.body_in_plane)
+    of_linkage: dict[LimitKind, bool] = {
+        "kinds": any({"RR", "PR", "RP"} - limits.kinds for limits in task.limits),
+        "transmission": asked.transmission_deg > 0,
+        "link ratio": math.isfinite(asked.link_ratio),
+        "type": asked.types is not None,
+        "driver": asked.driver != "any",
+        "order": not asked.any_order,
+        "footprint": asked.footprint is not None,
+        "margin": bool(parts),
+        "within": asked.within is not None or asked.within_deg is not None,
+    }
+    yield from (StatedLimit(kind) for kind, given in of_linkage.items() if given)
+    for number in range(0 if around is None else len(around.keep_out)):
+        yield StatedLimit("keep-out", number)
+
+
+def without(task: Task, limit: StatedLimit, room: Callable[[str], Polygon | None]) -> Task:
+    """The task without one of its limits.
+
+    room: for "fixed pivot" and "moving pivot", a box in which pivots are looked for instead of
+    everywhere.
+    """
+    number = limit.number
+    if limit.kind in PIVOTS:
+        name = limit.kind.replace(" ", "_")
+        one, wide = task.limits[number], room(limit.kind)
+        region = _around(getattr(one, name), wide)
+        return with_limits(task, number, **{name: region}, kinds=one.allowed)  # no new sliders
+    if limit.kind == "length":
+        return with_limits(task, number, length=(0.0, math.inf))
+    if limit.kind == "kinds":
+        every = tuple(replace(each, kinds=each.kinds | {"RR", "PR", "RP"}) for each in task.limits)
+        return replace(task, limits=every)
+    if limit.kind in ("margin", "keep-out"):
+        around = task.surroundings
+        assert around is not None
+        if limit.kind == "margin":
+            bare = replace(around, margin=0.0, link_width=0.0, body_in_plane=False)
+            return replace(task, surroundings=bare if around.keep_out else None)
+        rest = around.keep_out[:number] + around.keep_out[number + 1 :]
+        none = not rest and not around.body_in_plane
+        return replace(task, surroundings=None if none else replace(around, keep_out=rest))
+    open_: dict[LimitKind, dict[str, Any]] = {
+        "transmission": {"transmission_deg": 0.0},
+        "link ratio": {"link_ratio": math.inf},
+        "type": {"types": None},
+        "driver": {"driver": "any"},
+        "order": {"any_order": True},
+        "footprint": {"footprint": None},
+        "within": {"within": None, "within_deg": None},
+    }
+    return replace(task, requirements=replace(task.requirements, **open_[limit.kind]))
+
+
+def with_limits(task: Task, number: int, **changes: Any) -> Task:
+    """The task with other limits in the place of those with a number."""
+    limits = list(task.limits)
+    limits[number] = replace(limits[number], **changes)
+    return replace(task, limits=tuple(limits))
+
+
+def _around(region: Region, wide: Polygon | None) -> Polygon | None:
+    """The box that holds a region and a wide box; None where there is no wide box."""
+    if wide is None:
+        return None
+    corners = region.corners()
+    points = wide.vertices if corners is None else np.concatenate([wide.vertices, corners])
+    (x, y), (z, w) = points.min(axis=0), points.max(axis=0)
+    return Polygon(np.array([(x, y), (z, y), (z, w), (x, w)]))
