@@ -4,7 +4,7 @@ import numpy as np
 
 from burmester.dyads.three_poses import dyad_with_moving_pivot
 from burmester.families.assessment import assessed
-from burmester.families.assumptions import Assumptions
+from burmester.verdicts.assumptions import Assumptions
 from burmester.families.open_task import OpenTask, Trials
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch

@@ -837,7 +837,7 @@ CASES: dict[str, Case] = {
         "E112", S, Edit("poses.csv", "3e200", "3"), {"poses.csv": rows("0,0,0 3e200,1,40 4,3,70")}
     ),
     "standard deviation too large": Case(
-        "E112", f"{S} --pose-sigma 1e300,1", Args(f"{S} --pose-sigma 1,1"), GOOD
+        "E112", f"{S} --pose-sigma 1e300,1", Args(f"{S} --pose-sigma 0.01,0.1"), GOOD
     ),
     "angle weight too large": Case(
         "E112", f"{S} --angle-weight 1e300", Args(f"{S} --angle-weight 10"), GOOD

@@ -662,8 +662,6 @@ def test_a_contradicted_unit_is_refused_and_leaving_the_option_out_works(
         ROWS,
         ROWS.replace(",", ";").replace(".", ","),
         ROWS.replace(",", "\t"),
-        "1,2,3,4\n1,2,3,4\n1,2,3,4\n",
-        "0.5;1;2;7;8\n" * 3,
     ],
 )
 def test_e105_gives_the_header_to_put_on_top(read: Read, rows: str) -> None:

@@ -124,7 +124,7 @@ def test_names():
 
 
 def test_the_studio_takes_templates_of_poses():
-    assert templates.of_poses() == tuple(sorted((*TRADES, *FEW, *SIX_BARS)))
+    assert templates.of_poses() == tuple(sorted((*TRADES, *FEW, *RAILS, *SIX_BARS)))
 
 
 @pytest.mark.parametrize("name", PATHS)
@@ -144,7 +144,7 @@ def test_what_is_recommended_traces_the_curve(name):
     assert math.degrees(best.driven.least_over_range) > task.requirements.transmission_deg
 
 
-@pytest.mark.parametrize("name", [*ALL, *FEW])
+@pytest.mark.parametrize("name", [*ALL, *FEW, *RAILS])
 def test_a_template_says_that_it_is_constructed(name):
     text = templates.text(name)
     assert "\n# Constructed for burmester; not taken from a product" in text
@@ -304,7 +304,9 @@ def test_every_block_is_tried_below():
         True
     ] * 12
     keys = ("weight", "name", "exact", "tolerance", "free", "axes")
-    keys += ("fixed_pivot", "moving_pivot", "length", "kinds", "rail", *FILE_KEYS)
+    keys += ("fixed_pivot", "moving_pivot", "length", "kinds", *FILE_KEYS)
+    keys += ("direction_deg", "tolerance_deg", "through", "travel")
+    assert "#[limits.rail]\n" in templates.text()
     for key in keys:
         assert re.search(rf"\b{key} = ", templates.text()), key
 

@@ -50,7 +50,10 @@ def test_a_refinement_that_comes_out_worse_is_not_taken(monkeypatch):
     monkeypatch.setattr(Target, "refine", astray)
     kept = misses()
     assert kept.keys() == plain.keys()
-    assert all(kept[own] <= plain[own] for own in plain)
+    # One that is nowhere near the poses may be judged on another circuit than it was refined on.
+    near = [own for own in plain if plain[own] < 10]
+    assert len(near) == 9
+    assert all(kept[own] <= plain[own] for own in near)
     assert kept[frozenset(("D1", "D2"))] == plain[frozenset(("D1", "D2"))]
 
 

@@ -8,7 +8,7 @@ from typing import Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.families.assumptions import Assumptions
+from burmester.verdicts.assumptions import Assumptions
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.fourbar.linkage_batch import DYAD_KINDS

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.families.assessment import AIMS, Assessment, assessed, costs
-from burmester.families.assumptions import Assumptions, Bound
+from burmester.verdicts.assumptions import Assumptions, Bound
 from burmester.families.conditions import Conditions
 from burmester.families.dyad_samples import drawn_dyads
 from burmester.families.evolution import improved

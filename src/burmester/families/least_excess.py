@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.families.assessment import Assessment, assessed, costs
-from burmester.families.assumptions import WIDE, Assumptions
+from burmester.verdicts.assumptions import WIDE, Assumptions
 from burmester.families.evolution import improved
 from burmester.families.family import (
     PINNED,
@@ -37,10 +37,10 @@ from burmester.verdicts.standard import MOST_LINK_RATIO
 __all__ = ["LEAST_USEFUL", "LeastExcess", "drawn_near", "found_at_last", "least_excess", "to_build"]
 
 BY_EXTENT: Final = 1  # the number of that aim in AIMS; its place is taken by the excess
-STARTS: Final = 4  # number of populations
+STARTS: Final = 8  # number of populations
 # Of the evolution: of that which looks whether there is any linkage, and of that towards the least.
 GENERATIONS: Final = (8, 20)
-DRAWN: Final = {0: 200}  # number of dyads with pins that are drawn
+DRAWN: Final = {0: 450}  # number of dyads with pins that are drawn
 MOST_STARTS: Final = 300  # number of linkages among which starts are looked for
 TAKEN: Final = 3  # number of linkages that are told of
 NEVER: Final = 1.0  # excess of a dyad of a kind that is not allowed

@@ -9,7 +9,7 @@ from typing import Final, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.families.assumptions import Assumptions
+from burmester.verdicts.assumptions import Assumptions
 from burmester.families.conditions import Conditions
 from burmester.families.pivot_freedom import PivotFreedom
 from burmester.families.rail_freedom import RailFreedom

@@ -16,7 +16,7 @@ from typing import Final, NamedTuple, Self, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.families.assumptions import Assumptions
+from burmester.verdicts.assumptions import Assumptions
 from burmester.fourbar.dyad import PR, RP, RR, dimensions_of, shape_of
 from burmester.fourbar.linkage import GRASHOF_SUMS, GRASHOF_TIE, TYPE_OF_SIGNS, Linkage
 from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance

@@ -179,6 +179,19 @@ class BranchAndOrder:
         least = LeastTransmission.of(batch, self.driver[which])
         return _at_most(self._values(there, least, which)[0])
 
+    def least_transmission(self, batch: LinkageBatch, rows: FloatArray) -> FloatArray:
+        """The least transmission angle (k,) at and between places rows (k, N, 3), in radians.
+
+        Below 0 on the other side of a dead point.
+        """
+        there = Transmission.of(batch, rows, self.length, self.driver)
+        least = LeastTransmission.of(batch, self.driver)
+        _, passed = self._values(there, least, np.arange(len(batch)))
+        sine = (self.sign[:, None] * there.sine).min(axis=1)
+        between = np.arccos(np.clip(np.abs(least.cosine), 0.0, 1.0))
+        between = np.where(passed, between, np.inf).min(axis=1)
+        return np.asarray(np.minimum(np.arcsin(np.clip(sine, -1, 1)), between))
+
     def differentiated(
         self,
         batch: LinkageBatch,

@@ -8,6 +8,7 @@ proved.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import inf, nan
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import Circuits
-from burmester.fourbar.foot_points import rows_of
+from burmester.fourbar.foot_points import foot_points, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
 from burmester.fourbar.transmission import Transmission
@@ -56,6 +57,9 @@ MAX_STARTS = 144  # number of starts at most
 # Numbers of refinement steps, and after each the number of the best starts that go on.
 SELECTION = (12, 32), (30, 16), (50, 8)
 STEPS = 120  # number of refinement steps at most
+# Linkages that transmit too little at the places nearest to the poses are refined again: how often,
+# by how many steps, for how many times what they lack; and the lack that is none, radians.
+FOOT_ROUNDS, FOOT_STEPS, FOOT_SHARE, FOOT_TOLERANCE = 2, 20, 1.2, 1e-7
 WRONG_BRANCH_SCORE = 0.1  # squared lengths; start score: penalty per pose on the wrong branch
 # Squared lengths; two weightings of branch violation and backtracking in the score; half of the
 # starts come from each.
@@ -109,7 +113,7 @@ def defect_free_linkages(
             worst=True,
             constrained_steps=STEPS,
         )
-    return SearchResult(found, starts.pair, starts.branch.driver)
+    return SearchResult(_kept_at_feet(found, starts, target), starts.pair, starts.branch.driver)
 
 
 def refined_on_branch(
@@ -211,7 +215,7 @@ def _on_branch(
     middle = _middle_inputs(batch, target.places_of(rows[:, 0]), driver)
     branch = DrivenBranch(driver, np.where(np.nansum(sine, axis=1) < 0, -1.0, 1.0), middle)
     starts = _Starts(np.arange(len(batch)), batch, rows, branch)
-    return target.refine(
+    refined = target.refine(
         batch,
         rows,
         constraints=_all_constraints(starts, target, transmission),
@@ -220,6 +224,54 @@ def _on_branch(
         metric=metric,
         selection=selection,
     )
+    return _kept_at_feet(refined, starts, target, transmission, metric)
+
+
+def _kept_at_feet(
+    refined: Refined,
+    starts: _Starts,
+    target: Target,
+    transmission: FloatArray | None = None,
+    metric: FloatArray | None = None,
+) -> Refined:
+    """Refined linkages (k,), whose transmission angle is kept at the places nearest to the poses.
+
+    A refinement keeps it at places of its own, which it moves away from a dead point; a linkage is
+    judged at the nearest ones.  Where it falls short there, by so much more is asked of it.
+    """
+    least = np.full(len(starts.pair), target.requirements.transmission)
+    least = least if transmission is None else np.maximum(least, transmission)
+    if target.boxes is not None or target.path is not None or not (least > CLEARANCE_ANGLE).any():
+        return refined
+    asked, (batch, rows) = least.copy(), (refined.batch, refined.rows)
+    wanted = rows_of(target.poses, target.length)
+    index = np.flatnonzero(refined.met)
+    for _ in range(FOOT_ROUNDS):
+        feet = foot_points(batch[index], rows[index], wanted, target.length)
+        there = take(starts, index)._replace(batch=batch[index], rows=feet)
+        kept = BranchAndOrder.of(*there[1:3], target.length, there.branch, target.requirements)
+        short = np.nan_to_num(least[index] - kept.least_transmission(batch[index], feet))
+        again = short > FOOT_TOLERANCE
+        index, short = index[again], short[again]
+        if not len(index):
+            break
+        asked[index] += FOOT_SHARE * short
+        some = take(starts, index)._replace(batch=batch[index], rows=rows[index])
+        more = target.refine(
+            some.batch,
+            some.rows,
+            constraints=_all_constraints(some, target, asked[index]),
+            worst=target.worst,
+            constrained_steps=FOOT_STEPS,
+            metric=None if metric is None else metric[index],
+        )
+        dimensions, rows, cost = batch.dimensions.copy(), rows.copy(), refined.cost.copy()
+        index, met = index[more.met], more.met
+        dimensions[index], rows[index] = more.batch.dimensions[met], more.rows[met]
+        cost[index] = more.cost[met]
+        batch = LinkageBatch(batch.kinds, dimensions)
+        refined = replace(refined, batch=batch, rows=rows, cost=cost)
+    return refined
 
 
 def _best_starts(batch: LinkageBatch, target: Target, dyads: NDArray[np.intp]) -> _Starts:

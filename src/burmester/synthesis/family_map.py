@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from burmester.families.assumptions import Assumptions
+from burmester.verdicts.assumptions import Assumptions
 from burmester.families.family_map import COLUMNS, CURVE_SAMPLES, ROWS, FamilyMap, family_map
 from burmester.families.pair_verdicts import PairBounds
 from burmester.fourbar.linkage import Linkage

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from burmester.errors import Advice
-from burmester.families.assumptions import LINK_RATIO
+from burmester.verdicts.assumptions import LINK_RATIO
 from burmester.families.family import Family
 from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem

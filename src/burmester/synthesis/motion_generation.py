@@ -22,7 +22,6 @@ from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import limited, step, time_for
 from burmester.synthesis.dyad_search import DyadSearch, search_dyads
 from burmester.synthesis.method import with_method
-from burmester.synthesis.none_explained import explained
 from burmester.synthesis.outcome import (
     dyad_advice,
     family,
@@ -52,6 +51,8 @@ if TYPE_CHECKING:  # loaded where a task asks for it
 __all__ = ["synthesize"]
 
 FEW_POSES = 2  # a rail or slot leaves so many to be met exactly, or not at all
+# Outcomes that a limit may be to blame for: nothing works, or nothing but what falls short.
+MAY_BE_BARRED = ("R301", "R302", "R306", "R308", "R309")
 MAX_POSES = 200_000  # of a task, so that no method takes more than a gigabyte of memory
 
 
@@ -70,7 +71,12 @@ def synthesize(
     """
     _require_few(task)
     with limited(options.time_limit) as watch:
-        return with_time_limit(explained(_synthesis(task, options), _synthesis), watch)
+        answer = _synthesis(task, options)
+        if answer.outcome.code in MAY_BE_BARRED:
+            from burmester.synthesis.none_explained import explained  # noqa: PLC0415  seldom
+
+            answer = explained(answer, _synthesis)
+        return with_time_limit(answer, watch)
 
 
 def _require_few(task: Task) -> None:

@@ -32,7 +32,7 @@ from burmester.tasks.stated_limits import LimitKind, StatedLimit, stated_limits,
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 
 if TYPE_CHECKING:  # loaded for few poses only
-    from burmester.families.assumptions import Assumptions
+    from burmester.verdicts.assumptions import Assumptions
     from burmester.families.open_task import OpenTask, Trials
 
 __all__ = ["explained"]

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from burmester.errors import Advice
-from burmester.families.assumptions import REACH, WIDE, Assumptions
+from burmester.verdicts.assumptions import REACH, WIDE, Assumptions
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.linkages.by_all_poses import judged_at_all
 from burmester.linkages.evaluation import Evaluation, at_given_poses

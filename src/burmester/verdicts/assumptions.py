@@ -1,4 +1,4 @@
-"""What is assumed of a linkage where a task with few poses says nothing.
+"""What is assumed of a linkage where a task says nothing.
 
 Few poses leave infinitely many linkages, most of them useless: as long as a street, or locked.  So
 what the task leaves open is bounded by conventions of practice, and every bound that was used is
