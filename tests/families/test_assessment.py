@@ -4,7 +4,6 @@ import numpy as np
 
 from burmester.dyads.three_poses import dyad_with_moving_pivot
 from burmester.families.assessment import assessed
-from burmester.verdicts.assumptions import Assumptions
 from burmester.families.open_task import OpenTask, Trials
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
@@ -12,6 +11,7 @@ from burmester.linkages.from_dyads import target_of
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.assumptions import Assumptions
 from tests.oracles.pair_verdicts import verdict
 
 ROWS = [(0, 0, 0), (30, 77, 45), (95, 110, 95)]

@@ -18,6 +18,7 @@ from burmester.refinement.constraints import (
     AllConstraints,
     BranchAndOrder,
     DrivenBranch,
+    LeastLinks,
     LinkProportions,
     type_excess,
 )
@@ -277,6 +278,28 @@ def test_ratio_of_links_and_room_for_the_pivots():
         assert not equal.any()
         told.append(right)
     assert {True, False} == {a for a, _ in told} == {b for _, b in told}
+
+
+def test_links_that_are_too_short_count_and_the_slopes_are_those_of_differences():
+    """All kinds of linkages; each number is what a link lacks, and moves as the dimensions do."""
+    rng, least = np.random.default_rng(4), np.array([0.5, 0.4, 0.3, 0.6])
+    for second in (RR, PR, RP):
+        linkage = Linkage(*random_four_bar(rng, second))
+        batch = LinkageBatch.of([linkage])
+        part, which, rows = LeastLinks(least), np.array([0]), np.zeros((1, 3, 3))
+        value, equal = part(batch, rows, which)
+        assert not equal.any()
+        one, two = linkage.first, linkage.second
+        assert value[0, 0] == pytest.approx(0.5 - one.radius, rel=1e-5)
+        if second is RR:
+            apart = [two.radius, np.linalg.norm(two.fixed_pivot - one.fixed_pivot)]
+            apart.append(np.linalg.norm(two.moving_pivot - one.moving_pivot))
+            assert value[0, 1:] == pytest.approx(least[1:] - apart, rel=1e-5)
+        _, slope, _ = part.differentiated(batch, rows, which, np.zeros((1, 3, 3, 13)))
+        for k in range(10):
+            z = batch.dimensions.reshape(1, 10) + 1e-6 * (np.arange(10) == k)
+            more = part(LinkageBatch(batch.kinds, z.reshape(1, 2, 5)), rows, which)[0]
+            assert (more - value)[0] / 1e-6 == pytest.approx(slope[0, :, k], abs=1e-5)
 
 
 def test_limits_count_in_the_frames_unit():

@@ -190,7 +190,7 @@ def test_a_limit_is_taken_away_alone():
     )
     every = list(stated_limits(task))
     kinds = {each.kind for each in every}
-    assert kinds == {"fixed pivot", "length", "kinds", "transmission", "order", "footprint"}
+    assert kinds == {"fixed pivot", "length", "kinds", "transmission", "footprint"}
     for each in every:
         rest = {other.kind for other in stated_limits(without(task, each, lambda _: None))}
         assert rest == kinds - {each.kind}

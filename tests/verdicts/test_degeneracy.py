@@ -119,7 +119,7 @@ def test_lengths_that_the_task_states_replace_the_bound():
     at = [Limits(fixed_pivot=Point([0, 0])), Limits(fixed_pivot=Point([1, 0]))]
     task = conveyor()
     assert reasons(near, task)
-    stated = Task(task.poses, limits=at, requirements=task.requirements)
+    stated = Task(task.poses, limits=tuple(at), requirements=task.requirements)
     assert not reasons(near, stated)
 
 

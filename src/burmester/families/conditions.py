@@ -8,7 +8,6 @@ from typing import Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.verdicts.assumptions import Assumptions
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.fourbar.linkage_batch import DYAD_KINDS
@@ -19,6 +18,7 @@ from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import TYPES
 from burmester.tasks.surroundings import KeepOut, Surroundings
+from burmester.verdicts.assumptions import Assumptions
 from burmester.verdicts.quality import enough_transmission
 from burmester.verdicts.standard import Standard
 

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.families.assessment import AIMS, Assessment, assessed, costs
-from burmester.verdicts.assumptions import Assumptions, Bound
 from burmester.families.conditions import Conditions
 from burmester.families.dyad_samples import drawn_dyads
 from burmester.families.evolution import improved
@@ -31,6 +30,7 @@ from burmester.progress import time_for
 from burmester.refinement.target import Target
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.assumptions import Assumptions, Bound
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.quality import Quality, best_first, enough_transmission, rule
 

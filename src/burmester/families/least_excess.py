@@ -14,7 +14,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.families.assessment import Assessment, assessed, costs
-from burmester.verdicts.assumptions import WIDE, Assumptions
 from burmester.families.evolution import improved
 from burmester.families.family import (
     PINNED,
@@ -32,6 +31,7 @@ from burmester.numerics.bundles import concatenate, take
 from burmester.progress import time_for
 from burmester.refinement.target import Target
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.assumptions import WIDE, Assumptions
 from burmester.verdicts.standard import MOST_LINK_RATIO
 
 __all__ = ["LEAST_USEFUL", "LeastExcess", "drawn_near", "found_at_last", "least_excess", "to_build"]

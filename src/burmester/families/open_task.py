@@ -9,7 +9,6 @@ from typing import Final, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.verdicts.assumptions import Assumptions
 from burmester.families.conditions import Conditions
 from burmester.families.pivot_freedom import PivotFreedom
 from burmester.families.rail_freedom import RailFreedom
@@ -22,6 +21,7 @@ from burmester.refinement.target import Target
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.assumptions import Assumptions
 
 __all__ = ["DyadFreedom", "OpenTask", "Trials"]
 

@@ -16,7 +16,6 @@ from typing import Final, NamedTuple, Self, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.verdicts.assumptions import Assumptions
 from burmester.fourbar.dyad import PR, RP, RR, dimensions_of, shape_of
 from burmester.fourbar.linkage import GRASHOF_SUMS, GRASHOF_TIE, TYPE_OF_SIGNS, Linkage
 from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance
@@ -36,6 +35,7 @@ from burmester.numerics.bundles import concatenate, take
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
+from burmester.verdicts.assumptions import Assumptions
 from burmester.verdicts.standard import CHANGE_POINT, LONGEST_LINK, Standard
 
 __all__ = [

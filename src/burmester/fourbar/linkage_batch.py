@@ -22,10 +22,11 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 
-__all__ = ["DIMENSIONS", "DYAD_KINDS", "ConstraintJacobians", "LinkageBatch"]
+__all__ = ["DIMENSIONS", "DYAD_KINDS", "ConstraintJacobians", "LinkageBatch", "pin_distances"]
 
 DYAD_KINDS: Final = (RR, PR, RP)  # the kinds of dyads, by their number in a batch
 DIMENSIONS: Final = 5  # number of dimensions of a dyad; a slider leaves the last one unused
+FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
 
 
 class ConstraintJacobians(NamedTuple):
@@ -167,3 +168,19 @@ def _dyads(kind: int, rows: FloatArray) -> RR | PR | RP:
     if DYAD_KINDS[kind] is PR:
         return PR(rows[..., 0], rows[..., 1], rows[..., 2:4])
     return RP(rows[..., :2], rows[..., 2], rows[..., 3])
+
+
+def pin_distances(batch: LinkageBatch) -> FloatArray:
+    """The distances (k, 4) of the pins at both ends of links; nan where a slider is at one end.
+
+    In the order of the dyads' own links, the ground link, the coupler.
+    """
+    kinds, z = batch.kinds, batch.dimensions
+    ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
+    return np.column_stack(
+        [
+            np.where(kinds == 0, z[:, :, -1], np.nan),
+            np.where((kinds == 1).any(axis=1), np.nan, ground),
+            np.where((kinds == 2).any(axis=1), np.nan, coupler),
+        ]
+    )

@@ -14,7 +14,7 @@ from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven, Verdict, judge
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.judged_places import best_places, places_to_judge
@@ -33,7 +33,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.clearance_check import clearance_of, too_close
-from burmester.verdicts.degeneracy import degenerate_defects, pin_distances
+from burmester.verdicts.degeneracy import degenerate_defects
 from burmester.verdicts.found_linkage import FoundLinkage, Pair, Side, with_driver_first
 from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.possible_types import links_covariance, possible_types

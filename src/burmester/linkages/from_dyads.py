@@ -46,6 +46,7 @@ from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.degeneracy import least_links
 from burmester.verdicts.explanation import by_nearness
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.verdicts.ranking import (
@@ -179,6 +180,7 @@ def target_of(problem: SynthesisProblem) -> Target:
         problem.options.norm == "worst",
         boxes,
         task.path,
+        least_links(problem) / unit,
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
 from burmester.fourbar.transmission import LeastTransmission, Transmission
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
@@ -28,6 +28,7 @@ __all__ = [
     "BranchAndOrder",
     "Constraints",
     "DrivenBranch",
+    "LeastLinks",
     "LinkProportions",
     "type_excess",
 ]
@@ -37,6 +38,7 @@ TRANSMISSION_MARGIN: Final = 1e-7  # radians; kept above a required transmission
 MIN_INPUT_STEP: Final = 2e-3  # radians or lengths; least step of the input from pose to pose
 # The index of the shortest of ground, driver, coupler and follower in each of Grashof's types.
 SHORTEST_LINK: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "rocker-crank": 3}
+TINY_GAP: Final = 1e-12  # lengths; pins that are nearer have no direction from one to the other
 PROPORTION_MARGIN: Final = 1e-6  # relative; kept from the border of a type or a ratio
 
 
@@ -313,6 +315,41 @@ class LinkProportions:
             at = np.stack([pin.real, pin.imag], axis=-1) * unit + origin
             out.append(np.where((kind == 2)[:, None], -1.0, footprint.signed_distance(at)))
         return np.concatenate(out, axis=1) / unit
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class LeastLinks:
+    """The constraint that no link is shorter than its least length (4,), as in `pin_distances`."""
+
+    least: FloatArray
+    uses_places: ClassVar[bool] = False
+
+    def __call__(
+        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues:
+        least = self.least * (1 + PROPORTION_MARGIN)
+        return _at_most([np.nan_to_num(least - pin_distances(batch), nan=-1.0)])
+
+    def differentiated(
+        self,
+        batch: LinkageBatch,
+        rows: FloatArray,
+        which: NDArray[np.intp],
+        place_jacobian: FloatArray,
+    ) -> ConstraintSlopes:
+        """Also the derivatives."""
+        value, equal = self(batch, rows, which)
+        slope = np.zeros((len(batch), 4, 2, DIMENSIONS))
+        slope[:, (0, 1), (0, 1), -1] = -1.0
+        for link, at in ((2, slice(0, 2)), (3, slice(2, 4))):
+            gap = batch.dimensions[:, 1, at] - batch.dimensions[:, 0, at]
+            along = gap / np.maximum(np.linalg.norm(gap, axis=-1, keepdims=True), TINY_GAP)
+            slope[:, link, 1, at], slope[:, link, 0, at] = -along, along
+        slope[np.isnan(pin_distances(batch))] = 0.0
+        out = np.zeros((*value.shape, place_jacobian.shape[-1]))
+        out[..., : 2 * DIMENSIONS] = slope.reshape(len(batch), 4, -1)
+        return value, out, equal
 
 
 def _at_most(parts: list[FloatArray]) -> ConstraintValues:

@@ -29,6 +29,7 @@ from burmester.refinement.constraints import (
     AllConstraints,
     BranchAndOrder,
     DrivenBranch,
+    LeastLinks,
     LinkProportions,
     type_excess,
 )
@@ -395,7 +396,8 @@ def _all_constraints(
     driver = branch.driver
     types = np.array([_nearest_type(batch, k, int(side), asked) for k, side in enumerate(driver)])
     proportions = LinkProportions(target.length, target.frames, asked, driver, types)
-    return AllConstraints((branch_and_order, proportions, *target.kept))
+    short = () if target.least_links is None else (LeastLinks(target.least_links),)
+    return AllConstraints((branch_and_order, proportions, *short, *target.kept))
 
 
 def _nearest_type(batch: LinkageBatch, index: int, driver: int, asked: Requirements) -> str:

@@ -43,6 +43,8 @@ class Target:
     weights, exact, worst: as in `refine`.
     boxes: where the task has tolerances; then errors count in their metric.
     path: where the poses are points of a path; then places are those that trace it.
+    least_links: (4,), the least lengths of links as `pin_distances` has them, in the same frames:
+        searches for linkages that work keep to them.
     whole, index: where these are a sample of more poses, the target of them all, and which of
         them these are.
     """
@@ -57,6 +59,7 @@ class Target:
     worst: bool = False
     boxes: ToleranceBoxes | None = None
     path: TracedPath | None = None
+    least_links: FloatArray | None = None
     whole: Target | None = None
     index: NDArray[np.intp] | None = None
 

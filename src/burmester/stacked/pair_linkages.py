@@ -16,7 +16,7 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven, Verdict, judge
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage import TYPES, grashof_numbers
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
 from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.fourbar.pivot_box import extent
 from burmester.geometry.displacement import Displacement
@@ -28,7 +28,7 @@ from burmester.refinement.target import ONE_CIRCUIT_RATIO
 from burmester.stacked.answers import DyadRows, LinkageRows
 from burmester.stacked.found_dyads import ANGLES
 from burmester.tasks.length_per_radian import lengths_per_radian
-from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE, pin_distances
+from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
 from burmester.verdicts.tolerances import sensitivity_bound
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from burmester.verdicts.assumptions import Assumptions
 from burmester.families.family_map import COLUMNS, CURVE_SAMPLES, ROWS, FamilyMap, family_map
 from burmester.families.pair_verdicts import PairBounds
 from burmester.fourbar.linkage import Linkage
 from burmester.synthesis.result import Synthesis
+from burmester.verdicts.assumptions import Assumptions
 
 __all__ = ["family_map_of", "recommended"]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from burmester.errors import Advice
-from burmester.verdicts.assumptions import LINK_RATIO
 from burmester.families.family import Family
 from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.assumptions import LINK_RATIO
 from burmester.verdicts.explanation import in_short
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.standard import LEAST_TRANSMISSION

@@ -220,12 +220,9 @@ def _requirement(
         words = f"type {kind} as well"
         option = f'--type "{names}"' if " " in names else f"--type {names}"
         by, new = 1.0, replace(asked, types=types)
-    elif limit.kind == "driver":
+    else:  # the driver
         words, option = "any driver", "--driver any"
         by, new = 1.0, replace(asked, driver="any")
-    else:  # the order
-        words, option = "the poses in another order", "--any-order"
-        by, new = 1.0, replace(asked, any_order=True)
     return Loosening(limit, words, option, by, replace(task, requirements=new), found)
 
 

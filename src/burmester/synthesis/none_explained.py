@@ -32,8 +32,8 @@ from burmester.tasks.stated_limits import LimitKind, StatedLimit, stated_limits,
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 
 if TYPE_CHECKING:  # loaded for few poses only
-    from burmester.verdicts.assumptions import Assumptions
     from burmester.families.open_task import OpenTask, Trials
+    from burmester.verdicts.assumptions import Assumptions
 
 __all__ = ["explained"]
 
@@ -45,7 +45,7 @@ SHARES: Final = (1.0, 1.1, 1.3, 2.0)  # of the way to a near miss, until a searc
 BISECTIONS: Final = 3  # number of times that a way is halved where each is a search of its own
 WORTH: Final = 0.9  # of a loosening; one that is less is tried, too
 COMPARED: Final = 12  # number of sound linkages of which the nearest to a limit is looked for
-ON_OFF: Final = ("kinds", "type", "driver", "order")  # limits that are kept or not
+ON_OFF: Final = ("kinds", "type", "driver")  # limits that are kept or not
 DYADS: Final = frozenset({"fixed pivot", "moving pivot", "length", "kinds"})  # limits of dyads
 NEED_SURROUNDINGS: Final = ("margin", "keep-out")
 
@@ -72,9 +72,7 @@ def _search(synthesis: Synthesis, solve: Solve) -> _FewPoses | _ManyPoses | None
         return None
     if code in FEW and (not synthesis.works or _given_up(synthesis)):
         return _FewPoses.of(synthesis.problem, solve)
-    limited = bool(task.limits) or replace(task.requirements, any_order=False).has_any
-    limited |= task.surroundings is not None
-    if code in MANY and limited and task.tolerances is None:
+    if code in MANY and task.tolerances is None:
         return _ManyPoses(synthesis.problem, solve)
     return None
 
@@ -178,7 +176,7 @@ class _FewPoses(_Search):
 
     def hopeless(self) -> bool:
         """Whether no linkage was found without any limit either."""
-        every = [each for each in stated_limits(self.task) if each.kind not in ("within", "order")]
+        every = [each for each in stated_limits(self.task) if each.kind != "within"]
         return time_for("looking without any limit") and not self._nearest(every)
 
     def _share(self, limit: StatedLimit) -> str:
@@ -199,7 +197,7 @@ class _FewPoses(_Search):
 
     def together(self) -> list[Loosening]:
         """Limits that have to be loosened together: those of the dyads, or else all."""
-        every = [each for each in stated_limits(self.task) if each.kind not in ("within", "order")]
+        every = [each for each in stated_limits(self.task) if each.kind != "within"]
         of_dyads = [each for each in every if each.kind in DYADS]
         for limits in (of_dyads, every):
             if len(limits) < 2 or (limits is every and len(of_dyads) == len(every)):
@@ -331,6 +329,8 @@ def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> 
     why += "; a search found this, and less may do"
     glue = "; or " if alone else " and "
     help = f"use {glue.join(each.option for each in causes)}"
+    if synthesis.outcome.code == "R301" and synthesis.outcome.help:  # what else would do
+        help += f"; or {synthesis.outcome.help}"
     if synthesis.works:
         warnings = tuple(
             replace(each, why=why, help=help) if each.code == "W216" else each

@@ -12,7 +12,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from burmester.errors import Advice
-from burmester.verdicts.assumptions import REACH, WIDE, Assumptions
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.linkages.by_all_poses import judged_at_all
 from burmester.linkages.evaluation import Evaluation, at_given_poses
@@ -23,6 +22,7 @@ from burmester.progress import time_for
 from burmester.refinement.kept_limits import DyadLimitsConstraint
 from burmester.tasks.limits import Limits
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.assumptions import REACH, WIDE, Assumptions
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside
 from burmester.verdicts.ranking import closest_usable, digits_leave_open, ranked, states_tolerance

@@ -16,7 +16,7 @@ __all__ = ["PIVOTS", "LimitKind", "StatedLimit", "stated_limits", "with_limits",
 
 LimitKind: TypeAlias = Literal[
     "fixed pivot", "moving pivot", "length", "kinds", "transmission", "link ratio", "type",
-    "driver", "order", "footprint", "margin", "keep-out", "within",
+    "driver", "footprint", "margin", "keep-out", "within",
 ]  # fmt: skip
 PIVOTS: Final = ("fixed pivot", "moving pivot")
 
@@ -47,7 +47,6 @@ def stated_limits(task: Task) -> Iterator[StatedLimit]:
         "link ratio": math.isfinite(asked.link_ratio),
         "type": asked.types is not None,
         "driver": asked.driver != "any",
-        "order": not asked.any_order,
         "footprint": asked.footprint is not None,
         "margin": bool(parts),
         "within": asked.within is not None or asked.within_deg is not None,
@@ -88,7 +87,6 @@ def without(task: Task, limit: StatedLimit, room: Callable[[str], Polygon | None
         "link ratio": {"link_ratio": math.inf},
         "type": {"types": None},
         "driver": {"driver": "any"},
-        "order": {"any_order": True},
         "footprint": {"footprint": None},
         "within": {"within": None, "within_deg": None},
     }

@@ -12,7 +12,7 @@ from typing import Final
 import numpy as np
 
 from burmester.fourbar.defects import Defect
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.linkage_batch import LinkageBatch, pin_distances
 from burmester.geometry.regions import Point, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
@@ -26,30 +26,13 @@ __all__ = [
     "degenerate_defects",
     "least_cranks",
     "least_link",
-    "pin_distances",
+    "least_links",
     "too_short",
 ]
 
 MIN_LINK_SHARE: Final = 1 / 200  # spans of the motion; a shorter link makes no usable linkage
 # Position error at a pose per unit of error in all dimensions; a linkage above it is not usable.
 MAX_SENSITIVITY: Final = 100.0
-FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions
-
-
-def pin_distances(batch: LinkageBatch) -> FloatArray:
-    """The distances (k, 4) of the pins at both ends of links; nan where a slider is at one end.
-
-    In the order of the dyads' own links, the ground link, the coupler.
-    """
-    kinds, z = batch.kinds, batch.dimensions
-    ground, coupler = (np.linalg.norm(z[:, 1, at] - z[:, 0, at], axis=-1) for at in (FIXED, MOVING))
-    return np.column_stack(
-        [
-            np.where(kinds == 0, z[:, :, -1], np.nan),
-            np.where((kinds == 1).any(axis=1), np.nan, ground),
-            np.where((kinds == 2).any(axis=1), np.nan, coupler),
-        ]
-    )
 
 
 def least_link(problem: SynthesisProblem) -> float:
@@ -65,7 +48,7 @@ def least_cranks(problem: SynthesisProblem) -> tuple[float, float]:
     return one, two
 
 
-def _least_links(problem: SynthesisProblem) -> FloatArray:
+def least_links(problem: SynthesisProblem) -> FloatArray:
     """The least lengths (4,) of links as `pin_distances` has them.
 
     Two pivots at points that the task states are as near to each other as it says.
@@ -92,7 +75,7 @@ def degenerate_defects(
 
     sensitivity: (k,), as `quality.Quality` has it; nan where there is none.
     """
-    lengths, least = pin_distances(batch), _least_links(problem)
+    lengths, least = pin_distances(batch), least_links(problem)
     out = []
     for length, each in zip(lengths, sensitivity, strict=True):
         reasons = []
