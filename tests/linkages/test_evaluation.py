@@ -161,7 +161,8 @@ def test_a_pose_is_met_where_both_errors_are_within_their_bounds(share):
         """The first two dyads' linkage, under other bounds: whether it works."""
         asked = Requirements(any_order=True, **bounds)
         every = synthesize(Task(poses, requirements=asked)).linkages
-        return next(e.usable for e in every if not e.from_search and same_pair(e, plain))
+        # Of failing linkages of a pair the closest is kept, which may be one of the search.
+        return any(e.usable for e in every if not e.from_search and same_pair(e, plain))
 
     free = synthesize(Task(poses, requirements=Requirements(any_order=True)))
     plain = next(e for e in free.usable if not e.from_search)

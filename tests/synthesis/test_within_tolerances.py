@@ -147,5 +147,12 @@ def test_quality_decides_among_linkages_inside():
     closest = min(synthesis.usable, key=lambda each: each.combined_error)
     assert closest is not best
     angles = [each.driven.least_over_range for each in synthesis.usable if not each.shortcomings]
-    assert best.driven.least_over_range > max(angles) - np.radians(0.5) - 1e-9
+    most = min(max(angles), np.radians(60))  # more than 60 degrees count as 60
+    assert best.driven.least_over_range > most - np.radians(0.5) - 1e-9
+    alike = [
+        each.quality.extent * each.quality.sensitivity
+        for each in synthesis.usable
+        if not each.shortcomings and each.driven.least_over_range >= most - np.radians(0.5)
+    ]
+    assert best.quality.extent * best.quality.sensitivity == min(alike)
     assert best.driven.least_over_range > closest.driven.least_over_range + np.radians(5)

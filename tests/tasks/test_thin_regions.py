@@ -69,11 +69,9 @@ def test_a_box_that_is_taken_for_a_segment_has_its_linkages_and_says_so():
     assert [each.code for each in thin.warnings if each.code == "W212"] == ["W212"]
     assert "W212" not in [each.code for each in segment.warnings]
     assert len(thin.dyads) == len(segment.dyads) > 0
-    assert np.allclose(
-        [each.error.worst for each in thin.linkages],
-        [each.error.worst for each in segment.linkages],
-        rtol=1e-5,
-    )
+    # Near misses, which lie outside the region, come from a search.
+    inside = [[e for e in each.linkages if not e.violations] for each in answers]
+    assert np.allclose(*([e.error.worst for e in each] for each in inside), rtol=1e-5)
 
 
 def test_no_region_is_narrowed_into_a_condition_too_many():

@@ -178,6 +178,8 @@ def test_tasks_of_practice_recommend_what_one_would_build():
         near = [each for each in usable if each.combined_error <= 3 * max(least, floor)]
         good = [each for each in near if not each.shortcomings]
         assert not (good and best.shortcomings)
+        if any(each.code == "W215" for each in synthesis.warnings):
+            continue  # pivots beside the motion come first, and that is told
         sound += not best.shortcomings
         for each in good or usable:
             assert not (

@@ -240,10 +240,10 @@ def _kept_at_feet(
     A refinement keeps it at places of its own, which it moves away from a dead point; a linkage is
     judged at the nearest ones.  Where it falls short there, by so much more is asked of it.
     """
-    least = np.full(len(starts.pair), target.requirements.transmission)
-    least = least if transmission is None else np.maximum(least, transmission)
-    if target.boxes is not None or target.path is not None or not (least > CLEARANCE_ANGLE).any():
+    if target.boxes is not None or target.path is not None:
         return refined
+    least = np.full(len(starts.pair), max(CLEARANCE_ANGLE, target.requirements.transmission))
+    least = least if transmission is None else np.maximum(least, transmission)
     asked, (batch, rows) = least.copy(), (refined.batch, refined.rows)
     wanted = rows_of(target.poses, target.length)
     index = np.flatnonzero(refined.met)

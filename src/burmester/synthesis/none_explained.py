@@ -330,7 +330,7 @@ def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> 
     glue = "; or " if alone else " and "
     help = f"use {glue.join(each.option for each in causes)}"
     if synthesis.outcome.code == "R301" and synthesis.outcome.help:  # what else would do
-        help += f"; or {synthesis.outcome.help}"
+        help = f"{synthesis.outcome.help}; or {help}"
     if synthesis.works:
         warnings = tuple(
             replace(each, why=why, help=help) if each.code == "W216" else each
