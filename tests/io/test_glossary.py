@@ -24,6 +24,10 @@ POINTS = """x,y,angle_deg
 -0.450987,1.760176,
 -0.716342,1.141258,44.56691
 """
+RAILS = {
+    "poses": [{"x": 0, "y": 0, "angle_deg": 0}, {"x": 2, "y": 1, "angle_deg": 40}],
+    "limits": [{"rail": {"direction_deg": 10}}, {"slot": {"direction_deg": 20}}],
+}
 TASK = {
     "poses": [
         {"x": -0.8253, "y": -1.0329, "angle_deg": 91.91, "weight": 2, "exact": True},
@@ -84,6 +88,9 @@ def test_every_key_is_printed(tmp_path):
     function = "--function x**2 --x 1:2 --input 60 --output 60 --pairs 3 --json"
     phases = "--input-phase 50 --output-phase 60"
     done = CliRunner().invoke(burmester, ["synthesize", *function.split(), *phases.split()])
+    printed |= keys(json.loads(done.stdout))
+    (tmp_path / "rails.json").write_text(json.dumps(RAILS))
+    done = CliRunner().invoke(burmester, ["synthesize", str(tmp_path / "rails.json"), "--json"])
     printed |= keys(json.loads(done.stdout))
     for content in (TIMED, POINTS):
         (tmp_path / "points.csv").write_text(content)

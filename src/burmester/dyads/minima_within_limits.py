@@ -10,7 +10,7 @@ kept that lie within the limits and from which no direction into them leads down
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import final
 
 import numpy as np
@@ -28,13 +28,13 @@ from burmester.geometry.regions import Face, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
 from burmester.polynomials.bilinear_fit import Parameters, Shape, line_shape
-from burmester.tasks.frames import frames_of
+from burmester.tasks.frames import frames_of, limits_in
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
-from burmester.tasks.rails import Rail, moved_region
+from burmester.tasks.rails import Rail
 from burmester.tasks.thin_regions import without_thin_regions
 
-__all__ = ["LimitedDyads", "limited_dyads", "limits_in"]
+__all__ = ["LimitedDyads", "limited_dyads"]
 
 _LINE = line_shape(2, 0)
 
@@ -155,17 +155,3 @@ def _line_map(face: Face) -> FloatArray:
         if len(step)
     ]
     return np.stack(at + more, axis=-1)
-
-
-def limits_in(frames: CanonicalFrames, limits: Limits) -> Limits:
-    """Limits as canonical frames see them."""
-    unit = float(frames.length)
-    in_f, in_m = (frames.fixed_origin, unit), (frames.moving_origin, unit)
-    return replace(
-        limits,
-        fixed_pivot=moved_region(limits.fixed_pivot, *in_f),
-        moving_pivot=moved_region(limits.moving_pivot, *in_m),
-        length=(limits.length[0] / unit, limits.length[1] / unit),
-        rail=limits.rail and limits.rail.moved(*in_f),
-        slot=limits.slot and limits.slot.moved(*in_m),
-    )

@@ -25,7 +25,7 @@ from burmester.dyads.geometric_fit import (
 from burmester.dyads.least_powers import least_squares_step
 from burmester.dyads.limited_block import Block, LengthRange
 from burmester.dyads.local_minima import BestDyads
-from burmester.dyads.minima_within_limits import LimitedDyads, limits_in
+from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.following.face_table import FaceTable, face_numbers, held, nearest_face
 from burmester.following.minimum_step import moved_minima
 from burmester.following.moved_fit import moved_fit, twins
@@ -34,6 +34,7 @@ from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
+from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 
 __all__ = ["LimitedMinima", "limited_fit"]

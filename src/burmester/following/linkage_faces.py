@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.limited_block import Block, LengthRange
-from burmester.dyads.minima_within_limits import limits_in
 from burmester.following.face_table import FaceTable, Held, face_numbers, held, nearest_face
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 
 __all__ = ["brought_inside", "faces_met", "linkage_face_numbers", "linkages_held", "outside_limits"]

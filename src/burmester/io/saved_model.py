@@ -434,6 +434,10 @@ class _Certificate(_Part):
 
 class _Search(_Part):
     kind: Literal["pencil", "five poses", "critical points", "faces", "poses and points"]
+    classes: Annotated[int, Field(ge=0)] = 0
+    found: Annotated[int | None, Field(ge=0)] = None
+    real: Annotated[int, Field(ge=0)] = 0
+    lost: Annotated[int, Field(ge=0)] = 0
 
 
 class _Assumed(_Part):

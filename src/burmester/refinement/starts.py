@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.minima_within_limits import limits_in
 from burmester.dyads.pivot_map import fixed_pivot_map, grid
 from burmester.dyads.rail_sliders import sliders_along_rail
 from burmester.dyads.sliders import fixed_lines, moving_lines
@@ -24,6 +23,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Point, Polygon, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares, weights_of_mean_one
+from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 
 __all__ = [

@@ -1,4 +1,4 @@
-"""The canonical frames of a task, also where its poses alone leave nothing to measure by.
+"""The canonical frames of a task, and its limits seen in them.
 
 One pose has no size, and two poses share a pole: of them nothing remains by which the canonical
 frames could tell a length.  Then the regions of the pivots give origin and length.
@@ -7,6 +7,7 @@ frames could tell a length.  Then the regions of the pivots give origin and leng
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -15,8 +16,9 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Region
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
+from burmester.tasks.rails import moved_region
 
-__all__ = ["frames_of"]
+__all__ = ["frames_of", "limits_in"]
 
 FEW_POSES = 2  # as many poses at most share a pole
 
@@ -64,3 +66,17 @@ def _nearest(region: Region, point: FloatArray) -> FloatArray:
         return np.empty((0, 2))
     row = region.equations()[0]
     return np.asarray(point - (point @ row[1:] + row[0]) * row[1:])[None]
+
+
+def limits_in(frames: CanonicalFrames, limits: Limits) -> Limits:
+    """Limits as canonical frames see them."""
+    unit = float(frames.length)
+    in_f, in_m = (frames.fixed_origin, unit), (frames.moving_origin, unit)
+    return replace(
+        limits,
+        fixed_pivot=moved_region(limits.fixed_pivot, *in_f),
+        moving_pivot=moved_region(limits.moving_pivot, *in_m),
+        length=(limits.length[0] / unit, limits.length[1] / unit),
+        rail=limits.rail and limits.rail.moved(*in_f),
+        slot=limits.slot and limits.slot.moved(*in_m),
+    )
