@@ -16,7 +16,7 @@ Exit code 1 if a promise is not kept.
 import argparse
 import re
 import sys
-from collections import Counter
+from collections import Counter, defaultdict
 from dataclasses import replace
 
 import numpy as np
@@ -28,12 +28,14 @@ from benchmarks.practical_tasks import FAMILIES
 from benchmarks.search_witness import task_of
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import box
+from burmester.io.reading.limits_text import limits_from_options
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
 
+LIMIT_NAMES = ("fixed_pivot", "moving_pivot", "length", "kinds")
 OPTION = re.compile(r'(--[a-z-]+)(?: ("[^"]+"|[^-\s;()"][^\s;()]*))?')
 PIECE = re.compile(r"; or |; |, or (?=with |take |ask |say )")
 TIMES = re.compile(r"all tolerances ([\d.]+) times as wide")
@@ -129,6 +131,7 @@ FIELDS = {
     "--link-ratio": "link_ratio", "--type": "types", "--driver": "driver",
     "--any-order": "any_order",
 }  # fmt: skip
+LIMITS = {f"--{name.replace('_', '-')}": name for name in LIMIT_NAMES}
 
 
 def solved_with(task, piece):
@@ -140,25 +143,40 @@ def solved_with(task, piece):
         stated, ratio = task.tolerances, float(times[1])
         wide = PoseTolerances(stated.position * ratio, stated.angle * ratio, stated.axes)
         return synthesize(replace(task, tolerances=wide))
-    found = OPTION.findall(piece)
+    found, limits = OPTION.findall(piece), defaultdict(list)
     if not found or any(word in piece for word in CHOICES):
         return None
     for name, text in found:
         value = text.strip('",')
         if name in FIELDS:
             typed = float(value) if re.fullmatch(r"[\d.e+-]+", value) else value or True
-            typed = {value} if name == "--type" else typed
+            typed = set(value.split(",")) if name == "--type" else typed
             asked = replace(task.requirements, **{FIELDS[name]: typed})
             task = replace(task, requirements=asked)
         elif name == "--drop":
             task = task.at(np.delete(np.arange(len(task.poses.angle)), int(value) - 1), None)
         elif name == "--every":
             task = task.at(np.arange(0, len(task.poses.angle), int(value)), None)
-        elif name != "--length":  # :MAX, which the reader chooses
-            return name
-        else:
+        elif value == ":MAX":  # which the reader chooses
             return None
-    return synthesize(task)
+        elif name in LIMITS:
+            limits[LIMITS[name]].append(value)
+        else:
+            return name
+    return synthesize(with_limits(task, limits))
+
+
+def with_limits(task, texts):
+    """The task with the limits in the texts of options in the place of its own."""
+    stated, free = limits_from_options(**texts), Limits()
+    for name in texts:
+        values = [getattr(free, name) if v is None else v for v in getattr(stated, name)]
+        own = task.limits or (free,)
+        own = own * 2 if len(values) > len(own) else own
+        values = values * (len(own) // len(values))
+        limits = (replace(each, **{name: v}) for each, v in zip(own, values, strict=True))
+        task = replace(task, limits=tuple(limits))
+    return task
 
 
 def kept(result, piece):
