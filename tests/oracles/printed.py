@@ -55,7 +55,9 @@ def in_full(text):
 def in_drawing(text):
     """The rows of the lines of text in an SVG or DXF drawing."""
     rows = []
-    for name, line in re.findall(r"(\w+): ((?:fixed|moving) pivot [^<\n]*|line in [^<\n]*)", text):
+    # A description has both dyads in one line: each ends where the name of the next one begins.
+    dyad = r"(\w+): ((?:(?:fixed|moving) pivot|line in) (?:(?! \w+: )[^<\n])*)"
+    for name, line in re.findall(dyad, text):
         for what, value in re.findall(rf"{WHAT} (\([^)]*\)|[^,<]+)", line):
             rows.append((name, what, value.rstrip(".")))
     return rows
