@@ -379,16 +379,22 @@ def test_a_motion_that_determines_no_pivots_is_told_as_one(tmp_path):
     turn = np.ptp([pose["angle_deg"] for pose in data["task"]["poses"]])
     assert f"the body turns only {turn:.2g}°" in data["outcome"]["why"]
     first = data["linkages"][0]
+    text, regions = " ".join(screen().split()), synthesis.linkages[0].uncertainty
     said = re.search(
         r"L1 works, and the (fixed|moving) pivot of (\w+) may be moved by about ±(\S+) mm along "
         r"(\S+)° in [FM], the others with it",
-        " ".join(screen().split()),
+        text,
     )
-    named = next(k for k, dyad in enumerate(first["dyads"]) if dyad["id"] == said[2])
-    region = synthesis.linkages[0].uncertainty[named]
-    pivot = region.fixed if said[1] == "fixed" else region.moving
-    assert float(said[3]) == pytest.approx(pivot.half_width, rel=0.05)
-    assert float(said[4]) == pytest.approx(math.degrees(pivot.direction), abs=0.51)
+    if said is None:
+        assert "L1 works, and its pivots may be moved by far more than the motion's own" in text
+        span = np.linalg.norm(np.ptp(task.poses.translation, axis=0))
+        assert max(each.half_width for each in regions) > 100 * span
+    else:
+        named = next(k for k, dyad in enumerate(first["dyads"]) if dyad["id"] == said[2])
+        region = regions[named]
+        pivot = region.fixed if said[1] == "fixed" else region.moving
+        assert float(said[3]) == pytest.approx(pivot.half_width, rel=0.05)
+        assert float(said[4]) == pytest.approx(math.degrees(pivot.direction), abs=0.51)
     usable = [linkage for linkage in data["linkages"] if linkage["usable"]]
     assert usable
     assert not any(linkage["pivot_uncertainty"]["determined"] for linkage in usable)

@@ -62,7 +62,6 @@ def loosened(
         "kinds": _kinds,
         "keep-out": _moved_away,
         "margin": _margin,
-        "within": _within,
     }.get(limit.kind, _requirement)
     return make(task, limit, found, size, share)
 
@@ -223,23 +222,6 @@ def _requirement(
     else:  # the driver
         words, option = "any driver", "--driver any"
         by, new = 1.0, replace(asked, driver="any")
-    return Loosening(limit, words, option, by, replace(task, requirements=new), found)
-
-
-def _within(
-    task: Task, limit: StatedLimit, found: FoundLinkage, size: float, _share: float
-) -> Loosening | None:
-    """Errors that a linkage keeps."""
-    asked = task.requirements
-    worst, turned = found.error.worst, math.degrees(float(found.error.angle.max()))
-    text, angle = (
-        above(max(worst, asked.within or 0.0)),
-        above(max(turned, asked.within_deg or 0.0)),
-    )
-    new = replace(asked, within=float(text), within_deg=float(angle))
-    words = f"errors of up to {_exact_length(float(text), task)} and {angle}°"
-    by = (float(text) - (asked.within or 0.0)) / size
-    option = f"--within {text} --within-angle {angle}"
     return Loosening(limit, words, option, by, replace(task, requirements=new), found)
 
 

@@ -135,6 +135,8 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
         linkages = with_linkages_within_digits(problem, pairs, linkages)
         outcome = summary(problem, search, linkages)
     linkages, assumed = with_usual_pivots(problem, linkages)
+    if assumed:
+        outcome = summary(problem, search, linkages)
     outcome = offering_six_bars(problem, outcome)
     warnings = (
         *_odd_pose(problem, search),

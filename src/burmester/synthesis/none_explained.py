@@ -156,7 +156,7 @@ class _FewPoses(_Search):
     def alone(self) -> Iterator[Loosening]:
         """Each limit loosened alone, where that is enough."""
         for limit in stated_limits(self.task):
-            if limit.kind == "within" or not time_for(f"looking without the limit on {limit.kind}"):
+            if not time_for(f"looking without the limit on {limit.kind}"):
                 continue
             for found in self._nearest([limit])[:1]:
                 told = self.tried(limit, found)
@@ -176,7 +176,7 @@ class _FewPoses(_Search):
 
     def hopeless(self) -> bool:
         """Whether no linkage was found without any limit either."""
-        every = [each for each in stated_limits(self.task) if each.kind != "within"]
+        every = list(stated_limits(self.task))
         return time_for("looking without any limit") and not self._nearest(every)
 
     def _share(self, limit: StatedLimit) -> str:
@@ -197,7 +197,7 @@ class _FewPoses(_Search):
 
     def together(self) -> list[Loosening]:
         """Limits that have to be loosened together: those of the dyads, or else all."""
-        every = [each for each in stated_limits(self.task) if each.kind != "within"]
+        every = list(stated_limits(self.task))
         of_dyads = [each for each in every if each.kind in DYADS]
         for limits in (of_dyads, every):
             if len(limits) < 2 or (limits is every and len(of_dyads) == len(every)):
@@ -327,6 +327,8 @@ def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> 
     else:
         why = f"no one limit is to blame: it takes {' and '.join(words)}"
     why += "; a search found this, and less may do"
+    if synthesis.outcome.code == "R301" and synthesis.outcome.why:
+        why = f"{synthesis.outcome.why}; {why}"
     glue = "; or " if alone else " and "
     help = f"use {glue.join(each.option for each in causes)}"
     if synthesis.outcome.code == "R301" and synthesis.outcome.help:  # what else would do

@@ -16,7 +16,7 @@ __all__ = ["PIVOTS", "LimitKind", "StatedLimit", "stated_limits", "with_limits",
 
 LimitKind: TypeAlias = Literal[
     "fixed pivot", "moving pivot", "length", "kinds", "transmission", "link ratio", "type",
-    "driver", "footprint", "margin", "keep-out", "within",
+    "driver", "footprint", "margin", "keep-out",
 ]  # fmt: skip
 PIVOTS: Final = ("fixed pivot", "moving pivot")
 
@@ -31,7 +31,7 @@ class StatedLimit:
 
 
 def stated_limits(task: Task) -> Iterator[StatedLimit]:
-    """Every limit and requirement that a task states."""
+    """Every limit and requirement that a task states, but how far its poses may be missed."""
     asked, around = task.requirements, task.surroundings
     for number, limits in enumerate(task.limits):
         of_dyad: dict[LimitKind, bool] = {
@@ -49,7 +49,6 @@ def stated_limits(task: Task) -> Iterator[StatedLimit]:
         "driver": asked.driver != "any",
         "footprint": asked.footprint is not None,
         "margin": bool(parts),
-        "within": asked.within is not None or asked.within_deg is not None,
     }
     yield from (StatedLimit(kind) for kind, given in of_linkage.items() if given)
     for number in range(0 if around is None else len(around.keep_out)):
@@ -88,7 +87,6 @@ def without(task: Task, limit: StatedLimit, room: Callable[[str], Polygon | None
         "type": {"types": None},
         "driver": {"driver": "any"},
         "footprint": {"footprint": None},
-        "within": {"within": None, "within_deg": None},
     }
     return replace(task, requirements=replace(task.requirements, **open_[limit.kind]))
 
