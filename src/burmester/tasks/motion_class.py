@@ -65,6 +65,8 @@ MIN_NEXT_TERM_ERRORS = 100.0  # pose errors that one more term of a model makes,
 # Pose errors, the same where it is claimed within the digits, and the rms residual of such a model.
 # By `benchmarks.two_slider_motions` up to 1 % of general motions are then taken for two sliders.
 LIKELY_NEXT_TERM_ERRORS, LIKELY_RMS_ERRORS = 20.0, 1.0
+# Scatter over the travel of M's origin: at most so much far from the pin, at least so much at it.
+FAR_SHARE, PIN_SHARE = 0.02, 0.4
 LARGE_ROTATION = 0.1  # radians, rms; as large a one shows by itself whether it is about a point
 MAX_COUNTED_POSES = 6  # that can be told apart; the class does not depend on more
 
@@ -310,7 +312,9 @@ def _scattered_rotation(
     )
     if exact or turned < LARGE_ROTATION or _rms(residual) > most_scatter:
         return None
-    if not is_scatter(residual, turn[kept]):
+    # Between the two lie poses that somebody sketched: there a pin would be a guess.
+    share = _rms(residual) / (_rms(d[kept] - d[kept].mean()) or 1.0)
+    if FAR_SHARE < share < PIN_SHARE or not is_scatter(residual, turn[kept]):
         return None
     off = None
     if odd >= 0:
