@@ -190,3 +190,10 @@ def test_an_elbow_is_one_pin_whichever_marker_comes_first(tmp_path, frames, nois
     assert np.linalg.norm(kinds[0].fixed_centre - kinds[1].fixed_centre) < noise
     assert np.linalg.norm(kinds[0].moving_centre) < noise
     assert np.linalg.norm(kinds[1].moving_centre) == pytest.approx(240, abs=4 * noise)
+
+
+def test_poses_that_somebody_sketched_are_no_scatter():
+    """Whole numbers about a wide arc: no pin comes nearer than a tenth of the travel."""
+    rows = [(0, 0, 0), (3, 1, 20), (5, 4, 50), (4, 8, 70), (1, 9, 95), (0, 12, 110)]
+    task = Task.from_rows(np.array(rows, dtype=float), angle_unit="deg")
+    assert isinstance(classify_motion(task).kind, General)
