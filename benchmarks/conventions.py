@@ -18,7 +18,7 @@ import numpy as np
 from tests.oracles.witness import random_four_bar, random_poses, span
 
 from burmester import Displacement, Task, read_task
-from burmester.diagnosis.conventions import AS_READ, _Comparison, other_convention
+from burmester.diagnosis.conventions import AS_READ, Comparison, other_convention
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.io import cases
 from burmester.tasks.motion_class import classify_motion
@@ -149,7 +149,7 @@ def read_wrongly(rows, how):
 def misfit(rows, how):
     """How far poses read wrongly are from the nearest linkage, in the poses' extent."""
     rows, names = read_wrongly(rows, how)
-    compared = _Comparison(Displacement.from_poses(rows), None, 0.0, 0.0)
+    compared = Comparison(Displacement.from_poses(rows), None, 0.0, 0.0)
     ratio = math.pi / 180 if "radians" in names else 1.0
     return compared.least_error(AS_READ, ratio)
 

@@ -45,7 +45,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.wording import figure
 
-__all__ = ["OtherConvention", "other_convention"]
+__all__ = ["AS_READ", "Comparison", "OtherConvention", "other_convention"]
 
 COMPARING = "comparing each pose with the others"  # with odd_pose, as one step
 MIN_POSES = 7  # distinct ones; any six fit too well in both readings
@@ -146,7 +146,7 @@ def other_convention(
     poses, weights = task.poses[motion.first[some]], None
     if task.weights is not None:
         weights = np.bincount(motion.group, task.weights).astype(float)[some]
-    comparison = _Comparison(poses, weights, *(each / math.sqrt(3) for each in task.resolution))
+    comparison = Comparison(poses, weights, *(each / math.sqrt(3) for each in task.resolution))
     if comparison.fits_as_read(dyads):
         return None
     with np.errstate(all="ignore"):  # angles that are taken for what they are not
@@ -164,7 +164,7 @@ def other_convention(
 
 
 @final
-class _Comparison(NamedTuple):
+class Comparison(NamedTuple):
     """Poses (N,) with weights (N,), and standard deviations of their digits (length, radians).
 
     Errors are root mean squares over the poses, in the extent of the poses.
