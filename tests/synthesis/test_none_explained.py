@@ -76,7 +76,7 @@ def test_every_option_that_is_told_works_when_it_is_followed_to_the_letter(line,
     assert not usable(data)
     causes = data["outcome"]["causes"]
     assert causes
-    assert "less may do" in data["outcome"]["why"]
+    assert "less may be enough" in data["outcome"]["why"]
     for cause in causes:
         assert cause["option"] in data["outcome"]["help"]
         assert usable(run(followed(line, cause["option"])))

@@ -34,7 +34,14 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.assumptions import WIDE, Assumptions
 from burmester.verdicts.standard import MOST_LINK_RATIO
 
-__all__ = ["LEAST_USEFUL", "LeastExcess", "drawn_near", "found_at_last", "least_excess", "to_build"]
+__all__ = [
+    "LEAST_USEFUL",
+    "LeastExcess",
+    "assumed_to_build",
+    "last_search",
+    "least_excess",
+    "linkages_within_limits",
+]
 
 BY_EXTENT: Final = 1  # the number of that aim in AIMS; its place is taken by the excess
 STARTS: Final = 8  # number of populations
@@ -68,8 +75,8 @@ def least_excess(
     """The linkages nearest to keeping the limits that `loose` lacks; None if none keeps the rest.
 
     stated, loose: the same task with and without these limits, in the same frames.
-    near: linkages drawn within the limits as stated (`drawn_near`).  wide: whether others are drawn
-        beside them, as `loose` has more room for dyads.
+    near: `linkages_within_limits` as stated.  wide: whether others are drawn beside them, as
+        `loose` has more room for dyads.
     """
     rng = np.random.default_rng(0)
     every: list[tuple[Trials, FloatArray]] = []
@@ -120,27 +127,25 @@ def least_excess(
     return LeastExcess(take(trials, np.array(kept)), excess[kept], len(excess))
 
 
-def to_build(problem: SynthesisProblem) -> Assumptions:
+def assumed_to_build(problem: SynthesisProblem) -> Assumptions:
     """What a linkage to build must be where the task says nothing, pivots as far as ever looked."""
     known = Assumptions.of(problem, WIDE)
     stated = math.isfinite(problem.given.requirements.link_ratio)
     return known if stated else replace(known, ratio=MOST_LINK_RATIO)
 
 
-def found_at_last(
-    problem: SynthesisProblem, target: Target, before: Family | None
-) -> Family | None:
+def last_search(problem: SynthesisProblem, target: Target, before: Family | None) -> Family | None:
     """Where no linkage of a family works: one to build that evolves towards doing so, or `before`.
 
     Pairs that transmit too little evolve towards what is asked; others keep all else.
     """
     if not time_for("looking once more for a linkage that works"):
         return before
-    assumed = to_build(problem)
+    assumed = assumed_to_build(problem)
     stated = OpenTask.of(problem, target, assumed)
     easier = replace(stated.conditions, transmission=min(assumed.transmission, LEAST_USEFUL))
     loose = replace(stated, conditions=easier)
-    near = least_excess(stated, loose, drawn_near(stated), wide=False)
+    near = least_excess(stated, loose, linkages_within_limits(stated), wide=False)
     if near is None or near.excess[0] > 0:
         return before
     trials = take(near.trials, np.flatnonzero(near.excess == 0))
@@ -157,7 +162,7 @@ def found_at_last(
     )
 
 
-def drawn_near(stated: OpenTask) -> Trials | None:
+def linkages_within_limits(stated: OpenTask) -> Trials | None:
     """Linkages drawn within the limits of a task, whether they keep its other conditions or not."""
     pools = _drawn(stated, np.random.default_rng(0))
     return concatenate(pools) if pools else None

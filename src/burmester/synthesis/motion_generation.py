@@ -178,14 +178,14 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     """Too few conditions leave infinitely many linkages: the best of them; None if none meets."""
     # Few tasks need them.
     from burmester.families.family import best_of_family, recommended_first  # noqa: PLC0415
-    from burmester.families.least_excess import found_at_last  # noqa: PLC0415
+    from burmester.families.least_excess import last_search  # noqa: PLC0415
     from burmester.synthesis.family_outcome import family_summary  # noqa: PLC0415  the same
 
     target = target_of(problem)
     step("looking at the linkages of the family")
     found = best_of_family(problem, target)
     if found is None or not found.works:
-        found = found_at_last(problem, target, found)
+        found = last_search(problem, target, found)
     if found is None:
         return None
     evaluation = Evaluation(problem, target)

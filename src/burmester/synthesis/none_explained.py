@@ -2,7 +2,7 @@
 
 Each limit of a task is loosened alone, the others as they are, by as little as lets a sound linkage
 in.  What is told was tried: the task with the looser limit is solved as any other, and has a sound
-linkage.  A search, not a proof: less may do.
+linkage.  A search, not a proof: less may be enough.
 """
 
 from __future__ import annotations
@@ -61,8 +61,10 @@ def explained(synthesis: Synthesis, solve: Solve) -> Synthesis:
     causes = sorted(search.alone(), key=lambda each: each.size)
     if not causes:
         causes = search.together()
-        return _told(synthesis, causes, alone=False) if causes else _no_cause(synthesis, search)
-    return _told(synthesis, causes, alone=True)
+        return (
+            _with_causes(synthesis, causes, alone=False) if causes else _no_cause(synthesis, search)
+        )
+    return _with_causes(synthesis, causes, alone=True)
 
 
 def _search(synthesis: Synthesis, solve: Solve) -> _FewPoses | _ManyPoses | None:
@@ -146,12 +148,12 @@ class _FewPoses(_Search):
     @classmethod
     def of(cls, problem: SynthesisProblem, solve: Solve) -> Self:
         """The search for a problem."""
-        from burmester.families.least_excess import drawn_near, to_build  # noqa: PLC0415  few tasks need it
+        from burmester.families.least_excess import assumed_to_build, linkages_within_limits  # noqa: PLC0415  few tasks need it
         from burmester.families.open_task import OpenTask  # noqa: PLC0415  the same
 
-        assumed = to_build(problem)
+        assumed = assumed_to_build(problem)
         stated = OpenTask.of(problem, target_of(problem), assumed)
-        return cls(problem, solve, assumed, stated, drawn_near(stated))
+        return cls(problem, solve, assumed, stated, linkages_within_limits(stated))
 
     def alone(self) -> Iterator[Loosening]:
         """Each limit loosened alone, where that is enough."""
@@ -239,13 +241,13 @@ class _FewPoses(_Search):
         from burmester.families.family import driver_first  # noqa: PLC0415
         from burmester.families.least_excess import (  # noqa: PLC0415
             LEAST_USEFUL,
+            assumed_to_build,
             least_excess,
-            to_build,
         )
         from burmester.families.open_task import OpenTask  # noqa: PLC0415
 
         problem = SynthesisProblem.of(loosest, self.problem.motion, self.problem.options).merged()
-        open_ = to_build(problem)
+        open_ = assumed_to_build(problem)
         if "transmission" in kinds:
             open_ = replace(open_, transmission=min(open_.transmission, LEAST_USEFUL))
         if "link ratio" in kinds:
@@ -319,14 +321,14 @@ def _no_cause(synthesis: Synthesis, search: _Search) -> Synthesis:
     return replace(synthesis, outcome=replace(synthesis.outcome, why=why, help=help))
 
 
-def _told(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> Synthesis:
+def _with_causes(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> Synthesis:
     """The synthesis with what is to blame, and the near misses."""
     words = [each.message for each in causes]
     if alone:
-        why = f"it takes {'; or '.join(words)}"
+        why = f"a sound linkage needs {'; or '.join(words)}"
     else:
-        why = f"no one limit is to blame: it takes {' and '.join(words)}"
-    why += "; a search found this, and less may do"
+        why = f"no one limit alone is to blame: a sound linkage needs {' and '.join(words)}"
+    why += "; found by a search, so less may be enough"
     if synthesis.outcome.code == "R301" and synthesis.outcome.why:
         why = f"{synthesis.outcome.why}; {why}"
     glue = "; or " if alone else " and "

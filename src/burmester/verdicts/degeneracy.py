@@ -85,8 +85,9 @@ def degenerate_defects(
             at = short[int(length[short].argmin())]
             reasons.append(too_short(float(length[at]), float(least[at]), problem.given))
         if each > MAX_SENSITIVITY:
-            times = f"{figure(each)} times"
-            reasons.append(f"magnifies errors of its pivots and lengths up to {times} at a pose")
+            # At a change point it is infinite but for rounding, and its digits say nothing.
+            times = f"up to {figure(each)}" if each < 1e6 else "over a million"
+            reasons.append(f"magnifies errors of its pivots and lengths {times} times at a pose")
         out.append(tuple(Defect("degenerate", reason, ()) for reason in reasons))
     return out
 
