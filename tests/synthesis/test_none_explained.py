@@ -15,7 +15,7 @@ from burmester.fourbar.dyad import RR
 from burmester.geometry.regions import Line, Point, Polygon, Segment, box
 from burmester.io.result import synthesis_data
 from burmester.io.saved import read_result
-from burmester.synthesis.wider_region import region_text, wider
+from burmester.synthesis.wider_region import region_text, wider, wider_all_around
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
@@ -27,6 +27,17 @@ from tests.samples import some_of
 
 OPENING = [(0, 0, 0), (30, 77, 45), (95, 110, 95)]
 CSV = "x_mm,y_mm,angle_deg\n" + "".join(f"{x},{y},{a}\n" for x, y, a in OPENING)
+REGIONS = pytest.mark.parametrize(
+    "region",
+    [
+        box((0, 0), (10, 5)),
+        Polygon(np.array([(0.0, 0), (8, 1), (3, 7)])),
+        Segment(np.array([0.0, 0]), np.array([5.0, 2])),
+        Line(np.array([0.0, 0]), np.array([5.0, 2])),
+        Point(np.array([1.0, 2])),
+    ],
+    ids=["box", "polygon", "segment", "line", "point"],
+)
 LOW = "--fixed-pivot box:-40,-140:120,-30 --moving-pivot box:-60,-60:60,60 --kinds RR"
 
 
@@ -156,17 +167,26 @@ def test_a_time_limit_ends_the_explanation():
     assert not short.causes
 
 
-@pytest.mark.parametrize(
-    "region",
-    [
-        box((0, 0), (10, 5)),
-        Polygon(np.array([(0.0, 0), (8, 1), (3, 7)])),
-        Segment(np.array([0.0, 0]), np.array([5.0, 2])),
-        Line(np.array([0.0, 0]), np.array([5.0, 2])),
-        Point(np.array([1.0, 2])),
-    ],
-    ids=["box", "polygon", "segment", "line", "point"],
-)
+@REGIONS
+def test_a_region_wider_all_around_reaches_as_far_on_every_side(region):
+    grown = wider_all_around(region, 2.0)
+    if isinstance(region, Line):
+        assert grown is None
+        return
+    corners, turn = region.corners(), np.linspace(0, 2 * np.pi, 24)
+    ring = np.stack([np.cos(turn), np.sin(turn)], axis=1)[:, None]
+    assert grown.distance((corners + 1.99 * ring).reshape(-1, 2)).max() <= 1e-9
+    assert grown.distance((corners + 6.0 * ring).reshape(-1, 2)).max() > 0
+
+
+def test_points_beside_a_box_by_less_than_its_digits_need_no_room():
+    region = box((0.1, 0.2), (10, 5))
+    assert wider(region, np.array([(10 + 3e-14, 2.0)]), 1.0, task_of()) is None
+    told = wider(region, np.array([(10.5, 2.0)]), 1.0, task_of())
+    assert told.words == "0.5 mm further right, to x = 10.5"
+
+
+@REGIONS
 def test_a_wider_region_holds_the_points_and_the_region_itself(region):
     rng, task = np.random.default_rng(5), task_of()
     one = isinstance(region, Line | Point)
@@ -206,3 +226,26 @@ def test_what_is_told_of_a_tight_box_holds_against_brute_force(case):
     assert "none, and brute force has one" not in told
     for each in answer.causes:
         assert all(isinstance(d, RR) for d in (each.found.linkage.first, each.found.linkage.second))
+
+
+HARDLY_TURNING = [(0, 0, 0), (6, 22, 2), (14, 43, 4), (25, 60, 6)]
+
+
+def test_poses_that_hardly_turn_have_their_linkages_far_away():
+    # Brute force finds 66 degrees nine spans away, and nothing within eight.
+    task = Task.from_rows(HARDLY_TURNING, angle_unit="deg", length_unit="mm")
+    best = synthesize(task).best
+    assert math.degrees(best.driven.least_over_range) > 60
+    assert misses(best.linkage, task.poses, 600.0).max() < 1e-5
+    pivots = np.array([best.linkage.first.fixed_pivot, best.linkage.second.fixed_pivot])
+    assert np.linalg.norm(pivots, axis=1).min() > 300
+
+
+def test_what_boxes_near_such_poses_leave_is_told_with_the_boxes_that_are_needed():
+    limits = Limits(box((-200, -180), (300, -60)), box((-200, -60), (300, 0)))
+    task = Task.from_rows(HARDLY_TURNING, angle_unit="deg", length_unit="mm", limits=(limits,))
+    answer = synthesize(task)
+    assert answer.outcome.code == "R309"
+    assert {cause.limit.kind for cause in answer.causes} == {"fixed pivot", "moving pivot"}
+    freed = synthesize(answer.causes[-1].task)
+    assert any(not each.shortcomings for each in freed.usable)

@@ -80,9 +80,15 @@ def test_the_rule_takes_the_best_angle_and_of_those_half_a_degree_the_least_prod
 
 
 def test_more_than_enough_transmission_counts_for_nothing():
-    angle, size, same = np.radians([85.5, 67.0, 58.0]), np.array([3.0, 1.0, 0.5]), np.ones(3)
+    angle, size, same = np.radians([85.5, 67.0, 58.0]), np.array([6.0, 2.0, 1.0]), np.ones(3)
     assert best_first(angle, size, same).tolist() == [1, 0, 2]
     assert best_first(angle, size, same, enough=math.radians(50)).tolist() == [2, 1, 0]
     assert best_first(angle, size, same, enough=math.radians(80)).tolist() == [0, 1, 2]
     told = [math.degrees(enough_transmission(math.radians(asked))) for asked in (0, 20, 45, 70)]
     assert np.allclose(told, [60, 60, 60, 70])
+
+
+def test_a_linkage_smaller_than_the_motion_gains_nothing_by_that():
+    same = np.full(3, math.radians(60))
+    tiny_first = np.array([0.02, 0.9, 1.2])
+    assert best_first(same, tiny_first, np.array([3.6, 3.4, 3.3])).tolist() == [1, 0, 2]

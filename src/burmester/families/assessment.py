@@ -31,6 +31,7 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.verdicts.degeneracy import MAX_SENSITIVITY
+from burmester.verdicts.quality import proportions
 from burmester.verdicts.tolerances import sensitivity_bound
 
 __all__ = ["AIMS", "Assessment", "assessed", "costs"]
@@ -265,7 +266,7 @@ def _of_proportions(linkage: Linkage, places: Displacement, conditions: Conditio
 
 def _by_transmission(value: Assessment, enough: float) -> FloatArray:
     # The size of what makes the choice between linkages that transmit alike.
-    other = 0.002 * np.minimum(np.log(value.extent * value.sensitivity), 10.0)
+    other = 0.002 * np.minimum(np.log(proportions(value.extent, value.sensitivity)), 10.0)
     return np.asarray(other - np.minimum(value.transmission, enough))
 
 
@@ -279,7 +280,7 @@ def _by_sensitivity(value: Assessment, _: float) -> FloatArray:
 
 def _by_all(value: Assessment, enough: float) -> FloatArray:
     sine = np.sin(np.clip(value.transmission, 1e-3, enough))
-    return np.asarray(np.log(value.extent * value.sensitivity / sine**2))
+    return np.asarray(np.log(proportions(value.extent, value.sensitivity) / sine**2))
 
 
 AIMS: Final = (_by_transmission, _by_extent, _by_sensitivity, _by_all)

@@ -32,7 +32,14 @@ from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.assumptions import Assumptions, Bound
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.quality import Quality, best_first, enough_transmission, rule
+from burmester.verdicts.quality import (
+    PROPORTIONS,
+    Quality,
+    best_first,
+    enough_transmission,
+    proportions,
+    rule,
+)
 
 __all__ = [
     "Family",
@@ -48,7 +55,7 @@ __all__ = [
 
 # Of what the least, or nearly the least, is recommended, by what is preferred.
 PREFERRED: Final[Mapping[Preference, str]] = {
-    "transmission": "product of extent and sensitivity",
+    "transmission": PROPORTIONS,
     "size": "extent",
     "accuracy": "sensitivity",
 }
@@ -306,11 +313,10 @@ def _recommended(value: Assessment, prefer: Preference, least: float) -> int:
     least: the transmission angle that is asked for, radians.
     """
     figure = np.ones(len(value.violation))
-    proportions = _proportions_first(prefer, least)
-    if prefer == "size" or proportions:
-        figure = figure * value.extent
-    if prefer == "accuracy" or proportions:
-        figure = figure * value.sensitivity
+    if _proportions_first(prefer, least):
+        figure = proportions(value.extent, value.sensitivity)
+    elif prefer != "transmission":
+        figure = value.extent if prefer == "size" else value.sensitivity
     alike = np.flatnonzero(figure <= AS_GOOD[prefer] * figure.min())
     return int(alike[best_first(*take(value, alike)[1:], enough=enough_transmission(least))[0]])
 

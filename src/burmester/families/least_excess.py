@@ -127,9 +127,9 @@ def least_excess(
     return LeastExcess(take(trials, np.array(kept)), excess[kept], len(excess))
 
 
-def assumed_to_build(problem: SynthesisProblem) -> Assumptions:
-    """What a linkage to build must be where the task says nothing, pivots as far as ever looked."""
-    known = Assumptions.of(problem, WIDE)
+def assumed_to_build(problem: SynthesisProblem, reach: float = WIDE) -> Assumptions:
+    """What a linkage to build must be where the task says nothing; reach: motion sizes."""
+    known = Assumptions.of(problem, reach)
     stated = math.isfinite(problem.given.requirements.link_ratio)
     return known if stated else replace(known, ratio=MOST_LINK_RATIO)
 

@@ -281,6 +281,7 @@ def _ranked(found: Candidates, space: SearchSpace, most: int) -> NDArray[np.intp
     """The order to recommend them in: sound ones first, then by transmission and extent."""
     sound = is_sound(found, space.size)
     ones = np.ones(len(found.chain))
-    order = best_first(found.transmission, found.extent, ones, enough=np.pi / 2)
+    extent = found.extent / space.size
+    order = best_first(found.transmission, extent, ones, enough=np.pi / 2)
     order = order[np.argsort(~sound[order], kind="stable")]
     return _distinct(found, order, APART * space.size, most)

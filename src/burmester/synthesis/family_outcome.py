@@ -8,6 +8,7 @@ from burmester.errors import Advice
 from burmester.families.family import Family
 from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.stated_limits import stated_limits
 from burmester.verdicts.assumptions import LINK_RATIO
 from burmester.verdicts.explanation import in_short
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -56,12 +57,13 @@ def family_summary(
 
 
 def none_within_limits(problem: SynthesisProblem) -> Outcome:
-    """The outcome where no dyad of the family was found within the limits."""
+    """The outcome where no two dyads of the family were found within the limits."""
     poses = count(problem.given.poses.shape[0], "pose")
+    where, help = "within the limits", "give the limits more room, or allow another kind of dyad"
+    if not any(stated_limits(problem.given)):
+        where, help = "that can be built near the motion", "move a pose, or leave one out"
     return Outcome(
-        "R309",
-        f"no linkage: {poses} leave infinitely many dyads, and none was found within the limits",
-        "give the limits more room, or allow another kind of dyad",
+        "R309", f"no linkage: {poses} leave infinitely many dyads, and none was found {where}", help
     )
 
 

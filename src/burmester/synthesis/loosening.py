@@ -16,7 +16,13 @@ import numpy as np
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.regions import Polygon
 from burmester.synthesis.cleared_region import cleared, swept_pivots
-from burmester.synthesis.wider_region import DIGITS, plain, region_text, wider
+from burmester.synthesis.wider_region import (
+    DIGITS,
+    plain,
+    region_text,
+    wider,
+    wider_all_around,
+)
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import TYPES
@@ -25,7 +31,7 @@ from burmester.verdicts.explanation import above, below
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure, listed
 
-__all__ = ["Loosening", "loosened"]
+__all__ = ["Loosening", "loosened", "loosened_all_around"]
 
 
 @final
@@ -64,6 +70,26 @@ def loosened(
         "margin": _margin,
     }.get(limit.kind, _requirement)
     return make(task, limit, found, size, share)
+
+
+def loosened_all_around(task: Task, limit: StatedLimit, by: float) -> Task | None:
+    """The task with one limit wider on all sides, by a length; None where it is none of lengths."""
+    if limit.kind == "footprint":
+        region = task.requirements.footprint
+        assert region is not None
+        asked = replace(task.requirements, footprint=wider_all_around(region, by))
+        return replace(task, requirements=asked)
+    own = task.limits[limit.number] if limit.number < len(task.limits) else None
+    if own is None:
+        return None
+    if limit.kind == "length":
+        least, most = own.length
+        return with_limits(task, limit.number, length=(max(least - by, 0.0), most + by))
+    if limit.kind in PIVOTS:
+        name = limit.kind.replace(" ", "_")
+        region = wider_all_around(getattr(own, name), by)
+        return None if region is None else with_limits(task, limit.number, **{name: region})
+    return None
 
 
 def _footprint(

@@ -22,7 +22,7 @@ from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.progress import time_for
 from burmester.synthesis.cleared_region import bars_clear
-from burmester.synthesis.loosening import Loosening, loosened
+from burmester.synthesis.loosening import Loosening, loosened, loosened_all_around
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import poses_in_words
@@ -43,7 +43,6 @@ FEW: Final = ("R308", "R309")  # outcomes of few poses
 MANY: Final = ("R301", "R302", "R306")
 SHARES: Final = (1.0, 1.1, 1.3, 2.0)  # of the way to a near miss, until a search finds a linkage
 BISECTIONS: Final = 3  # number of times that a way is halved where each is a search of its own
-WORTH: Final = 0.9  # of a loosening; one that is less is tried, too
 COMPARED: Final = 12  # number of sound linkages of which the nearest to a limit is looked for
 ON_OFF: Final = ("kinds", "type", "driver")  # limits that are kept or not
 DYADS: Final = frozenset({"fixed pivot", "moving pivot", "length", "kinds"})  # limits of dyads
@@ -121,6 +120,21 @@ class _Search:
         """Whether no linkage was found without any limit either."""
         return False
 
+    def near(self, limit: StatedLimit, task: Task) -> Loosening | None:
+        """The least loosening for one of the sound linkages of a task."""
+        found = self.sound(task)[:COMPARED]
+        if not found:
+            return None
+        target = target_of(self.problem)
+        numbers = self.problem.pose_numbers
+        rows = np.stack([target.rows_at(each.error.places[numbers]) for each in found])
+        batch = LinkageBatch.of([each.linkage for each in found]).to_canonical(target.frames)
+        told = [
+            loosened(self.task, limit, each, self.size)
+            for each in at_given_poses(self.judged(batch, rows), self.problem)
+        ]
+        return min(filter(None, told), key=lambda each: each.size, default=None)
+
     def tried(self, limit: StatedLimit, found: FoundLinkage) -> Loosening | None:
         """The least loosening for a linkage with which the task has a sound one."""
         for share in SHARES:
@@ -137,11 +151,12 @@ class _Search:
 class _FewPoses(_Search):
     """Poses that leave infinitely many linkages: those that evolve towards keeping the limit.
 
-    assumed: where the task says nothing; stated: the task with all limits; drawn: linkages within
-        those of the dyads.
+    assumed: where the task says nothing; far: the same, with pivots as far as is ever looked.
+    stated: the task with all limits; drawn: linkages within those of the dyads.
     """
 
     assumed: Assumptions
+    far: Assumptions
     stated: OpenTask
     drawn: Trials | None
 
@@ -150,36 +165,42 @@ class _FewPoses(_Search):
         """The search for a problem."""
         from burmester.families.least_excess import assumed_to_build, linkages_within_limits  # noqa: PLC0415  few tasks need it
         from burmester.families.open_task import OpenTask  # noqa: PLC0415  the same
+        from burmester.verdicts.assumptions import FAR  # noqa: PLC0415  the same
 
         assumed = assumed_to_build(problem)
         stated = OpenTask.of(problem, target_of(problem), assumed)
-        return cls(problem, solve, assumed, stated, linkages_within_limits(stated))
+        far = assumed_to_build(problem, FAR)
+        return cls(problem, solve, assumed, far, stated, linkages_within_limits(stated))
 
     def alone(self) -> Iterator[Loosening]:
         """Each limit loosened alone, where that is enough."""
         for limit in stated_limits(self.task):
             if not time_for(f"looking without the limit on {limit.kind}"):
                 continue
-            for found in self._nearest([limit])[:1]:
+            for found in self._nearest([limit], self.assumed)[:1]:
                 told = self.tried(limit, found)
                 if told is not None:
-                    told = self._nearer(limit, told) if limit.kind in DYADS else told
+                    told = self._least(limit, told)
                     yield replace(told, message=told.message + self._share(limit))
 
-    def _nearer(self, limit: StatedLimit, told: Loosening) -> Loosening:
-        """A smaller loosening, if one is found within what was found to be enough."""
-        if limit.kind in ON_OFF or not time_for("looking for what little would do"):
-            return told
-        for found in self._evolved(told.task, {limit.kind})[:1]:
-            less = loosened(self.task, limit, found, self.size)
-            if less is not None and less.size < WORTH * told.size:
-                return self.tried(limit, found) or told
-        return told
+    def _least(self, limit: StatedLimit, most: Loosening) -> Loosening:
+        """The least loosening found, by looking within half of one that is enough, all around."""
+        best = most
+        for _ in range(BISECTIONS):
+            half = loosened_all_around(self.task, limit, best.size / 2 * self.size)
+            if half is None or not time_for("looking for what little would do"):
+                break
+            near = self.near(limit, half)
+            told = None if near is None else self.tried(limit, near.found)
+            if told is None or told.size >= best.size:
+                break
+            best = told
+        return best
 
     def hopeless(self) -> bool:
         """Whether no linkage was found without any limit either."""
         every = list(stated_limits(self.task))
-        return time_for("looking without any limit") and not self._nearest(every)
+        return time_for("looking without any limit") and not self._nearest(every, self.far)
 
     def _share(self, limit: StatedLimit) -> str:
         """How many of the dyads drawn within their limits clear a keep-out region, in words."""
@@ -201,12 +222,13 @@ class _FewPoses(_Search):
         """Limits that have to be loosened together: those of the dyads, or else all."""
         every = list(stated_limits(self.task))
         of_dyads = [each for each in every if each.kind in DYADS]
-        for limits in (of_dyads, every):
-            if len(limits) < 2 or (limits is every and len(of_dyads) == len(every)):
+        tries = [(of_dyads, self.assumed)] if len(of_dyads) < len(every) else []
+        for limits, assumed in (*tries, (every, self.assumed), (every, self.far)):
+            if len(limits) < 2:
                 continue
             if not time_for("looking without several limits"):
                 break
-            for found in self._nearest(limits)[:1]:
+            for found in self._nearest(limits, assumed)[:1]:
                 for share in SHARES:
                     told, task = [], self.task
                     for limit in limits:
@@ -218,12 +240,12 @@ class _FewPoses(_Search):
                         return told
         return []
 
-    def _nearest(self, limits: Sequence[StatedLimit]) -> list[FoundLinkage]:
-        """Linkages that keep all but some limits, those nearest to keeping them first."""
-        boxes: dict[str, Polygon] = {
-            "fixed pivot": self.assumed.fixed,
-            "moving pivot": self.assumed.moving,
-        }
+    def _nearest(self, limits: Sequence[StatedLimit], assumed: Assumptions) -> list[FoundLinkage]:
+        """Linkages that keep all but some limits, those nearest to keeping them first.
+
+        assumed: where pivots lie that have no limit then.
+        """
+        boxes: dict[str, Polygon] = {"fixed pivot": assumed.fixed, "moving pivot": assumed.moving}
         loosest = self.task
         for limit in sorted(
             limits, key=lambda each: -each.number
@@ -272,7 +294,7 @@ class _ManyPoses(_Search):
         for limit in stated_limits(self.task):
             if not time_for(f"looking without the limit on {limit.kind}"):
                 break
-            near = self._near(limit, without(self.task, limit, lambda _: None))
+            near = self.near(limit, without(self.task, limit, lambda _: None))
             told = None if near is None else self.tried(limit, near.found)
             if told is not None:
                 yield told if limit.kind in ON_OFF else self._least(limit, told)
@@ -280,21 +302,6 @@ class _ManyPoses(_Search):
     def together(self) -> list[Loosening]:
         """Nothing: what lies beyond two limits is not looked for."""
         return []
-
-    def _near(self, limit: StatedLimit, task: Task) -> Loosening | None:
-        """The least loosening for one of the sound linkages of a task."""
-        found = self.sound(task)[:COMPARED]
-        if not found:
-            return None
-        target = target_of(self.problem)
-        numbers = self.problem.pose_numbers
-        rows = np.stack([target.rows_at(each.error.places[numbers]) for each in found])
-        batch = LinkageBatch.of([each.linkage for each in found]).to_canonical(target.frames)
-        told = [
-            loosened(self.task, limit, each, self.size)
-            for each in at_given_poses(self.judged(batch, rows), self.problem)
-        ]
-        return min(filter(None, told), key=lambda each: each.size, default=None)
 
     def _least(self, limit: StatedLimit, most: Loosening) -> Loosening:
         """The least loosening known to be enough, by halving the way to one that is."""
@@ -304,7 +311,7 @@ class _ManyPoses(_Search):
                 break
             middle = (low + high) / 2
             told = loosened(self.task, limit, most.found, self.size, middle)
-            near = None if told is None else self._near(limit, told.task)
+            near = None if told is None else self.near(limit, told.task)
             if told is None or near is None:
                 low = middle
                 continue

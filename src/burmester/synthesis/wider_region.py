@@ -14,7 +14,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.wording import listed
 
-__all__ = ["DIGITS", "WiderRegion", "plain", "region_text", "wider"]
+__all__ = ["DIGITS", "WiderRegion", "plain", "region_text", "wider", "wider_all_around"]
 
 DIGITS: Final = 2  # with which an amount is told; the wider limit is rounded by as many
 HERE: Final = Polygon(
@@ -71,19 +71,37 @@ def wider(region: Region, points: FloatArray, share: float, task: Task) -> Wider
     return WiderRegion(grown, by, f"{length_of(by, task)} outside their region", at)
 
 
-def _wider_box(region: Polygon, points: FloatArray, at: FloatArray, task: Task) -> WiderRegion:
-    """A box with room for points (k, 2); at: (2,), the farthest of them."""
+def _wider_box(
+    region: Polygon, points: FloatArray, at: FloatArray, task: Task
+) -> WiderRegion | None:
+    """A box with room for points (k, 2); None where its digits have it; at: (2,), the farthest."""
     old = np.concatenate([region.vertices.min(axis=0), region.vertices.max(axis=0)])
     first, last = np.minimum(old[:2], points.min(axis=0)), np.maximum(old[2:], points.max(axis=0))
-    new = np.array([float(f"{value:.12g}") for value in (*first, *last)])
+    wanted = np.concatenate([first, last])
+    rounded = np.array([float(f"{value:.12g}") for value in wanted])
+    new = np.where(wanted == old, old, rounded)
     words = [
         f"{length_of(abs(side - before), task)} {way}, to {axis} = {plain(side)}"
         for (way, axis), before, side in zip(SIDES, old, new, strict=True)
         if side != before
     ]
+    if not words:
+        return None
     by = float(np.linalg.norm(new - old))
     grown = box(new[:2].tolist(), new[2:].tolist())
     return WiderRegion(grown, by, listed(words), at)
+
+
+def wider_all_around(region: Region, by: float) -> Polygon | None:
+    """A region wider by a length on all sides; None for an endless line."""
+    corners = region.corners()
+    if corners is None:
+        return None
+    import shapely  # noqa: PLC0415  seldom needed
+
+    shape = shapely.convex_hull(shapely.multipoints(corners))
+    grown = shapely.buffer(shape, by, join_style="mitre", cap_style="square", quad_segs=2)
+    return Polygon(shapely.get_coordinates(grown)[:-1])
 
 
 def is_box(region: Polygon) -> bool:

@@ -27,10 +27,11 @@ from burmester.verdicts.standard import (
 )
 from burmester.wording import figure
 
-__all__ = ["LINK_RATIO", "Assumptions", "Bound"]
+__all__ = ["FAR", "LINK_RATIO", "Assumptions", "Bound"]
 
 REACH: Final = 1.0  # motion sizes; how far pivots may lie from the body's places where none says
 WIDE: Final = 3.0  # the same, where nothing works within that
+FAR: Final = 12.0  # the same, where nothing works at all; poses that hardly turn need it
 LEAST_USEFUL: Final = 5.0  # degrees of transmission, where nothing transmits as it should
 LINK_RATIO: Final = 5.0  # longest over shortest of four links, where the task states none
 OUTLINE_SHARE: Final = 0.1  # of an outline's diagonal; how far beside the body its pivots may lie
@@ -73,6 +74,8 @@ class Assumptions:
             yield cls.of(problem, WIDE), False
         if not asked.transmission or not math.isfinite(asked.link_ratio):
             yield cls.of(problem, WIDE if open_ else REACH, strict=False), True
+        if open_:
+            yield cls.of(problem, FAR), False
 
     @classmethod
     def of(cls, problem: SynthesisProblem, reach: float = REACH, *, strict: bool = True) -> Self:

@@ -28,15 +28,19 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = [
     "ENOUGH_TRANSMISSION",
+    "PROPORTIONS",
     "SAME_TRANSMISSION",
     "Quality",
     "best_first",
     "enough_transmission",
+    "proportions",
     "rule",
 ]
 
 SAME_TRANSMISSION = math.radians(0.5)  # an angle lower by no more counts as good
 ENOUGH_TRANSMISSION = math.radians(60)  # beyond it a linkage runs no better
+LEAST_EXTENT = 1.0  # spans of the motion; a smaller linkage is no better to build
+PROPORTIONS = "product of extent (at least one span) and sensitivity"  # in words
 
 
 def enough_transmission(asked: float) -> float:
@@ -47,12 +51,21 @@ def enough_transmission(asked: float) -> float:
     return max(asked, ENOUGH_TRANSMISSION)
 
 
+def proportions(extent: FloatArray, sensitivity: FloatArray) -> FloatArray:
+    """The product (*,) of extent, in spans, and sensitivity, which is least in a good linkage.
+
+    A linkage smaller than the motion counts as large as it: nothing is gained by one that is all
+    but a single pin.
+    """
+    return np.asarray(np.maximum(extent, LEAST_EXTENT) * sensitivity)
+
+
 def rule(enough: float = ENOUGH_TRANSMISSION) -> str:
     """The rule of `best_first`, as a sentence says it."""
     return (
         f"the one with the greatest least transmission angle, where more than "
         f"{math.degrees(enough):.3g}° counts as {math.degrees(enough):.3g}°; among those within "
-        "half a degree of it, the one with the least product of extent and sensitivity"
+        f"half a degree of it, the one with the least {PROPORTIONS}"
     )
 
 
@@ -136,11 +149,12 @@ def best_first(
 
     The rule is applied again to those that are left, so that each place has a linkage as the
     recommended one of the rest.  Equal ones stay as they come.
-    transmission: (n,), radians; extent, sensitivity: (n,), any unit.  nan is the worst of all.
+    transmission: (n,), radians; extent: (n,), spans of the motion; sensitivity: (n,), any unit.
+    nan is the worst of all.
     enough: radians; more transmission counts as that much.
     """
     transmission = np.minimum(np.nan_to_num(transmission, nan=-np.inf), enough)
-    left = np.argsort(np.nan_to_num(extent * sensitivity, nan=np.inf), kind="stable")
+    left = np.argsort(np.nan_to_num(proportions(extent, sensitivity), nan=np.inf), kind="stable")
     order = []
     while len(left):
         near = transmission[left] >= transmission[left].max() - SAME_TRANSMISSION
