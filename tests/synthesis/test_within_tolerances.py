@@ -150,9 +150,9 @@ def test_quality_decides_among_linkages_inside():
     most = min(max(angles), np.radians(60))  # more than 60 degrees count as 60
     assert best.driven.least_over_range > most - np.radians(0.5) - 1e-9
     alike = [
-        each.quality.extent * each.quality.sensitivity
+        max(each.quality.extent, 1.0) * each.quality.sensitivity
         for each in synthesis.usable
         if not each.shortcomings and each.driven.least_over_range >= most - np.radians(0.5)
     ]
-    assert best.quality.extent * best.quality.sensitivity == min(alike)
+    assert max(best.quality.extent, 1.0) * best.quality.sensitivity == min(alike)
     assert best.driven.least_over_range > closest.driven.least_over_range + np.radians(5)

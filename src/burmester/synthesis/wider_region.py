@@ -16,6 +16,7 @@ from burmester.wording import listed
 
 __all__ = ["DIGITS", "WiderRegion", "plain", "region_text", "wider", "wider_all_around"]
 
+ROUNDING: Final = 1e-10  # of the coordinates; points farther out by less are inside
 DIGITS: Final = 2  # with which an amount is told; the wider limit is rounded by as many
 HERE: Final = Polygon(
     np.array([(0.0, 0), (1, 0), (0, 1)])
@@ -44,7 +45,7 @@ def wider(region: Region, points: FloatArray, share: float, task: Task) -> Wider
     near = PivotFreedom(region, HERE, np.zeros(2), 1.0).nearest(points)[0]
     away = np.linalg.norm(points - near, axis=1)
     worst = int(away.argmax())
-    if not away[worst] > 0:
+    if not away[worst] > ROUNDING * np.abs(points).max():
         return None
     step = 10.0 ** (math.floor(math.log10(away[worst])) - DIGITS + 1)
     at, by = points[worst], share * float(away[worst])
@@ -71,10 +72,8 @@ def wider(region: Region, points: FloatArray, share: float, task: Task) -> Wider
     return WiderRegion(grown, by, f"{length_of(by, task)} outside their region", at)
 
 
-def _wider_box(
-    region: Polygon, points: FloatArray, at: FloatArray, task: Task
-) -> WiderRegion | None:
-    """A box with room for points (k, 2); None where its digits have it; at: (2,), the farthest."""
+def _wider_box(region: Polygon, points: FloatArray, at: FloatArray, task: Task) -> WiderRegion:
+    """A box with room for points (k, 2); at: (2,), the farthest of them."""
     old = np.concatenate([region.vertices.min(axis=0), region.vertices.max(axis=0)])
     first, last = np.minimum(old[:2], points.min(axis=0)), np.maximum(old[2:], points.max(axis=0))
     wanted = np.concatenate([first, last])
@@ -85,8 +84,6 @@ def _wider_box(
         for (way, axis), before, side in zip(SIDES, old, new, strict=True)
         if side != before
     ]
-    if not words:
-        return None
     by = float(np.linalg.norm(new - old))
     grown = box(new[:2].tolist(), new[2:].tolist())
     return WiderRegion(grown, by, listed(words), at)
