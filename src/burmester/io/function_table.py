@@ -19,6 +19,7 @@ __all__ = ["show_function"]
 NARROW = 76  # columns; in a narrower terminal the table has fewer
 MOST_PAIRS = 20  # of a linkage that is judged, in a table
 MOST_ROWS = 8  # linkages in the table where not all are asked for
+LEAST_TIMES, MOST_TIMES = 1.05, 1000  # the nearest one's error; prices outside are not told
 EXACT = 1e-9  # radians; an error below is rounding
 
 
@@ -31,15 +32,16 @@ def show_function(
     if usable:
         judged = synthesis.method == "judged"
         _best(usable[0], task, console, f"{usable[0].id} is" if judged else "")
-        shown = list(synthesis.generators if everything else usable[:MOST_ROWS])
     else:
         draw(message("result", outcome.code, outcome.message, width=console.width), console)
         for head, text in (("why", outcome.why), ("help", outcome.help)):
             if text:
                 draw(note(head, text, console.width), console)
-        shown = list(synthesis.generators if everything else synthesis.generators[:MOST_ROWS])
+    shown = list(synthesis.generators if everything else synthesis.leading(MOST_ROWS))
     if len(shown) > 1 or (shown and not usable):
         _table(shown, task, console)
+    if len(synthesis.trade_off) > 1:
+        draw(wrapped(_price(synthesis), console.width), console)
     if synthesis.method == "judged" and len(task.inputs) <= MOST_PAIRS:
         _pair_errors(shown[0], task, console)
     if usable:
@@ -99,6 +101,22 @@ def _best(found: FoundGenerator, task: FunctionTask, console: Console, named: st
         print_trimmed(Text(text), console)
 
 
+def _price(synthesis: FunctionSynthesis) -> str:
+    """What better transmission angles cost, in a sentence."""
+    nearest, *others = synthesis.trade_off
+    parts = [
+        f"{nearest.id} transmits at {_whole(nearest.least_transmission)}° and misses by "
+        f"{_degrees(nearest.max_error)}°"
+    ]
+    for each in others:
+        times = each.max_error / max(nearest.max_error, EXACT)
+        price = f" ({figure(times)} times)" if LEAST_TIMES < times < MOST_TIMES else ""
+        parts.append(
+            f"{each.id} {_whole(each.least_transmission)}°, {_degrees(each.max_error)}°{price}"
+        )
+    return f"What transmission costs: {'; '.join(parts)}."
+
+
 def _pair_errors(found: FoundGenerator, task: FunctionTask, console: Console) -> None:
     """Each pair, and what the linkage makes of it."""
     table = new_table("At the pairs, in degrees")
@@ -124,12 +142,13 @@ def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) ->
     for each in shown:
         one = each.generator
         lengths = (one.input_link, one.coupler, one.output_link)
-        percent = figure(100 * each.max_error / task.output_span)
+        exact = each.max_error < EXACT
+        percent = "0" if exact else figure(100 * each.max_error / task.output_span)
         figures = [
             f"{_degrees(each.max_error)}°",
             percent,
             f"{_degrees(each.rms_error)}°",
-            f"{math.degrees(each.least_transmission):.0f}°"
+            f"{_whole(each.least_transmission)}°"
             if math.isfinite(each.least_transmission)
             else "-",
         ]
@@ -144,6 +163,10 @@ def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) ->
         if not each.usable:
             reasons = f"{each.id} {listed([d.message for d in each.defects])}"
             draw(wrapped(reasons, console.width, hang=4), console)
+
+
+def _whole(angle: float) -> str:
+    return f"{math.degrees(angle):.0f}"
 
 
 def _degrees(angle: float) -> str:

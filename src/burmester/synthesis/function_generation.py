@@ -12,6 +12,7 @@ R360 function generators that work              R361 none that does
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias, final
 
@@ -20,12 +21,13 @@ import numpy as np
 from burmester.errors import Advice, InputError
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import exact_generators, generators_of_phases
-from burmester.functions.found_generator import FoundGenerator, found_generators
+from burmester.functions.found_generator import MET, FoundGenerator, found_generators, trade_off
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
+from burmester.functions.nearest_generators import nearest_generators
 from burmester.functions.phase_family import best_of_phases
 from burmester.functions.placed_links import placed_links
-from burmester.functions.refinement import at_bounds, different, least_squares, minimax
+from burmester.functions.refinement import at_bounds
 from burmester.geometry.regions import Point
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
@@ -35,7 +37,7 @@ from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
-from burmester.wording import count, listed
+from burmester.wording import count, figure, listed
 
 __all__ = [
     "FunctionSynthesis",
@@ -47,7 +49,6 @@ __all__ = [
 
 LEAST_PAIRS: Final = 3
 SAME_ANGLE: Final = 1e-9  # radians; outputs that turn with the input but for less do so exactly
-LEVELLED: Final = 5  # generators of least squares that minimax goes on from
 _HELP: Final = (
     "change the range of the input or of the output, turn the output the other way (--opposite for "
     "a function), or leave the phases open"
@@ -79,6 +80,20 @@ class FunctionSynthesis:
     def usable(self) -> tuple[FoundGenerator, ...]:
         """The linkages that work."""
         return tuple(each for each in self.generators if each.usable)
+
+    @property
+    def trade_off(self) -> tuple[FoundGenerator, ...]:
+        """Of those that work: the nearest one, and what each better transmission angle costs."""
+        return trade_off(self.usable)
+
+    def leading(self, most: int) -> list[FoundGenerator]:
+        """At most so many generators, by rank: those of the trade-off and the first of the others.
+
+        Where none works, the first of all.
+        """
+        every = self.usable or self.generators
+        wanted = list(dict.fromkeys([*every[:1], *self.trade_off, *every]))
+        return sorted(wanted[:most], key=lambda each: each.rank)
 
 
 def generate_function(task: FunctionTask) -> FunctionSynthesis:
@@ -222,17 +237,7 @@ def _nearly(task: FunctionTask) -> FunctionSynthesis:
     start = start[np.isfinite(start.sizes).all(axis=-1)]
     start = start.with_better_side(task.inputs, task.outputs, task.weights)
     step("refining the output angle")
-    refined, arrived = least_squares(start, task)
-    refined = refined[arrived]
-    refined = refined[different(refined)]
-    found = found_generators(refined, task, exact=False)
-    if task.minimax and found:
-        step("levelling the greatest errors")
-        chosen = found[:LEVELLED]
-        best = _stacked([each.generator for each in chosen])
-        best = minimax(best, task)
-        best = best[different(best)]
-        found = found_generators(best, task, exact=False)
+    found = found_generators(nearest_generators(start, task), task, exact=False)
     if found and found[0].usable and bool(at_bounds(found[0].generator)):
         warnings.append(
             Advice(
@@ -267,7 +272,27 @@ def _outcome(found: tuple[FoundGenerator, ...], task: FunctionTask, head: str) -
     if not found:
         return Outcome("R361", head, _HELP, "no real linkage meets the pairs")
     reasons = [f"{each.id} {each.defects[0].message}" for each in found[:3]]
-    return Outcome("R361", f"{head}, none of them usable", _HELP, listed(reasons))
+    help = _loosened(found) or _HELP
+    return Outcome("R361", f"{head}, none of them usable", help, listed(reasons))
+
+
+def _loosened(found: tuple[FoundGenerator, ...]) -> str:
+    """Which one requirement to ask less of, and what the nearest linkage is then; else empty."""
+    ways: dict[str, str] = {}
+    for each in found:
+        code = each.defects[0].code
+        if len(each.defects) > 1 or code not in ("transmission", "link-ratio", "type"):
+            continue
+        if code == "transmission":
+            least = math.floor(10 * math.degrees(each.least_transmission)) / 10
+            way = f"--min-transmission {least:g}"
+        elif code == "link-ratio":
+            way = f"--link-ratio {math.ceil(10 * float(each.generator.link_ratio)) / 10:g}"
+        else:
+            way = f"--type {each.type}"
+        miss = f"{figure(math.degrees(each.max_error))} deg"
+        ways.setdefault(code, f"{way} ({each.id}, {miss if each.max_error > MET else 'exact'})")
+    return f"ask for less: {listed([*ways.values()], 'or')}" if ways else ""
 
 
 def _stacked(each: list[Generator]) -> Generator:

@@ -34,9 +34,9 @@ EXACT: Final = 1e-9  # radians; an error below is rounding
 def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     """The whole report as an object ready for JSON."""
     task = synthesis.task
-    shown = synthesis.generators[:MOST]
+    shown = synthesis.leading(MOST)
     rest = len(synthesis.generators) - len(shown)
-    more = f" The best {len(shown)} of {len(synthesis.generators)} are shown." if rest else ""
+    more = f" {len(shown)} of {len(synthesis.generators)} are shown." if rest else ""
     return {
         "schema": SCHEMA,
         "outcome": message_data(synthesis.outcome),
