@@ -6,6 +6,7 @@ others as well: of many linkages that go through the range, the nearest that kee
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -56,10 +57,7 @@ class FurtherStarts(NamedTuple):
             second = np.full(len(drawn), task.output_phase)
         error = (wrapped_angle(made - second[:, None]) ** 2).sum(axis=1)
         order = np.argsort(error, kind="stable")
-        found = Generator(
-            *(getattr(drawn, name) for name in ("input_link", "coupler", "output_link")),
-            drawn.input_phase, second, drawn.side,
-        )[order]  # fmt: skip
+        found = replace(drawn, output_phase=second)[order]
         return cls(found, found.least_transmission(low, high), found.link_ratio, found.types)
 
     def near(

@@ -67,7 +67,7 @@ def _searched(
     levels: list[_Level], optima: Generator, further: FurtherStarts, task: FunctionTask
 ) -> dict[_Level, Generator]:
     """The best generators of each level, all levels with the same types in one descent."""
-    found = {}
+    found: dict[_Level, Generator] = {}
     for types in dict.fromkeys(each.types for each in levels):
         some = [each for each in levels if each.types == types]
         starts = [[optima, further.near(*each[:3], FURTHER_STARTS)] for each in some]

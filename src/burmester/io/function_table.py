@@ -38,6 +38,8 @@ def show_function(
             if text:
                 draw(note(head, text, console.width), console)
     shown = list(synthesis.generators if everything else synthesis.leading(MOST_ROWS))
+    if usable and not everything:
+        shown = [each for each in shown if each.usable]
     if len(shown) > 1 or (shown and not usable):
         _table(shown, task, console)
     if len(synthesis.trade_off) > 1:

@@ -87,11 +87,8 @@ class FunctionSynthesis:
         return trade_off(self.usable)
 
     def leading(self, most: int) -> list[FoundGenerator]:
-        """At most so many generators, by rank: those of the trade-off and the first of the others.
-
-        Where none works, the first of all.
-        """
-        every = self.usable or self.generators
+        """At most so many, by rank: those of the trade-off, and the first of the others."""
+        every = self.generators
         wanted = list(dict.fromkeys([*every[:1], *self.trade_off, *every]))
         return sorted(wanted[:most], key=lambda each: each.rank)
 
@@ -238,11 +235,12 @@ def _nearly(task: FunctionTask) -> FunctionSynthesis:
     start = start.with_better_side(task.inputs, task.outputs, task.weights)
     step("refining the output angle")
     found = found_generators(nearest_generators(start, task), task, exact=False)
-    if found and found[0].usable and bool(at_bounds(found[0].generator)):
+    nearest = next(iter(trade_off([each for each in found if each.usable])), None)
+    if nearest and bool(at_bounds(nearest.generator)):
         warnings.append(
             Advice(
                 "W233",
-                f"{found[0].id} would be closer still with a link beyond the bound",
+                f"{nearest.id} would be closer still with a link beyond the bound",
                 "take another range of the input or of the output",
                 "no link is longer than 10 ground links, or shorter than a tenth of one",
             )
