@@ -53,6 +53,7 @@ FUNCTIONS = [
 ]
 PAIRS = 61
 PLACES = 721  # at which what SLSQP found is checked
+LEAST = 1.0  # degree of transmission, below which neither looks
 WORSE = 1.05
 
 
@@ -105,7 +106,7 @@ def sums(v):
 
 def slsqp(task, start, side, signs):
     """The end of a descent from v (5,), its error; infinite where it keeps not what is asked."""
-    least = max(task.least_transmission or 0.0, np.radians(0.1))
+    least = max(task.least_transmission or 0.0, np.radians(LEAST))
     ratio = task.link_ratio or 1e4
 
     def errors(v, inputs, outputs):

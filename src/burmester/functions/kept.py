@@ -18,7 +18,7 @@ from burmester.numerics.arrays import FloatArray
 __all__ = ["MOST_SIZE", "SPARE", "Kept"]
 
 MOST_SIZE: Final = 10.0  # ground links; no link is longer, and none shorter than its inverse
-LEAST_TRANSMISSION: Final = np.radians(0.1)  # kept always: a dead point is not reached
+LEAST_TRANSMISSION: Final = np.radians(1.0)  # is kept always: who locks sooner is of no use
 SPARE: Final = 1e-6  # of each constraint: what is broken by less is kept
 SPARE_TYPE: Final = 1e-3  # of all links together; a linkage nearer to a change point may be either
 PAIRS: Final = np.array([(i, j) for i in range(4) for j in range(4) if i != j])  # of links
