@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from benchmarks.function_requirements import TABLE, drawn, task_of, witnessed
 
+from burmester.functions.exact_pairs import exact_generators
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.further_starts import FurtherStarts
 from burmester.functions.kept import Kept
@@ -87,7 +88,7 @@ def test_types_are_searched_for_and_not_only_sorted_out():
 
 def test_what_none_keeps_is_told_and_the_advice_is_right():
     types = frozenset({"double-crank"})
-    asked = {"least_transmission": 60 * DEG, "link_ratio": 1.3, "types": types}
+    asked = {"least_transmission": 60 * DEG, "link_ratio": 1.1, "types": types}
     task = task_of(np.log, (1, 10), 90, 90, minimax=True, **asked)
     found = generate_function(task)
     assert not found.usable
@@ -109,17 +110,16 @@ def test_of_mirror_images_one_is_listed():
     found = generate_function(task_of(np.tan, (-0.6, 0.6), 60, 60, minimax=True)).generators
     for k, one in enumerate(found):
         for other in found[:k]:
-            same = np.abs(np.log(one.generator.sizes / other.generator.sizes)).max() < 1e-3
-            assert not (same and one.max_error == pytest.approx(other.max_error, rel=1e-3))
+            same = np.abs(np.log(one.generator.sizes / other.generator.sizes)).max() < 1e-2
+            assert not (same and one.max_error == pytest.approx(other.max_error, rel=1e-2))
 
 
 def test_of_mirror_images_through_exact_pairs_one_is_listed():
-    angles = np.radians([-30, -14, 0, 14, 30])
-    found = generate_function(FunctionTask(angles, 0.9 * angles + 0.3 * angles**3))
-    sizes = [each.generator.sizes for each in found.generators]
-    assert sizes
-    for k, one in enumerate(sizes):
-        assert all(np.abs(np.log(one / other)).max() > 1e-3 for other in sizes[:k])
+    angles = np.radians([-40, -17, 0, 17, 40])
+    task = FunctionTask(angles, 1.31 * angles + 0.6 * angles**3)
+    assert len(exact_generators(task).generators) == 3
+    one, other = (each.generator.sizes for each in generate_function(task).generators)
+    assert np.abs(np.log(one / other)).max() > 0.1
 
 
 @pytest.mark.parametrize("types", [None, frozenset({"double-rocker"})])

@@ -32,9 +32,10 @@ LEAST_TRANSMISSION: Final = 30.0  # degrees; below it friction and play grow qui
 MOST_LINK_RATIO: Final = 10.0  # longest over shortest of four links
 CLOSE: Final = 3.0  # times the least error; a sound linkage as close as this comes first
 MET: Final = 1e-7  # radians; a pair missed by less is met exactly
-SAME_TWIN: Final = 1e-4  # relative, of lengths and figures of a mirror image
-SAME_VALLEY: Final = 0.25  # of the logarithm of a link, and radians
-MORE_TRANSMISSION: Final = math.radians(1)  # what makes a linkage another one in a trade-off
+SAME_EXACT: Final = 1e-6  # of the logarithm of a link, and radians, through exact pairs
+SAME_VALLEY: Final = 0.25  # the same of linkages downhill of starts
+MORE_TRANSMISSION: Final = math.radians(1)  # what makes a linkage of one valley another one
+STEP_OF_TRADE_OFF: Final = math.radians(3)  # of transmission, between members of it
 MORE_ERROR: Final = 1.03  # times the error; the same
 MOST_PAIRS: Final = 6  # pairs or runs of them that a message names
 
@@ -106,35 +107,46 @@ def found_generators(
 
     every.sort(key=order)
     kept: list[FoundGenerator] = []
+    others: list[tuple[FoundGenerator, Generator]] = []  # they and their mirror images
     for each in every:
-        if not any(_repeats(each, before, exact=exact) for before in kept):
+        if not any(_repeats(each, *before, exact=exact) for before in others):
             kept.append(each)
+            images = [each.generator, *_mirror_images(each.generator, task)]
+            others += [(each, image) for image in images]
     return tuple(replace(one, id=f"L{rank}", rank=rank) for rank, one in enumerate(kept, start=1))
 
 
-def _repeats(one: FoundGenerator, before: FoundGenerator, *, exact: bool) -> bool:
-    """Whether a linkage is another one again, or that one's mirror image, both senses reversed.
+def _mirror_images(generator: Generator, task: FunctionTask) -> list[Generator]:
+    """The mirror image about the ground link, driven the other way, if the task is the same then.
+
+    It is if the outputs, told from the other end, fall as they rose.
+    """
+    order = np.argsort(task.inputs)
+    ends = []
+    for angles in (task.inputs[order], task.outputs[order]):
+        both = angles + angles[::-1]
+        if np.ptp(both) > MET:
+            return []
+        ends.append(both.mean())
+    phases = (-generator.input_phase - ends[0], -generator.output_phase - ends[1])
+    return [replace(generator, input_phase=phases[0], output_phase=phases[1], side=-generator.side)]
+
+
+def _repeats(one: FoundGenerator, before: FoundGenerator, image: Generator, *, exact: bool) -> bool:
+    """Whether a linkage is an earlier one again, or the mirror image of that one.
 
     Descents into one flat valley end apart: of these one that is no nearer and transmits no better
     is a repeat.
     """
     if (one.usable, not one.shortcomings) != (before.usable, not before.shortcomings):
         return False
-    g, h = one.generator, before.generator
-    apart = float(np.abs(np.log(g.sizes / h.sizes)).max())
-    if apart < SAME_TWIN and all(
-        abs(a - b) <= SAME_TWIN * max(abs(a), abs(b)) + MET
-        for a, b in (
-            (one.max_error, before.max_error),
-            (one.rms_error, before.rms_error),
-            (one.least_transmission, before.least_transmission),
-        )
-    ):
-        return True
-    phases = (g.input_phase - h.input_phase, g.output_phase - h.output_phase)
+    if one.least_transmission > before.least_transmission + MORE_TRANSMISSION:
+        return False
+    g = one.generator
+    phases = (g.input_phase - image.input_phase, g.output_phase - image.output_phase)
     turned = max(float(np.abs(wrapped_angle(each))) for each in phases)
-    better = one.least_transmission > before.least_transmission + MORE_TRANSMISSION
-    return not exact and not better and g.side == h.side and max(apart, turned) < SAME_VALLEY
+    apart = max(turned, float(np.abs(np.log(g.sizes / image.sizes)).max()))
+    return bool(g.side == image.side) and apart < (SAME_EXACT if exact else SAME_VALLEY)
 
 
 def trade_off(usable: Sequence[FoundGenerator]) -> tuple[FoundGenerator, ...]:
@@ -146,7 +158,7 @@ def trade_off(usable: Sequence[FoundGenerator]) -> tuple[FoundGenerator, ...]:
     front: list[FoundGenerator] = []
     best = -math.inf
     for each in sorted(usable, key=lambda one: (one.max_error, -one.least_transmission)):
-        if each.least_transmission > best + MORE_TRANSMISSION:
+        if each.least_transmission > best + STEP_OF_TRADE_OFF:
             if len(front) > 1 and each.max_error < MORE_ERROR * front[-1].max_error:
                 front.pop()
             front.append(each)

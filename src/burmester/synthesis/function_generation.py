@@ -275,22 +275,25 @@ def _outcome(found: tuple[FoundGenerator, ...], task: FunctionTask, head: str) -
 
 
 def _loosened(found: tuple[FoundGenerator, ...]) -> str:
-    """Which one requirement to ask less of, and what the nearest linkage is then; else empty."""
-    ways: dict[str, str] = {}
-    for each in found:
-        code = each.defects[0].code
-        if len(each.defects) > 1 or code not in ("transmission", "link-ratio", "type"):
+    """Which one requirement to ask less of, as little as may be, and what comes of it; or empty."""
+    ways = []
+    for code in ("transmission", "link-ratio", "type"):
+        some = [e for e in found if [each.code for each in e.defects] == [code]]
+        if not some:
             continue
         if code == "transmission":
-            least = math.floor(10 * math.degrees(each.least_transmission)) / 10
+            best = max(some, key=lambda each: each.least_transmission)
+            least = math.floor(10 * math.degrees(best.least_transmission)) / 10
             way = f"--min-transmission {least:g}"
         elif code == "link-ratio":
-            way = f"--link-ratio {math.ceil(10 * float(each.generator.link_ratio)) / 10:g}"
+            best = min(some, key=lambda each: float(each.generator.link_ratio))
+            way = f"--link-ratio {math.ceil(10 * float(best.generator.link_ratio)) / 10:g}"
         else:
-            way = f"--type {each.type}"
-        miss = f"{figure(math.degrees(each.max_error))} deg"
-        ways.setdefault(code, f"{way} ({each.id}, {miss if each.max_error > MET else 'exact'})")
-    return f"ask for less: {listed([*ways.values()], 'or')}" if ways else ""
+            best = some[0]
+            way = f"--type {best.type}"
+        miss = figure(math.degrees(best.max_error))
+        ways.append(f"{way} ({best.id}, {f'{miss} deg' if best.max_error > MET else 'exact'})")
+    return f"ask for less: {listed(ways, 'or')}" if ways else ""
 
 
 def _stacked(each: list[Generator]) -> Generator:
