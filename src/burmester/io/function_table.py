@@ -19,7 +19,6 @@ __all__ = ["show_function"]
 NARROW = 76  # columns; in a narrower terminal the table has fewer
 MOST_PAIRS = 20  # of a linkage that is judged, in a table
 MOST_ROWS = 8  # linkages in the table where not all are asked for
-LEAST_TIMES, MOST_TIMES = 1.05, 1000  # the nearest one's error; prices outside are not told
 EXACT = 1e-9  # radians; an error below is rounding
 
 
@@ -42,8 +41,8 @@ def show_function(
         shown = [each for each in shown if each.usable]
     if len(shown) > 1 or (shown and not usable):
         _table(shown, task, console)
-    if len(synthesis.trade_off) > 1:
-        draw(wrapped(_price(synthesis), console.width), console)
+    if synthesis.price:
+        draw(wrapped(synthesis.price, console.width), console)
     if synthesis.method == "judged" and len(task.inputs) <= MOST_PAIRS:
         _pair_errors(shown[0], task, console)
     if usable:
@@ -101,22 +100,6 @@ def _best(found: FoundGenerator, task: FunctionTask, console: Console, named: st
         notes.append(f"It {listed(found.shortcomings)}.")
     for text in notes:
         print_trimmed(Text(text), console)
-
-
-def _price(synthesis: FunctionSynthesis) -> str:
-    """What better transmission angles cost, in a sentence."""
-    nearest, *others = synthesis.trade_off
-    parts = [
-        f"{nearest.id} transmits at {_whole(nearest.least_transmission)}° and misses by "
-        f"{_degrees(nearest.max_error)}°"
-    ]
-    for each in others:
-        times = each.max_error / max(nearest.max_error, EXACT)
-        price = f" ({figure(times)} times)" if LEAST_TIMES < times < MOST_TIMES else ""
-        parts.append(
-            f"{each.id} {_whole(each.least_transmission)}°, {_degrees(each.max_error)}°{price}"
-        )
-    return f"What transmission costs: {'; '.join(parts)}."
 
 
 def _pair_errors(found: FoundGenerator, task: FunctionTask, console: Console) -> None:

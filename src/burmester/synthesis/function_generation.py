@@ -48,6 +48,7 @@ __all__ = [
 ]
 
 LEAST_PAIRS: Final = 3
+LEAST_TIMES, MOST_TIMES = 1.05, 1000.0  # the nearest one's error; prices outside are not told
 SAME_ANGLE: Final = 1e-9  # radians; outputs that turn with the input but for less do so exactly
 _HELP: Final = (
     "change the range of the input or of the output, turn the output the other way (--opposite for "
@@ -85,6 +86,20 @@ class FunctionSynthesis:
     def trade_off(self) -> tuple[FoundGenerator, ...]:
         """Of those that work: the nearest one, and what each better transmission angle costs."""
         return trade_off(self.usable)
+
+    @property
+    def price(self) -> str:
+        """What better transmission angles cost, in a sentence; empty where there is no choice."""
+        if len(self.trade_off) < 2:
+            return ""
+        nearest, *others = self.trade_off
+        miss = f"misses by {_degrees(nearest)}" if nearest.max_error > MET else "is exact"
+        parts = [f"{nearest.id} {miss} at {_transmission(nearest)}"]
+        for each in others:
+            times = each.max_error / max(nearest.max_error, MET)
+            price = f" ({figure(times)} times)" if LEAST_TIMES < times < MOST_TIMES else ""
+            parts.append(f"{each.id} by {_degrees(each)} at {_transmission(each)}{price}")
+        return f"What transmission costs: {'; '.join(parts)}."
 
     def leading(self, most: int) -> list[FoundGenerator]:
         """At most so many, by rank: those of the trade-off, and the first of the others."""
@@ -274,6 +289,15 @@ def _outcome(found: tuple[FoundGenerator, ...], task: FunctionTask, head: str) -
     return Outcome("R361", f"{head}, none of them usable", help, listed(reasons))
 
 
+def _degrees(found: FoundGenerator) -> str:
+    """How far it misses; "exact" where that is rounding."""
+    return f"{figure(math.degrees(found.max_error))}°" if found.max_error > MET else "exact"
+
+
+def _transmission(found: FoundGenerator) -> str:
+    return f"{math.degrees(found.least_transmission):.0f}°"
+
+
 def _loosened(found: tuple[FoundGenerator, ...]) -> str:
     """Which one requirement to ask less of, as little as may be, and what comes of it; or empty."""
     ways = []
@@ -291,8 +315,7 @@ def _loosened(found: tuple[FoundGenerator, ...]) -> str:
         else:
             best = some[0]
             way = f"--type {best.type}"
-        miss = figure(math.degrees(best.max_error))
-        ways.append(f"{way} ({best.id}, {f'{miss} deg' if best.max_error > MET else 'exact'})")
+        ways.append(f"{way} ({best.id}, {_degrees(best)})")
     return f"ask for less: {listed(ways, 'or')}" if ways else ""
 
 

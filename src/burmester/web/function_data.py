@@ -59,7 +59,8 @@ def _best(synthesis: FunctionSynthesis) -> list[str]:
     if not synthesis.usable:
         return wanted
     found = synthesis.usable[0]
-    return [f"{found.id}, {with_article(found.type)}, {_miss(found, task)}.", *wanted]
+    price = [synthesis.price] if synthesis.price else []
+    return [f"{found.id}, {with_article(found.type)}, {_miss(found, task)}.", *price, *wanted]
 
 
 def _asked(task: FunctionTask) -> str:
