@@ -49,7 +49,6 @@ def refined(
     kept: Kept,
     *,
     minimax: bool = False,
-    steps: int = MAX_STEPS,
 ) -> tuple[Generator, FloatArray, NDArray[np.bool_]]:
     """Generators (k,) downhill of starts: of the least squared or the least greatest error.
 
@@ -59,7 +58,9 @@ def refined(
     problem = _Problem(task, kept, start.side, minimax)
     first = problem.point(np.arange(len(start)), _unknowns(start))
     rows = np.flatnonzero(np.isfinite(first.error))
-    ends, _ = damped_descent(problem.attempt, first, rows, damping=START_DAMPING, max_steps=steps)
+    ends, _ = damped_descent(
+        problem.attempt, first, rows, damping=START_DAMPING, max_steps=MAX_STEPS
+    )
     return (
         _generator(ends.x, start.side),
         ends.error,

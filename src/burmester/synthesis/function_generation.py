@@ -148,7 +148,7 @@ def judge_generator(
 
     placed: what is said of its phases.
     """
-    found = found_generators(_stacked([generator]), task, exact=False)
+    found = found_generators(generator[None], task, exact=False)
     (one,) = found
     if one.usable:
         outcome = Outcome("R360", f"the function generator works{placed}")
@@ -317,11 +317,6 @@ def _loosened(found: tuple[FoundGenerator, ...]) -> str:
             way = f"--type {best.type}"
         ways.append(f"{way} ({best.id}, {_degrees(best)})")
     return f"ask for less: {listed(ways, 'or')}" if ways else ""
-
-
-def _stacked(each: list[Generator]) -> Generator:
-    names = Generator.__match_args__
-    return Generator(*(np.stack([getattr(one, name) for one in each]) for name in names))
 
 
 def coupler_synthesis(
