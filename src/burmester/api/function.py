@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, final
 
@@ -38,6 +38,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["FunctionGenerators", "synthesize_function"]
+
+MOST_LINES = 8  # generators in the text of a result
 
 
 @final
@@ -127,7 +129,7 @@ class FunctionGenerators:
 
     def __repr__(self) -> str:
         lines = [self.outcome.message]
-        for each in self.generators[:8]:
+        for each in self._synthesis.leading(MOST_LINES):
             error = np.degrees(each.max_error)
             said = "works" if each.usable else each.defects[0].message
             lines.append(f"{each.id}  {each.type}: {error:.3g} deg at most, {said}")
@@ -150,6 +152,7 @@ def synthesize_function(
     ground: float = 1.0,
     transmission_deg: float | None = None,
     link_ratio: float | None = None,
+    types: Set[str] | None = None,
     progress: Listener | None = None,
 ) -> FunctionGenerators:
     """The four-bars whose output angle is a function of the input angle, judged and ranked.
@@ -182,15 +185,17 @@ def synthesize_function(
     transmission_deg, link_ratio : float, optional
         What a linkage has to keep: the least transmission angle, and the longest link over the
         shortest.
+    types : set of str, optional
+        The types allowed, such as {"double-rocker"}, or the words "grashof" and "non-grashof".
     progress : callable, optional
         Called with a `Progress` where something begins.
 
     Raises
     ------
     InputError
-        E110 (pairs without an angle unit), E125 (no numbers, or of a wrong shape), E190 (an
-        expression that cannot be read), E191 (a task that makes no sense), E192 (infinitely many
-        linkages), E194 (settings that are missing or make no sense).
+        E110 (pairs without an angle unit), E125 (no numbers, or of a wrong shape), E134 (a type
+        that is not known), E190 (an expression that cannot be read), E191 (a task that makes no
+        sense), E192 (infinitely many linkages), E194 (settings that are missing or make no sense).
 
     Examples
     --------
@@ -202,8 +207,9 @@ def synthesize_function(
     """
     require_callable(progress)
     settings = FunctionSettings(
-        input_phase_deg, output_phase_deg, ground, minimax, transmission_deg, link_ratio
-    )
+        input_phase_deg, output_phase_deg, ground, minimax, transmission_deg, link_ratio,
+        None if types is None else frozenset(types),
+    )  # fmt: skip
     if isinstance(function, str) or callable(function):
         if x is None or input_deg is None or output_deg is None:
             raise InputError(

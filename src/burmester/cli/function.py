@@ -30,8 +30,10 @@ OWN: Final = (
     "function", "x", "input_range", "opposite", "pairs", "spacing", "minimax", "input_phase",
     "output_phase", "ground", "plot", "links", "side",
 )  # fmt: skip
-SHARED: Final = ("poses", "min_transmission", "link_ratio", "as_json", "file", "output", "force",
-                 "everything", "title", "linkage", "id", "sheet")  # fmt: skip
+SHARED: Final = (
+    "poses", "min_transmission", "link_ratio", "types", "as_json", "file", "output", "force",
+    "everything", "title", "linkage", "id", "sheet",
+)  # fmt: skip
 FIGURES: Final = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
 
@@ -110,12 +112,14 @@ def _of_expression(given: dict[str, Any]) -> FunctionTask:
 
 def _settings(given: dict[str, Any]) -> Any:
     from burmester.io.reading.functions.function_options import FunctionSettings
+    from burmester.io.reading.requirements_text import requirements_from_options
 
     def number(name: str) -> float | None:
         value = given.get(name)
         return None if value is None else _number(_option(name), value)
 
     ground = number("ground")
+    types = requirements_from_options(types=given.get("types") or ())
     return FunctionSettings(
         number("input_phase"),
         number("output_phase"),
@@ -123,6 +127,7 @@ def _settings(given: dict[str, Any]) -> Any:
         bool(given.get("minimax")),
         number("min_transmission"),
         number("link_ratio"),
+        types[0].value if types else None,
     )
 
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Final, final
 
 import numpy as np
@@ -13,16 +14,29 @@ from burmester.errors import Advice
 from burmester.fourbar.linkage import Linkage
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
-from burmester.functions.refinement import MOST_SIZE, at_bounds
-from burmester.numerics.arrays import FloatArray
-from burmester.wording import figure, in_runs
+from burmester.functions.kept import MOST_SIZE
+from burmester.functions.refinement import at_bounds
+from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.wording import figure, in_runs, with_article
 
-__all__ = ["LEAST_TRANSMISSION", "MOST_LINK_RATIO", "FoundGenerator", "found_generators"]
+__all__ = [
+    "LEAST_TRANSMISSION",
+    "MET",
+    "MOST_LINK_RATIO",
+    "FoundGenerator",
+    "found_generators",
+    "trade_off",
+]
 
 LEAST_TRANSMISSION: Final = 30.0  # degrees; below it friction and play grow quickly
 MOST_LINK_RATIO: Final = 10.0  # longest over shortest of four links
 CLOSE: Final = 3.0  # times the least error; a sound linkage as close as this comes first
 MET: Final = 1e-7  # radians; a pair missed by less is met exactly
+SAME_EXACT: Final = 1e-6  # of the logarithm of a link, and radians, through exact pairs
+SAME_VALLEY: Final = 0.25  # the same of linkages downhill of starts
+MORE_TRANSMISSION: Final = math.radians(1)  # what makes a linkage of one valley another one
+STEP_OF_TRADE_OFF: Final = math.radians(3)  # of transmission, between members of it
+MORE_ERROR: Final = 1.03  # times the error; the same
 MOST_PAIRS: Final = 6  # pairs or runs of them that a message names
 
 
@@ -73,6 +87,7 @@ def found_generators(
 ) -> tuple[FoundGenerator, ...]:
     """Generators (k,), judged and ranked: usable ones first, then sound ones, then by error.
 
+    One that is nearly an earlier one, or its mirror image with both senses reversed, is left out.
     exact: whether all pairs have to be met.
     """
     every = [_found(generators[k], task, exact=exact) for k in range(len(generators))]
@@ -91,12 +106,64 @@ def found_generators(
         )
 
     every.sort(key=order)
-    return tuple(
-        FoundGenerator(
-            f"L{rank}", rank, *(getattr(each, n) for n in FoundGenerator.__match_args__[2:])
-        )
-        for rank, each in enumerate(every, start=1)
-    )
+    kept: list[FoundGenerator] = []
+    others: list[tuple[FoundGenerator, Generator]] = []  # they and their mirror images
+    for each in every:
+        if not any(_repeats(each, *before, exact=exact) for before in others):
+            kept.append(each)
+            images = [each.generator, *_mirror_images(each.generator, task)]
+            others += [(each, image) for image in images]
+    return tuple(replace(one, id=f"L{rank}", rank=rank) for rank, one in enumerate(kept, start=1))
+
+
+def _mirror_images(generator: Generator, task: FunctionTask) -> list[Generator]:
+    """The mirror image about the ground link, driven the other way, if the task is the same then.
+
+    It is if the outputs, told from the other end, fall as they rose.
+    """
+    order = np.argsort(task.inputs)
+    ends = []
+    for angles in (task.inputs[order], task.outputs[order]):
+        both = angles + angles[::-1]
+        if np.ptp(both) > MET:
+            return []
+        ends.append(both.mean())
+    phases = (-generator.input_phase - ends[0], -generator.output_phase - ends[1])
+    return [replace(generator, input_phase=phases[0], output_phase=phases[1], side=-generator.side)]
+
+
+def _repeats(one: FoundGenerator, before: FoundGenerator, image: Generator, *, exact: bool) -> bool:
+    """Whether a linkage is an earlier one again, or the mirror image of that one.
+
+    Descents into one flat valley end apart: of these one that is no nearer and transmits no better
+    is a repeat.
+    """
+    if (one.usable, not one.shortcomings) != (before.usable, not before.shortcomings):
+        return False
+    if one.least_transmission > before.least_transmission + MORE_TRANSMISSION:
+        return False
+    g = one.generator
+    phases = (g.input_phase - image.input_phase, g.output_phase - image.output_phase)
+    turned = max(float(np.abs(wrapped_angle(each))) for each in phases)
+    apart = max(turned, float(np.abs(np.log(g.sizes / image.sizes)).max()))
+    return bool(g.side == image.side) and apart < (SAME_EXACT if exact else SAME_VALLEY)
+
+
+def trade_off(usable: Sequence[FoundGenerator]) -> tuple[FoundGenerator, ...]:
+    """Of usable generators those than which none is as near and transmits as well, nearest first.
+
+    One that costs hardly more error than one before it stands for that one, unless that is the
+    nearest of all.
+    """
+    front: list[FoundGenerator] = []
+    best = -math.inf
+    for each in sorted(usable, key=lambda one: (one.max_error, -one.least_transmission)):
+        if each.least_transmission > best + STEP_OF_TRADE_OFF:
+            if len(front) > 1 and each.max_error < MORE_ERROR * front[-1].max_error:
+                front.pop()
+            front.append(each)
+            best = each.least_transmission
+    return tuple(front)
 
 
 def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGenerator:
@@ -119,6 +186,9 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
         asked.append(
             Advice("link-ratio", f"has a link {figure(ratio)} times as long as another", "")
         )
+    kind = generator.linkage().type
+    if task.types is not None and kind not in task.types:
+        asked.append(Advice("type", f"is {with_article(kind)}", ""))
     shortcomings = []
     if task.least_transmission is None and not least >= math.radians(LEAST_TRANSMISSION):
         shortcomings.append(f"transmits at {_degrees(least)} only")
@@ -132,7 +202,7 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
         "",
         0,
         generator,
-        generator.linkage().type,
+        kind,
         errors,
         generator.error(inputs, outputs),
         not defects and not asked,

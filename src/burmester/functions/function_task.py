@@ -72,7 +72,8 @@ class FunctionTask:
     function: what the pairs are taken from, if anything.
     minimax: whether the greatest error is to be least, instead of the sum of squares.
     least_transmission: radians, that a linkage has to keep over the range; link_ratio: of its
-        longest link to its shortest, at most; None: nothing is asked.
+        longest link to its shortest, at most; types: those allowed, as `Linkage.type` names them;
+        None: nothing is asked.
     """
 
     inputs: FloatArray
@@ -85,6 +86,7 @@ class FunctionTask:
     minimax: bool = False
     least_transmission: float | None = None
     link_ratio: float | None = None
+    types: frozenset[str] | None = None
 
     def __post_init__(self) -> None:
         for name in ("inputs", "outputs"):
@@ -99,6 +101,11 @@ class FunctionTask:
     def exact_count(self) -> int:
         """The number of pairs that finitely many linkages meet exactly: 3, 4 or 5."""
         return 3 + self.free_phases
+
+    @property
+    def asks(self) -> bool:
+        """Whether a linkage has to keep anything beside the pairs."""
+        return any(v is not None for v in (self.least_transmission, self.link_ratio, self.types))
 
     @property
     def input_ends(self) -> tuple[float, float]:

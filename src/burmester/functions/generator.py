@@ -9,6 +9,7 @@ stays the same.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, Self, final
 
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import RR
-from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage import TYPES, Linkage, Links, grashof_numbers
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 
 __all__ = ["Generator"]
@@ -60,6 +61,19 @@ class Generator:
     def link_ratio(self) -> FloatArray:
         """The longest of the four links over the shortest, (*,)."""
         return np.asarray(self.sizes.max(axis=-1) / self.sizes.min(axis=-1))
+
+    @property
+    def types(self) -> NDArray[np.str_]:
+        """Grashof's types (*,), by the names of `Linkage.type`; the input link drives."""
+        one = np.ones_like(self.input_link)
+        links = Links(one, self.input_link, self.coupler, self.output_link)
+        return np.asarray(np.array(TYPES)[grashof_numbers(links)])
+
+    @classmethod
+    def joined(cls, parts: Sequence[Self]) -> Self:
+        """Generators (k,), those of all parts (*,) in their order."""
+        names = [each.name for each in fields(cls)]
+        return cls(*(np.concatenate([getattr(part, n) for part in parts]) for n in names))
 
     def diagonal(self, inputs: FloatArray) -> FloatArray:
         """From the input link's pin to the output's pivot, complex (*, N), at inputs (N,)."""

@@ -37,8 +37,9 @@ def best_of_phases(task: FunctionTask) -> PhaseFamily:
     """The best generators of three or four pairs that leave phases open.
 
     Best is the least greatest structural error of a function; where only pairs are given, which all
-    of these meet, the greatest least transmission angle.  A grid is searched, and nothing
-    is said of what lies between its phases.
+    of these meet, the greatest least transmission angle; those that keep what the task asks are
+    chosen from, if any does.  A grid is searched, and nothing is said of what lies between its
+    phases.
     """
     found = _of_grid(task)
     found = found[np.isfinite(found.sizes).all(axis=-1)]
@@ -47,12 +48,27 @@ def best_of_phases(task: FunctionTask) -> PhaseFamily:
     error = np.abs(found.error(task.inputs, task.outputs)).max(axis=-1)
     works = found.runs_through(low, high) & (error < EXACT) & (found.link_ratio <= MOST_RATIO)
     found = found[works]
+    keeps = _keeps(found, task)
+    if keeps.any():
+        found = found[keeps]
     if task.function is not None:
         merit = np.abs(found.error(*task.compared())).max(axis=-1)
     else:
         merit = -found.least_transmission(low, high)
     order = np.argsort(merit, kind="stable")
-    return PhaseFamily(found[order[_apart(found[order])]], tried, len(found))
+    return PhaseFamily(found[order[_apart(found[order])]], tried, int(works.sum()))
+
+
+def _keeps(found: Generator, task: FunctionTask) -> NDArray[np.bool_]:
+    """Which generators (k,) keep what the task asks."""
+    keeps = np.ones(len(found), dtype=bool)
+    if task.least_transmission is not None:
+        keeps &= found.least_transmission(*task.input_ends) >= task.least_transmission
+    if task.link_ratio is not None:
+        keeps &= found.link_ratio <= task.link_ratio
+    if task.types is not None:
+        keeps &= np.isin(found.types, list(task.types))
+    return keeps
 
 
 def _of_grid(task: FunctionTask) -> Generator:

@@ -54,6 +54,14 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
             "found": synthesis.found,
             "real": synthesis.real,
         },
+        "trade_off": [
+            {
+                "id": each.id,
+                "min_transmission_angle_deg": _degrees(each.least_transmission),
+                "max_error_deg": _degrees(each.max_error),
+            }
+            for each in synthesis.trade_off
+        ],
         "linkages": [_linkage(each, task) for each in synthesis.generators],
         "warnings": list(map(message_data, synthesis.warnings)),
     }
@@ -94,6 +102,8 @@ def _task(task: FunctionTask) -> dict[str, Any]:
     data |= {key: _plain_degrees(each) for key, each in angles.items() if each is not None}
     if task.link_ratio is not None:
         data["link_ratio"] = task.link_ratio
+    if task.types is not None:
+        data["types"] = sorted(task.types)
     return data | {"minimax": task.minimax, "ground": task.ground}
 
 

@@ -31,15 +31,18 @@ def show_function(
     if usable:
         judged = synthesis.method == "judged"
         _best(usable[0], task, console, f"{usable[0].id} is" if judged else "")
-        shown = list(synthesis.generators if everything else usable[:MOST_ROWS])
     else:
         draw(message("result", outcome.code, outcome.message, width=console.width), console)
         for head, text in (("why", outcome.why), ("help", outcome.help)):
             if text:
                 draw(note(head, text, console.width), console)
-        shown = list(synthesis.generators if everything else synthesis.generators[:MOST_ROWS])
+    shown = list(synthesis.generators if everything else synthesis.leading(MOST_ROWS))
+    if usable and not everything:
+        shown = [each for each in shown if each.usable]
     if len(shown) > 1 or (shown and not usable):
         _table(shown, task, console)
+    if synthesis.price:
+        draw(wrapped(synthesis.price, console.width), console)
     if synthesis.method == "judged" and len(task.inputs) <= MOST_PAIRS:
         _pair_errors(shown[0], task, console)
     if usable:
@@ -124,12 +127,13 @@ def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) ->
     for each in shown:
         one = each.generator
         lengths = (one.input_link, one.coupler, one.output_link)
-        percent = figure(100 * each.max_error / task.output_span)
+        exact = each.max_error < EXACT
+        percent = "0" if exact else figure(100 * each.max_error / task.output_span)
         figures = [
             f"{_degrees(each.max_error)}°",
             percent,
             f"{_degrees(each.rms_error)}°",
-            f"{math.degrees(each.least_transmission):.0f}°"
+            f"{_whole(each.least_transmission)}°"
             if math.isfinite(each.least_transmission)
             else "-",
         ]
@@ -144,6 +148,10 @@ def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) ->
         if not each.usable:
             reasons = f"{each.id} {listed([d.message for d in each.defects])}"
             draw(wrapped(reasons, console.width, hang=4), console)
+
+
+def _whole(angle: float) -> str:
+    return f"{math.degrees(angle):.0f}"
 
 
 def _degrees(angle: float) -> str:

@@ -12,6 +12,7 @@ R360 function generators that work              R361 none that does
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias, final
 
@@ -20,12 +21,13 @@ import numpy as np
 from burmester.errors import Advice, InputError
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import exact_generators, generators_of_phases
-from burmester.functions.found_generator import FoundGenerator, found_generators
+from burmester.functions.found_generator import MET, FoundGenerator, found_generators, trade_off
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
+from burmester.functions.nearest_generators import nearest_generators
 from burmester.functions.phase_family import best_of_phases
 from burmester.functions.placed_links import placed_links
-from burmester.functions.refinement import at_bounds, different, least_squares, minimax
+from burmester.functions.refinement import at_bounds
 from burmester.geometry.regions import Point
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
@@ -35,7 +37,7 @@ from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
-from burmester.wording import count, listed
+from burmester.wording import count, figure, listed
 
 __all__ = [
     "FunctionSynthesis",
@@ -46,8 +48,8 @@ __all__ = [
 ]
 
 LEAST_PAIRS: Final = 3
+LEAST_TIMES, MOST_TIMES = 1.05, 1000.0  # the nearest one's error; prices outside are not told
 SAME_ANGLE: Final = 1e-9  # radians; outputs that turn with the input but for less do so exactly
-LEVELLED: Final = 5  # generators of least squares that minimax goes on from
 _HELP: Final = (
     "change the range of the input or of the output, turn the output the other way (--opposite for "
     "a function), or leave the phases open"
@@ -79,6 +81,31 @@ class FunctionSynthesis:
     def usable(self) -> tuple[FoundGenerator, ...]:
         """The linkages that work."""
         return tuple(each for each in self.generators if each.usable)
+
+    @property
+    def trade_off(self) -> tuple[FoundGenerator, ...]:
+        """Of those that work: the nearest one, and what each better transmission angle costs."""
+        return trade_off(self.usable)
+
+    @property
+    def price(self) -> str:
+        """What better transmission angles cost, in a sentence; empty where there is no choice."""
+        if len(self.trade_off) < 2:
+            return ""
+        nearest, *others = self.trade_off
+        miss = f"misses by {_degrees(nearest)}" if nearest.max_error > MET else "is exact"
+        parts = [f"{nearest.id} {miss} at {_transmission(nearest)}"]
+        for each in others:
+            times = each.max_error / max(nearest.max_error, MET)
+            price = f" ({figure(times)} times)" if LEAST_TIMES < times < MOST_TIMES else ""
+            parts.append(f"{each.id} by {_degrees(each)} at {_transmission(each)}{price}")
+        return f"What transmission costs: {'; '.join(parts)}."
+
+    def leading(self, most: int) -> list[FoundGenerator]:
+        """At most so many, by rank: those of the trade-off, and the first of the others."""
+        every = self.generators
+        wanted = list(dict.fromkeys([*every[:1], *self.trade_off, *every]))
+        return sorted(wanted[:most], key=lambda each: each.rank)
 
 
 def generate_function(task: FunctionTask) -> FunctionSynthesis:
@@ -121,7 +148,7 @@ def judge_generator(
 
     placed: what is said of its phases.
     """
-    found = found_generators(_stacked([generator]), task, exact=False)
+    found = found_generators(generator[None], task, exact=False)
     (one,) = found
     if one.usable:
         outcome = Outcome("R360", f"the function generator works{placed}")
@@ -222,22 +249,13 @@ def _nearly(task: FunctionTask) -> FunctionSynthesis:
     start = start[np.isfinite(start.sizes).all(axis=-1)]
     start = start.with_better_side(task.inputs, task.outputs, task.weights)
     step("refining the output angle")
-    refined, arrived = least_squares(start, task)
-    refined = refined[arrived]
-    refined = refined[different(refined)]
-    found = found_generators(refined, task, exact=False)
-    if task.minimax and found:
-        step("levelling the greatest errors")
-        chosen = found[:LEVELLED]
-        best = _stacked([each.generator for each in chosen])
-        best = minimax(best, task)
-        best = best[different(best)]
-        found = found_generators(best, task, exact=False)
-    if found and found[0].usable and bool(at_bounds(found[0].generator)):
+    found = found_generators(nearest_generators(start, task), task, exact=False)
+    nearest = next(iter(trade_off([each for each in found if each.usable])), None)
+    if nearest and bool(at_bounds(nearest.generator)):
         warnings.append(
             Advice(
                 "W233",
-                f"{found[0].id} would be closer still with a link beyond the bound",
+                f"{nearest.id} would be closer still with a link beyond the bound",
                 "take another range of the input or of the output",
                 "no link is longer than 10 ground links, or shorter than a tenth of one",
             )
@@ -267,12 +285,38 @@ def _outcome(found: tuple[FoundGenerator, ...], task: FunctionTask, head: str) -
     if not found:
         return Outcome("R361", head, _HELP, "no real linkage meets the pairs")
     reasons = [f"{each.id} {each.defects[0].message}" for each in found[:3]]
-    return Outcome("R361", f"{head}, none of them usable", _HELP, listed(reasons))
+    help = _loosened(found) or _HELP
+    return Outcome("R361", f"{head}, none of them usable", help, listed(reasons))
 
 
-def _stacked(each: list[Generator]) -> Generator:
-    names = Generator.__match_args__
-    return Generator(*(np.stack([getattr(one, name) for one in each]) for name in names))
+def _degrees(found: FoundGenerator) -> str:
+    """How far it misses; "exact" where that is rounding."""
+    return f"{figure(math.degrees(found.max_error))}°" if found.max_error > MET else "exact"
+
+
+def _transmission(found: FoundGenerator) -> str:
+    return f"{math.degrees(found.least_transmission):.0f}°"
+
+
+def _loosened(found: tuple[FoundGenerator, ...]) -> str:
+    """Which one requirement to ask less of, as little as may be, and what comes of it; or empty."""
+    ways = []
+    for code in ("transmission", "link-ratio", "type"):
+        some = [e for e in found if [each.code for each in e.defects] == [code]]
+        if not some:
+            continue
+        if code == "transmission":
+            best = max(some, key=lambda each: each.least_transmission)
+            least = math.floor(10 * math.degrees(best.least_transmission)) / 10
+            way = f"--min-transmission {least:g}"
+        elif code == "link-ratio":
+            best = min(some, key=lambda each: float(each.generator.link_ratio))
+            way = f"--link-ratio {math.ceil(10 * float(best.generator.link_ratio)) / 10:g}"
+        else:
+            best = some[0]
+            way = f"--type {best.type}"
+        ways.append(f"{way} ({best.id}, {_degrees(best)})")
+    return f"ask for less: {listed(ways, 'or')}" if ways else ""
 
 
 def coupler_synthesis(

@@ -34,9 +34,9 @@ EXACT: Final = 1e-9  # radians; an error below is rounding
 def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     """The whole report as an object ready for JSON."""
     task = synthesis.task
-    shown = synthesis.generators[:MOST]
+    shown = synthesis.leading(MOST)
     rest = len(synthesis.generators) - len(shown)
-    more = f" The best {len(shown)} of {len(synthesis.generators)} are shown." if rest else ""
+    more = f" {len(shown)} of {len(synthesis.generators)} are shown." if rest else ""
     return {
         "schema": SCHEMA,
         "outcome": message_data(synthesis.outcome),
@@ -59,7 +59,8 @@ def _best(synthesis: FunctionSynthesis) -> list[str]:
     if not synthesis.usable:
         return wanted
     found = synthesis.usable[0]
-    return [f"{found.id}, {with_article(found.type)}, {_miss(found, task)}.", *wanted]
+    price = [synthesis.price] if synthesis.price else []
+    return [f"{found.id}, {with_article(found.type)}, {_miss(found, task)}.", *price, *wanted]
 
 
 def _asked(task: FunctionTask) -> str:

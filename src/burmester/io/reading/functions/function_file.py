@@ -36,6 +36,7 @@ __all__ = ["read_function", "settings_of_tree", "task_of_tree"]
 
 SETTINGS: Final = (
     "minimax", "input_phase_deg", "output_phase_deg", "ground", "transmission_deg", "link_ratio",
+    "types",
 )  # fmt: skip
 KEYS: Final = (
     "expression", "x", "input_deg", "output_deg", "opposite", "pairs", "spacing", *SETTINGS,
@@ -121,6 +122,7 @@ def settings_of_tree(tree: Any, *, known: Sequence[str] = SETTINGS) -> FunctionS
         _flag(tree, "minimax"),
         _number(tree, "transmission_deg"),
         _number(tree, "link_ratio"),
+        _names(tree, "types"),
     )
 
 
@@ -200,6 +202,16 @@ def _number(tree: Mapping[str, Any], key: str) -> float | None:
     if not _is_number(value):
         raise _wrong(key, value, "a number")
     return float(value)
+
+
+def _names(tree: Mapping[str, Any], key: str) -> frozenset[str] | None:
+    value = tree.get(key)
+    if value is None:
+        return None
+    names = [value] if isinstance(value, str) else value
+    if not (isinstance(names, list) and names and all(isinstance(each, str) for each in names)):
+        raise _wrong(key, value, 'a list of types, such as ["double-rocker"]')
+    return frozenset(names)
 
 
 def _flag(tree: Mapping[str, Any], key: str) -> bool:

@@ -12,6 +12,7 @@ from typing import Final, Literal, NamedTuple, TypeAlias
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.functions.function_task import (
     FUNCTION_SAMPLES,
     FunctionTask,
@@ -22,6 +23,8 @@ from burmester.functions.function_task import (
 from burmester.io.reading.functions.expression import read_expression
 from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.requirements import TYPES, Requirements
+from burmester.wording import listed
 
 __all__ = ["FunctionSettings", "Spacing", "task_of_function", "task_of_pairs"]
 
@@ -42,6 +45,7 @@ class FunctionSettings(NamedTuple):
     minimax: bool = False
     least_transmission: float | None = None
     link_ratio: float | None = None
+    types: frozenset[str] | None = None
 
 
 def task_of_function(
@@ -56,7 +60,9 @@ def task_of_function(
     settings: FunctionSettings = FunctionSettings(),  # noqa: B008  frozen
     source: Source | None = None,
 ) -> FunctionTask:
-    """The task of a function over a range of x, by angles in degrees; raises E190, E191 and E194.
+    """The task of a function over a range of x, by angles in degrees.
+
+    Raises E134 (a type that is not known), E190, E191 and E194.
 
     source: where the expression stands, for carets.
     """
@@ -124,7 +130,7 @@ def task_of_pairs(
     settings: FunctionSettings = FunctionSettings(),  # noqa: B008  frozen
     where: Callable[[int], str] | None = None,
 ) -> FunctionTask:
-    """The task of pairs of angles in degrees; raises E191 and E194.
+    """The task of pairs of angles in degrees; raises E134, E191 and E194.
 
     where: the location of a pair, by its number from 0.
     """
@@ -190,7 +196,23 @@ def _task(
         settings.minimax,
         _radians(settings.least_transmission),
         settings.link_ratio,
+        _types(settings.types),
     )
+
+
+def _types(names: frozenset[str] | None) -> frozenset[str] | None:
+    """The types with four pins that are meant; raises E134 and E194."""
+    if names is None:
+        return None
+    allowed = Requirements(types=names).allowed_types or frozenset()
+    of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
+    if not allowed.intersection(of_generators):
+        raise InputError(
+            "E194",
+            f"no function generator that is made is a {listed(sorted(allowed), 'or')}",
+            help=f"give one or more of {listed(of_generators)}",
+        )
+    return allowed.intersection(of_generators)
 
 
 def _radians(degrees: float | None) -> float | None:

@@ -1,0 +1,98 @@
+"""The generators nearest to more pairs than a linkage can meet, and what better transmission costs.
+
+A descent leads from every optimum of Freudenstein's residual, and from further starts, to the least
+error of linkages that keep what is asked.  The same is done without what is asked, and once for
+each of some greater transmission angles, with links that are sound: so the nearest linkage stands
+beside those that transmit better.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from burmester.functions.found_generator import MOST_LINK_RATIO
+from burmester.functions.function_task import FunctionTask
+from burmester.functions.further_starts import FurtherStarts
+from burmester.functions.generator import Generator
+from burmester.functions.kept import Kept
+from burmester.functions.refinement import different, refined
+
+__all__ = ["nearest_generators"]
+
+BETTER: Final = tuple(math.radians(each) for each in (20, 30, 40, 50, 60))  # transmission angles
+FURTHER_STARTS: Final = 16  # at each level
+LEVELLED: Final = 8  # optima of least squares at each level that minimax goes on from
+MOST_OPTIMA: Final = 24  # generators that are kept
+MOST_UNASKED: Final = 3  # of those that need not keep what is asked
+MOST_BETTER: Final = 2  # of each greater transmission angle
+
+
+class _Level(NamedTuple):
+    """What the linkages of one search have to keep; most: how many of them are of interest."""
+
+    transmission: float
+    ratio: float
+    types: frozenset[str] | None
+    most: int
+
+
+def nearest_generators(optima: Generator, task: FunctionTask) -> Generator:
+    """Generators (k,) of the least error, as the task counts it, that lie downhill.
+
+    Where none keeps all that is asked, some are among them that keep all but one thing.
+    optima: (m,), the starts that its pairs give.
+    """
+    further = FurtherStarts.of(task)
+    ratio = math.inf if task.link_ratio is None else task.link_ratio
+    asked = _Level(task.least_transmission or 0.0, ratio, task.types, MOST_OPTIMA)
+    plain = _Level(0.0, math.inf, None, MOST_UNASKED if task.asks else MOST_OPTIMA)
+    sound = asked._replace(ratio=min(ratio, MOST_LINK_RATIO), most=MOST_BETTER)
+    better = [sound._replace(transmission=t) for t in BETTER if t > asked.transmission]
+    found = _searched(list(dict.fromkeys([plain, asked, *better])), optima, further, task)
+    if task.asks and not len(found[asked]):
+        looser = [
+            *(asked._replace(transmission=t) for t in (0.0, *BETTER) if t < asked.transmission),
+            asked._replace(ratio=math.inf),
+            asked._replace(types=None),
+        ]
+        looser = [each._replace(most=1) for each in looser if each not in (asked, plain)]
+        found |= _searched(looser, optima, further, task)
+    return Generator.joined(list(found.values()))
+
+
+def _searched(
+    levels: list[_Level], optima: Generator, further: FurtherStarts, task: FunctionTask
+) -> dict[_Level, Generator]:
+    """The best generators of each level, all levels with the same types in one descent."""
+    found: dict[_Level, Generator] = {}
+    for types in dict.fromkeys(each.types for each in levels):
+        some = [each for each in levels if each.types == types]
+        starts = [[optima, further.near(*each[:3], FURTHER_STARTS)] for each in some]
+        every = [Generator.joined(each) for each in starts]
+        for minimax in (False, True) if task.minimax else (False,):
+            every = _descended(every, some, task, minimax=minimax)
+        found |= dict(zip(some, every, strict=True))
+    return found
+
+
+def _descended(
+    starts: list[Generator], levels: list[_Level], task: FunctionTask, *, minimax: bool
+) -> list[Generator]:
+    """The best generators of each level downhill of its starts, none twice."""
+    which = np.repeat(np.arange(len(levels)), [len(each) for each in starts])
+    kept = Kept(
+        np.array([each.transmission for each in levels])[which],
+        np.array([each.ratio for each in levels])[which],
+        levels[0].types,
+    )
+    ends, error, arrived = refined(Generator.joined(starts), task, kept, minimax=minimax)
+    best = []
+    for number, level in enumerate(levels):
+        at = np.flatnonzero(arrived & (which == number))
+        some = ends[at[np.argsort(error[at], kind="stable")]]
+        some = some[different(some)]
+        best.append(some[: level.most if minimax or not task.minimax else LEVELLED])
+    return best
