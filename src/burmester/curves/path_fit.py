@@ -142,36 +142,38 @@ class PathSearch:
         return self._in_unit(self._at_all(self._sorted()))
 
     def transmitting_well(
-        self, levels_deg: Sequence[float], *, ratio: float = math.inf, most: int = 3
+        self, levels_deg: Sequence[float], *, ratios: Sequence[float] = (math.inf,), most: int = 3
     ) -> CurveFit:
         """Linkages near the points that have least transmission angles, as near as each can be.
 
-        For each level the curves of the atlas like the path whose linkages nearly have it, and the
-        linkages of the level before, are refined.  The angle is that between coupler and follower,
-        over the whole turn of a closed path's crank, else at the points.
+        For each ratio and level the curves of the atlas like the path whose linkages nearly have
+        them, and the linkages of the level before, are refined.  The angle is that between coupler
+        and follower, over the whole turn of a closed path's crank, else at the points.
 
-        levels_deg: rising, in degrees; ratio: the longest link over the shortest, at most.
+        levels_deg: rising, in degrees; ratios: the longest link over the shortest, at most.
         most: the number of linkages of each level at most.
         """
         part, start = self.part, self._sorted()
         least = np.degrees(start.linkages.least_transmission(None if part.turns else start.t))
         links = np.stack(start.linkages.lengths(), axis=-1)
-        sane = links.max(axis=-1) <= ratio * links.min(axis=-1)
-        kept: list[CurveFit] = []
-        for number, level in enumerate(levels_deg, start=1):
-            if not goes_on(number, len(levels_deg), "transmission angle", has_steps=True):
+        spread = links.max(axis=-1) / links.min(axis=-1)
+        every = [(ratio, level) for ratio in ratios for level in levels_deg]
+        kept: dict[float, list[CurveFit]] = {ratio: [] for ratio in ratios}
+        for number, (ratio, level) in enumerate(every, start=1):
+            if not goes_on(number, len(every), "transmission angle", has_steps=True):
                 break
-            near = start.cost + np.where(sane & (least > level - LOWER), 0.0, np.inf)
+            good = (spread <= ratio) & (least > level - LOWER)
+            near = start.cost + np.where(good, 0.0, np.inf)
             order = np.argsort(near, kind="stable")
             order = order[np.isfinite(near[order])][:STARTS_OF_LEVEL]
-            fit = concatenate([take(start, order), *kept])
+            fit = concatenate([take(start, order), *kept[ratio]])
             built = math.radians(level + MARGIN)
             target = part._replace(transmission=built, ratio=ratio * (1 - RATIO_MARGIN))
             for steps, number_kept in ROUNDS_OF_LEVEL:
                 fit = _best(descend(fit, target, steps, settled=NEARLY_SETTLED), number_kept)
             if len(fit.cost):
-                kept.append(_different(fit, part, most))
-        fits = self._at_all(concatenate(kept) if kept else take(start, slice(0, 0)))
+                kept[ratio].append(_different(fit, part, most))
+        fits = self._at_all(concatenate(sum(kept.values(), [take(start, slice(0, 0))])))
         return self._in_unit(descend(fits, self.whole, 0))  # to the feet
 
     def _starts(self) -> int:

@@ -184,6 +184,8 @@ class Evaluation:
         sensitivity = self.sensitivities(own, places)
         verdicts = self.verdicts(own, places, errors, sensitivity)
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
+        if self.target.path is not None:
+            combined = np.array([each.worst for each in errors])
         standard = Standard.of(self.task)
         distance = np.abs(own.distances(self.task.poses))
         rms, worst = np.sqrt((distance**2).mean(axis=-1)).tolist(), distance.max(axis=-1).tolist()
