@@ -30,11 +30,12 @@ from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
-from burmester.verdicts.explanation import in_short
+from burmester.verdicts.explanation import above, hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 from burmester.verdicts.price_list import MET, price_list
-from burmester.verdicts.ranking import ERROR_RATIO, closest_usable, ranked
+from burmester.verdicts.ranking import ERROR_RATIO, closest_usable, only_too_far, ranked
 from burmester.verdicts.standard import Standard
 from burmester.wording import count
 
@@ -75,7 +76,7 @@ def near_points(
         judged = evaluation.rounded(judged)
     judged = evaluation.with_spreads(judged)
     linkages = tuple(_with_rank(each, rank) for rank, each in enumerate(judged, start=1))
-    outcome = _outcome(given, linkages, path, problem.length)
+    outcome = _outcome(given, linkages, path, problem)
     warnings = (*findings, *note, *linkage_advice(given, linkages, outcome.code))
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
     return Synthesis(problem, outcome, dyads, linkages, warnings)
@@ -131,24 +132,38 @@ def _judged(
         given = replace(task, tolerances=_of_points(stated))
         judged = _evaluated(given, found, options)
         return given, _front(_different(judged, SAME * size), given), []
-    away, asked = found.greatest_misses(task.poses.translation), task.requirements
-    near = away <= max(ERROR_RATIO * away.min(), SOUND_SHARE * size)
-    near &= found.keep(Standard.of(task).requirements(asked), turns=path.closed)
-    best = None
-    for demanding, some in ((True, near), (False, found.keep(asked, turns=path.closed))):
+    given, judged, base = _by_nearest(task, found, path, options)
+    told = _front(_different(judged, SAME * size), given)
+    return given, told, [_assumed(given, told, base)]
+
+
+def _by_nearest(
+    task: Task, found: PathLinkages, path: TracedPath, options: SynthesisOptions
+) -> tuple[Task, list[FoundLinkage], FoundLinkage | None]:
+    """The task with a tolerance by a linkage, all linkages judged by it, and that linkage.
+
+    None where no linkage works; the tolerance is then that of the nearest sound one but for what is
+    asked, so that the answer can say what would do.
+    """
+    asked, nothing = task.requirements, Requirements()
+    usual = Standard.of(replace(task, requirements=nothing)).requirements(nothing)
+    wanted, away = (
+        Standard.of(task).requirements(asked),
+        found.greatest_misses(task.poses.translation),
+    )
+    near = away <= max(ERROR_RATIO * float(away.min()), SOUND_SHARE * span(task))
+    kept = [found.keep(each, turns=path.closed) for each in (wanted, asked, usual)]
+    for demanding, some in ((True, kept[0] & near), (False, kept[1])):
         for miss in _growing(away[some]):
             given, judged = _within(miss, task, found, options)
-            best = _nearest(judged, demanding=demanding)
-            if best is not None and best.error.worst > (1 + SAME) * miss:
-                given, judged = _within(best.error.worst, task, found, options)
-            if best is not None:
-                break
-        if best is not None:
-            break
-    else:
-        given, judged = _within(float(away.min()), task, found, options)
-    told = _front(_different(judged, SAME * size), given)
-    return given, told, [_assumed(given, told, best)]
+            base = closest_usable(e for e in judged if not (demanding and e.shortcomings))
+            if base is None:
+                continue
+            if base.error.worst > (1 + SAME) * miss:
+                given, judged = _within(base.error.worst, task, found, options)
+            return given, judged, base
+    some = kept[2] & near
+    return *_within(float(away[some if some.any() else ...].min()), task, found, options), None
 
 
 def _growing(misses: FloatArray) -> list[float]:
@@ -158,11 +173,6 @@ def _growing(misses: FloatArray) -> list[float]:
         if not out or each > GROWTH * out[-1]:
             out.append(each)
     return out[:MOST_TRIED]
-
-
-def _nearest(found: Sequence[FoundLinkage], *, demanding: bool) -> FoundLinkage | None:
-    """The nearest linkage that works, and is sound where that is demanded."""
-    return closest_usable(each for each in found if not (demanding and each.shortcomings))
 
 
 def _within(
@@ -206,14 +216,12 @@ def _assumed(given: Task, judged: Sequence[FoundLinkage], base: FoundLinkage | N
     assumed = float(given.tolerances.position.max())
     nearest = closest_usable(judged) or min(judged, key=lambda each: each.error.worst)
     why = f"the nearest linkage misses them by {length_of(nearest.error.worst, given)} at most"
-    least = nearest.error.worst
-    if base is not None and base.error.worst > (1 + SAME) * least:
-        least = base.error.worst
+    least = nearest.error.worst if base is None else base.error.worst
+    if least > (1 + SAME) * nearest.error.worst:
         why += f", and is not sound; the nearest sound one by {length_of(least, given)}"
-    if assumed > (1 + SAME) * ASSUMED_RATIO * least:
-        floor = f"{length_of(LEAST_ASSUMED * span(given), given)}, a ten-thousandth of their span"
-        why += f", and less than {floor}, is not assumed"
-    else:
+    if ASSUMED_RATIO * least < LEAST_ASSUMED * span(given):
+        why += f"; at least {length_of(assumed, given)}, a ten-thousandth of their span, is assumed"
+    elif base is not None:
         why += f", and within {ASSUMED_RATIO:g} times that the one that transmits best is chosen"
     return Advice(
         "W226",
@@ -271,12 +279,18 @@ def _members(
 def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     """The usable linkages that no other one beats in distance, transmission and extent at once.
 
-    In their order, MOST_TOLD of them at most, those of the price list among these; where none is
-    usable, all of them.
+    In their order, MOST_TOLD of them at most, those of the price list among these.
+    Where none is usable, the nearest, and those that lack least.
     """
     usable = [each for each in found if each.usable and each.quality is not None]
     if not usable:
-        return list(found)[:MOST_TOLD]
+        nearest = list(found)[: MOST_TOLD // 2]  # and those that lack least
+        far = _nearest_too_far(found)
+        others = sorted(
+            found[len(nearest) :],
+            key=lambda each: (each is not far, bool(each.defects), len(each.violations)),
+        )
+        return [*nearest, *others[: MOST_TOLD - len(nearest)]]
     figures = np.array(
         [
             (each.combined_error, -each.driven.least_over_range, each.quality.extent)
@@ -322,7 +336,7 @@ def _different(found: Sequence[FoundLinkage], least: float) -> list[FoundLinkage
 
 
 def _outcome(
-    task: Task, linkages: Sequence[FoundLinkage], path: TracedPath, size: float
+    task: Task, linkages: Sequence[FoundLinkage], path: TracedPath, problem: SynthesisProblem
 ) -> Outcome:
     points, usable = count(task.poses.shape[0], "point"), [e for e in linkages if e.usable]
     timed = " at their crank angles" if path.crank_angles is not None else ""
@@ -332,9 +346,8 @@ def _outcome(
             "R351",
             f"no usable linkage: {count(len(linkages), 'four-bar')} near {points}{timed}, none of "
             "which works",
-            "give the limits more room, ask for less, or state a wider --pose-tolerance; of noisy "
-            "points that lie closer than their noise, take fewer with --every, or --any-order",
-            f"the nearest, {nearest.id}, {in_short(nearest, task, size)}",
+            _what_would_do(linkages, problem),
+            f"the nearest, {nearest.id}, {in_short(nearest, task, problem.length)}",
         )
     nearest = price_list(usable, task)[0].found
     if nearest.error.worst <= MET * span(task):
@@ -348,6 +361,25 @@ def _outcome(
             "at most"
         )
     return Outcome("R350", f"{count(len(usable), 'usable four-bar')} {how}")
+
+
+def _what_would_do(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
+    """What to change where no linkage of a path works."""
+    texts = [text] if "--" in (text := hints(linkages, problem)) else []
+    if (far := _nearest_too_far(linkages)) is not None:
+        room = above(far.error.worst)
+        within = problem.given.requirements.within is not None
+        option = f"--within {room}" if within else f"--pose-tolerance {room},{room},free"
+        texts.append(f"with {option} {far.id} would do")
+    return "; or ".join(texts) or (
+        "give the limits more room, ask for less, or state a wider --pose-tolerance; of noisy "
+        "points that lie closer than their noise, take fewer with --every, or --any-order"
+    )
+
+
+def _nearest_too_far(linkages: Sequence[FoundLinkage]) -> FoundLinkage | None:
+    """The nearest linkage that would work if the points might be missed by more."""
+    return min(filter(only_too_far, linkages), key=lambda each: each.combined_error, default=None)
 
 
 def _none(task: Task, options: SynthesisOptions, findings: Sequence[Advice]) -> Synthesis:
