@@ -21,7 +21,7 @@ MET = 1e-7  # spans of the path; points that are missed by less are met
 ANGLES_DEG = (0.0, 20.0, 30.0, 40.0, 60.0)  # least transmission angles; more runs no better
 RATIOS = (math.inf, 10.0, 5.0)  # of the longest link to the shortest
 SAME_MISS = 1e-4  # relative; misses that differ by less are the same
-ALIKE_MISS, ALIKE_ANGLE_DEG, ALIKE_RATIO = 0.05, 0.5, 0.01  # relative; degrees; relative
+ALIKE_MISS = 0.1  # relative; a linkage farther by less is hardly farther
 
 
 class Price(NamedTuple):
@@ -56,7 +56,7 @@ def price_list(linkages: Sequence[FoundLinkage], task: Task) -> list[Price]:
             if nearest is not None and nearest not in kept:
                 kept.append(nearest)
     kept[1:] = sorted(kept[1:], key=lambda price: price.miss)
-    kept = [e for e in kept if not any(_replaces(other, e, met) for other in kept)]
+    kept = kept[:1] + [e for e in kept[1:] if not any(_replaces(one, e) for one in kept)]
     free = not kept or kept[0].miss <= met
     return [e._replace(times=None if free else e.miss / kept[0].miss) for e in kept]
 
@@ -72,14 +72,14 @@ def _keeps(price: Price, angle: float, ratio: float) -> bool:
     return price.transmission_deg >= angle and price.link_ratio <= ratio
 
 
-def _replaces(other: Price, one: Price, least: float) -> bool:
-    """Whether another linkage is as good as one, hardly farther, and better in something."""
-    enough = ANGLES_DEG[-1]
-    better = (
-        min(other.transmission_deg, enough) - min(one.transmission_deg, enough),
-        math.log(one.link_ratio / other.link_ratio) if math.isfinite(one.link_ratio) else 0.0,
-    )
-    near = other.miss <= max((1 + ALIKE_MISS) * one.miss, least)
-    as_good = better[0] >= -ALIKE_ANGLE_DEG and better[1] >= -ALIKE_RATIO
-    gains = better[0] > ALIKE_ANGLE_DEG or better[1] > ALIKE_RATIO
-    return other is not one and near and as_good and gains
+def _marks(price: Price) -> tuple[int, int]:
+    """How many of the transmission angles, and of the link ratios, a linkage keeps."""
+    angles = sum(price.transmission_deg >= each for each in ANGLES_DEG)
+    return angles, sum(price.link_ratio <= each for each in RATIOS)
+
+
+def _replaces(one: Price, other: Price) -> bool:
+    """Whether one linkage keeps more than another and is hardly farther."""
+    mine, its = _marks(one), _marks(other)
+    as_good = mine[0] >= its[0] and mine[1] >= its[1]
+    return mine != its and as_good and one.miss <= (1 + ALIKE_MISS) * other.miss
