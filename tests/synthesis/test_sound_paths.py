@@ -76,7 +76,8 @@ def test_a_half_disc_has_a_sound_linkage_with_its_price(half_disc):
         miss, angle, ratio = told[each["linkage"]]
         # Where another stretch of the curve is nearer, what counts is the stretch in order.
         assert 0.9 * each["miss"] < miss < each["miss"] + 1e-6
-        assert each["transmission_deg"] == pytest.approx(angle, abs=0.5)
+        # The crank goes on from the last point to the first.
+        assert each["transmission_deg"] == pytest.approx(angle, abs=1e-3)
         assert each["link_ratio"] == pytest.approx(ratio)
         assert each["times"] == pytest.approx(each["miss"] / prices[0]["miss"])
     # No other usable linkage keeps as much and comes much nearer.
