@@ -209,7 +209,7 @@ def _laid(z, curve, wanted):
     """Linkages turned, stretched and shifted so that their curves (k, n) lie over points (n,)."""
     here, there = curve.mean(axis=1), wanted.mean()
     one, two = curve - here[:, None], wanted - there
-    factor = (one.conj() @ two) / (np.abs(one) ** 2).sum(axis=1)
+    factor = (one.conj() @ two) / np.maximum((np.abs(one) ** 2).sum(axis=1), 1e-300)
     left = np.sqrt((np.abs(factor[:, None] * one - two) ** 2).mean(axis=1))
     out, size = z.copy(), np.abs(factor)
     out[:, 3:] *= size[:, None]

@@ -35,7 +35,13 @@ from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.explanation import above, hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 from burmester.verdicts.price_list import MET, price_list
-from burmester.verdicts.ranking import ERROR_RATIO, closest_usable, only_too_far, ranked
+from burmester.verdicts.ranking import (
+    DEFAULT_TOLERANCE,
+    ERROR_RATIO,
+    closest_usable,
+    only_too_far,
+    ranked,
+)
 from burmester.verdicts.standard import Standard
 from burmester.wording import count
 
@@ -43,7 +49,7 @@ __all__ = ["near_points", "with_tolerance"]
 
 ASSUMED_RATIO = 2.0  # of the assumed tolerance to the greatest distance of the nearest linkage
 # A sound linkage sets it if it misses by no more than that share of the path's span, or by no more
-# than ERROR_RATIO times as much as the nearest one.
+# than ERROR_RATIO times as much as the nearest one; never by more than DEFAULT_TOLERANCE.
 SOUND_SHARE = 0.03
 GROWTH, MOST_TRIED = 1.5, 4  # from tolerance to tolerance under which linkages are judged; of them
 LEAST_ASSUMED = 1e-4  # spans of the path; a smaller tolerance is not assumed
@@ -151,7 +157,8 @@ def _by_nearest(
         Standard.of(task).requirements(asked),
         found.greatest_misses(task.poses.translation),
     )
-    near = away <= max(ERROR_RATIO * float(away.min()), SOUND_SHARE * span(task))
+    most = max(ERROR_RATIO * float(away.min()), SOUND_SHARE * span(task))
+    near = away <= min(most, DEFAULT_TOLERANCE * span(task))
     kept = [found.keep(each, turns=path.closed) for each in (wanted, asked, usual)]
     for demanding, some in ((True, kept[0] & near), (False, kept[1])):
         for miss in _growing(away[some]):
