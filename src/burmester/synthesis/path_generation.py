@@ -43,7 +43,7 @@ from burmester.verdicts.ranking import (
     ranked,
 )
 from burmester.verdicts.standard import Standard
-from burmester.wording import count
+from burmester.wording import count, figure
 
 __all__ = ["near_points", "with_tolerance"]
 
@@ -166,7 +166,7 @@ def _by_nearest(
             base = closest_usable(e for e in judged if not (demanding and e.shortcomings))
             if base is None:
                 continue
-            if base.error.worst > (1 + SAME) * miss:
+            if base.error.worst > GROWTH * miss:  # another one, or far from where it was found
                 given, judged = _within(base.error.worst, task, found, options)
             return given, judged, base
     some = kept[2] & near
@@ -224,12 +224,13 @@ def _assumed(given: Task, judged: Sequence[FoundLinkage], base: FoundLinkage | N
     nearest = closest_usable(judged) or min(judged, key=lambda each: each.error.worst)
     why = f"the nearest linkage misses them by {length_of(nearest.error.worst, given)} at most"
     least = nearest.error.worst if base is None else base.error.worst
-    if least > (1 + SAME) * nearest.error.worst:
-        why += f", and is not sound; the nearest sound one by {length_of(least, given)}"
+    if (farther := length_of(least, given)) != length_of(nearest.error.worst, given):
+        why += f", and is not sound; the nearest sound one by {farther}"
     if ASSUMED_RATIO * least < LEAST_ASSUMED * span(given):
         why += f"; at least {length_of(assumed, given)}, a ten-thousandth of their span, is assumed"
     elif base is not None:
-        why += f", and within {ASSUMED_RATIO:g} times that the one that transmits best is chosen"
+        times = figure(assumed / least)
+        why += f", and within {times} times that the one that transmits best is chosen"
     return Advice(
         "W226",
         f"a tolerance of {length_of(assumed, given)} was assumed for x and y of every point",
