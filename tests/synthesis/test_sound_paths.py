@@ -1,6 +1,7 @@
 """Paths whose nearest linkages nobody would build: sound ones are listed, each with its price."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
-from tests.oracles.coupler_curves import distances
+from tests.oracles.coupler_curves import distances, dyads_of, random_crank, traced
 from tests.oracles.witness import places
 
 
@@ -142,6 +143,20 @@ def test_what_sets_the_tolerance_is_said_where_the_points_are_met():
     (said,) = [each for each in synthesize(line).warnings if each.code == "W226"]
     assert said.message.startswith("a tolerance of 0.0013 was assumed")
     assert "at least 0.0013, a ten-thousandth of their span, is assumed" in said.why
+
+
+def test_a_timed_path_has_a_sound_linkage_with_its_price():
+    rng, turns = np.random.default_rng(2), np.linspace(0, 2 * np.pi, 20, endpoint=False)
+    z, side = random_crank(rng)
+    p = traced(dyads_of(z), side, turns)
+    p += 0.05 * np.sqrt(np.var(p)) * (rng.normal(size=20) + 1j * rng.normal(size=20))
+    points = np.column_stack([p.real, p.imag])
+    timed = task(points)
+    found = synthesize(replace(timed, path=TracedPath(True, turns)))
+    figures = [witnessed(each) for each in found.usable]
+    assert min(figures)[0] < 10  # the nearest
+    assert any(angle >= 30 and ratio <= 10 for angle, ratio in figures)
+    assert figures[0][0] > 60
 
 
 def test_a_drawn_shape_has_a_sound_linkage():

@@ -40,9 +40,11 @@ NEARLY_SETTLED = 1e-6  # relative gain of the cost below which a step before tha
 SAME_CURVE = 2e-3  # radii of gyration; curves that are nearer at all feet are one curve
 SAME_SHARE = 0.3  # of the root mean square distance; the same while curves are still refined
 # For each least transmission angle: starts, rounds as above, degrees by which a start may transmit
-# worse, and margins, degrees and relative, by which the angle and the ratio are kept.
+# worse, and margins, degrees and relative, by which the angle and the ratio are kept.  Of an open
+# path the angle is asked for at the points and falls a little between them; of a timed one the
+# points outweigh it.
 STARTS_OF_LEVEL, ROUNDS_OF_LEVEL = 160, ((8, 60), (20, 20), (60, 12))
-LOWER, MARGIN, RATIO_MARGIN = 15.0, 0.2, 0.01
+LOWER, MARGIN, WIDE_MARGIN, RATIO_MARGIN = 15.0, 0.2, 1.0, 0.01
 KEPT = 12  # different curves that are given back
 
 
@@ -157,6 +159,7 @@ class PathSearch:
         least = np.degrees(start.linkages.least_transmission(None if part.turns else start.t))
         links = np.stack(start.linkages.lengths(), axis=-1)
         spread = links.max(axis=-1) / links.min(axis=-1)
+        margin = MARGIN if part.turns and part.timing is None else WIDE_MARGIN
         every = [(ratio, level) for ratio in ratios for level in levels_deg]
         kept: dict[float, list[CurveFit]] = {ratio: [] for ratio in ratios}
         for number, (ratio, level) in enumerate(every, start=1):
@@ -167,7 +170,7 @@ class PathSearch:
             order = np.argsort(near, kind="stable")
             order = order[np.isfinite(near[order])][:STARTS_OF_LEVEL]
             fit = concatenate([take(start, order), *kept[ratio]])
-            built = math.radians(level + MARGIN)
+            built = math.radians(level + margin)
             target = part._replace(transmission=built, ratio=ratio * (1 - RATIO_MARGIN))
             for steps, number_kept in ROUNDS_OF_LEVEL:
                 fit = _best(descend(fit, target, steps, settled=NEARLY_SETTLED), number_kept)
@@ -191,9 +194,10 @@ class PathSearch:
 
     def _sorted(self) -> CurveFit:
         """The curves of the atlas after a few steps, the nearest first."""
-        return _best(
-            descend(take(self.alike, slice(0, MOST_ALIKE)), self.part, FEW_STEPS), MOST_ALIKE
-        )
+        fit, part = take(self.alike, slice(0, MOST_ALIKE)), self.part
+        if part.timing is not None:
+            fit = _timed(descend(fit, part._replace(timing=None), FEW_STEPS), part)
+        return _best(descend(fit, part, FEW_STEPS), MOST_ALIKE)
 
     def _at_all(self, fit: CurveFit) -> CurveFit:
         """Fits at the part of the points, with crank angles (k, N) at all of them."""

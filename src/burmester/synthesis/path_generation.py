@@ -287,7 +287,8 @@ def _members(
 def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     """The usable linkages that no other one beats in distance, transmission and extent at once.
 
-    In their order, MOST_TOLD of them at most, those of the price list among these.
+    In their order, MOST_TOLD of them at most, those of the price list among these, and
+    the one with the least root mean square.
     Where none is usable, the nearest, and those that lack least.
     """
     usable = [each for each in found if each.usable and each.quality is not None]
@@ -311,6 +312,8 @@ def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
         figures[:, None] > figures[None] + slack
     ).any(axis=-1)
     priced = [each.found for each in price_list(usable, task)]
+    if (squares := min(usable, key=lambda each: each.error.rms)) not in priced:
+        priced.append(squares)
     best = [e for k, e in enumerate(usable) if e not in priced and not beaten[k].any()]
     told = [*priced, *best[: max(MOST_TOLD - len(priced), 0)]]
     return [each for each in usable if each in told]

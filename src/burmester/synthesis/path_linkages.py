@@ -98,7 +98,8 @@ def linkages_near(task: Task, path: TracedPath, options: SynthesisOptions) -> Pa
         starts = nine_point_starts(points)
     found = _nearest(task, search, starts)
     if timed:
-        return found
+        more = _transmitting(task, search) if time_for("looking for better transmission") else found
+        return _joined([found, more])
     alike, wide = found, _without_tolerance(task, options)
     if task.limits:
         alike = _with_cognates(_of_fit(search.like_path()))
