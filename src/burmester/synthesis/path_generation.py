@@ -231,12 +231,13 @@ def _assumed(given: Task, judged: Sequence[FoundLinkage], base: FoundLinkage | N
     elif base is not None:
         times = figure(assumed / least)
         why += f", and within {times} times that the one that transmits best is chosen"
-    return Advice(
-        "W226",
-        f"a tolerance of {length_of(assumed, given)} was assumed for x and y of every point",
-        f"say how far the points may be missed: --pose-tolerance {assumed:g},{assumed:g},free",
-        why,
-    )
+    help = "say how far the points may be missed"
+    if base is None:
+        help += ", once a linkage keeps what is asked"
+    else:
+        help += f": --pose-tolerance {assumed:g},{assumed:g},free"
+    what = f"a tolerance of {length_of(assumed, given)} was assumed for x and y of every point"
+    return Advice("W226", what, help, why)
 
 
 def _evaluated(task: Task, found: PathLinkages, options: SynthesisOptions) -> list[FoundLinkage]:
