@@ -1,7 +1,7 @@
 """The price list of a path: how much farther a linkage misses that moves or is built better.
 
-The nearest linkage comes first.  Then, for least transmission angles and for link ratios, the
-nearest linkage that keeps them.  How near is the greatest distance of a point from the curve
+The nearest linkage comes first.  Then, for least transmission angles, alone and with link ratios,
+the nearest linkage that keeps them.  How near is the greatest distance of a point from the curve
 (`FoundLinkage.combined_error`).
 """
 
@@ -49,7 +49,7 @@ def price_list(linkages: Sequence[FoundLinkage], task: Task) -> list[Price]:
     usable = [_priced(each) for each in linkages if each.usable]
     kept: list[Price] = []
     for ratio in RATIOS:
-        for angle in ANGLES_DEG:
+        for angle in ANGLES_DEG if ratio == math.inf else ANGLES_DEG[1:]:
             some = [each for each in usable if _keeps(each, angle, ratio)]
             least = max(min((each.miss for each in some), default=0.0), met)
             nearest = next((each for each in some if each.miss <= (1 + SAME_MISS) * least), None)
