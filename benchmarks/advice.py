@@ -4,7 +4,8 @@
 
 Random tasks of all sorts: those of practice (`practical_tasks`), of common shapes with boxes
 (`tests/oracles/common_tasks`), of two to four poses (`tests/oracles/few_pose_tasks`), and with a
-planted linkage (`planted_limits`), five poses too; most of them ask for more than they can have.
+planted linkage (`planted_limits`), five poses too, and drawn paths (`sound_paths`); most of them
+ask for more than they can have.
 Of each answer every piece of help that names options, in the outcome and in warnings, is taken at
 its word: the task is solved again with these options.  A usable linkage has to come of it, and
 where the piece says how far a linkage misses ("L3 would do (it misses by 2 mm and 3°)"), one that
@@ -14,6 +15,7 @@ Exit code 1 if a promise is not kept.
 """
 
 import argparse
+import math
 import re
 import sys
 from collections import Counter, defaultdict
@@ -26,6 +28,7 @@ from tests.oracles.few_pose_tasks import few_pose_task
 from benchmarks.planted_limits import planted
 from benchmarks.practical_tasks import FAMILIES
 from benchmarks.search_witness import task_of
+from benchmarks.sound_paths import shape
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import box
 from burmester.io.reading.limits_text import limits_from_options
@@ -34,6 +37,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 
 LIMIT_NAMES = ("fixed_pivot", "moving_pivot", "length", "kinds")
 OPTION = re.compile(r'(--[a-z-]+)(?: ("[^"]+"|[^-\s;()"][^\s;()]*))?')
@@ -43,7 +47,14 @@ ERRORS = re.compile(r"misses by ([\d.e+-]+)(?: mm)?(?: and ([\d.e+-]+)°)?\)?")
 TYPES = "crank-rocker", "double-crank", "double-rocker", "triple-rocker", "grashof"
 SHOWN = 1.06  # times an error as it is shown with two digits
 # What offers a choice, and promises nothing.
-CHOICES = "change it with", "compare with", "say otherwise", "give more time", "look for six bars"
+CHOICES = (
+    "take fewer with",
+    "change it with",
+    "compare with",
+    "say otherwise",
+    "give more time",
+    "look for six bars",
+)
 
 
 def _asked(rng, size):
@@ -99,9 +110,14 @@ def _with_tolerances(rng):
     return replace(task, tolerances=PoseTolerances(room[:, :2], room[:, 2]))
 
 
+def _drawn(rng):
+    _, points, closed = shape(int(rng.integers(100_000)), int(rng.integers(17)))
+    return Task(Displacement(points, np.zeros(len(points))), path=TracedPath(closed=closed))
+
+
 SORTS = {
     "plain": _plain, "limits": _limited, "few poses": _few, "planted": _of_linkage,
-    "tolerances": _with_tolerances,
+    "tolerances": _with_tolerances, "paths": _drawn,
 }  # fmt: skip
 
 
@@ -157,6 +173,11 @@ def solved_with(task, piece):
             task = task.at(np.delete(np.arange(len(task.poses.angle)), int(value) - 1), None)
         elif name == "--every":
             task = task.at(np.arange(0, len(task.poses.angle), int(value)), None)
+        elif name == "--pose-tolerance":
+            x, y, angle = (math.inf if each == "free" else float(each) for each in text.split(","))
+            count = len(task.poses.angle)
+            wide = PoseTolerances.uniform(count, x, y, math.radians(angle))
+            task = replace(task, tolerances=wide)
         elif value == ":MAX":  # which the reader chooses
             return None
         elif name in LIMITS:

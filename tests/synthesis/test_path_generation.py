@@ -115,7 +115,10 @@ def test_timed_points(count):
         assert least == pytest.approx(each.error.position, abs=1e-6)
     best = found.usable[0]
     if count == 18:
-        assert (best.error.position**2).sum() == pytest.approx(9.02888e-3, rel=1e-4)
+        least = min((each.error.position**2).sum() for each in found.usable)
+        assert least == pytest.approx(9.02888e-3, rel=1e-4)  # it transmits at 25°
+        assert best.error.worst < 2 * 0.036
+        assert np.degrees(best.driven.least_over_range) > 45
     else:
         assert best.error.worst < 1e-9
 

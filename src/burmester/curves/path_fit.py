@@ -40,9 +40,11 @@ NEARLY_SETTLED = 1e-6  # relative gain of the cost below which a step before tha
 SAME_CURVE = 2e-3  # radii of gyration; curves that are nearer at all feet are one curve
 SAME_SHARE = 0.3  # of the root mean square distance; the same while curves are still refined
 # For each least transmission angle: starts, rounds as above, degrees by which a start may transmit
-# worse, and margins, degrees and relative, by which the angle and the ratio are kept.
+# worse, and margins, degrees and relative, by which the angle and the ratio are kept.  Of an open
+# path the angle is asked for at the points and falls a little between them; of a timed one the
+# points outweigh it.
 STARTS_OF_LEVEL, ROUNDS_OF_LEVEL = 160, ((8, 60), (20, 20), (60, 12))
-LOWER, MARGIN, RATIO_MARGIN = 15.0, 0.2, 0.01
+LOWER, MARGIN, WIDE_MARGIN, RATIO_MARGIN = 15.0, 0.2, 1.0, 0.01
 KEPT = 12  # different curves that are given back
 
 
@@ -142,36 +144,39 @@ class PathSearch:
         return self._in_unit(self._at_all(self._sorted()))
 
     def transmitting_well(
-        self, levels_deg: Sequence[float], *, ratio: float = math.inf, most: int = 3
+        self, levels_deg: Sequence[float], *, ratios: Sequence[float] = (math.inf,), most: int = 3
     ) -> CurveFit:
         """Linkages near the points that have least transmission angles, as near as each can be.
 
-        For each level the curves of the atlas like the path whose linkages nearly have it, and the
-        linkages of the level before, are refined.  The angle is that between coupler and follower,
-        over the whole turn of a closed path's crank, else at the points.
+        For each ratio and level the curves of the atlas like the path whose linkages nearly have
+        them, and the linkages of the level before, are refined.  The angle is that between coupler
+        and follower, over the whole turn of a closed path's crank, else at the points.
 
-        levels_deg: rising, in degrees; ratio: the longest link over the shortest, at most.
+        levels_deg: rising, in degrees; ratios: the longest link over the shortest, at most.
         most: the number of linkages of each level at most.
         """
         part, start = self.part, self._sorted()
         least = np.degrees(start.linkages.least_transmission(None if part.turns else start.t))
         links = np.stack(start.linkages.lengths(), axis=-1)
-        sane = links.max(axis=-1) <= ratio * links.min(axis=-1)
-        kept: list[CurveFit] = []
-        for number, level in enumerate(levels_deg, start=1):
-            if not goes_on(number, len(levels_deg), "transmission angle", has_steps=True):
+        spread = links.max(axis=-1) / links.min(axis=-1)
+        margin = MARGIN if part.turns and part.timing is None else WIDE_MARGIN
+        every = [(ratio, level) for ratio in ratios for level in levels_deg]
+        kept: dict[float, list[CurveFit]] = {ratio: [] for ratio in ratios}
+        for number, (ratio, level) in enumerate(every, start=1):
+            if not goes_on(number, len(every), "transmission angle", has_steps=True):
                 break
-            near = start.cost + np.where(sane & (least > level - LOWER), 0.0, np.inf)
+            good = (spread <= ratio) & (least > level - LOWER)
+            near = start.cost + np.where(good, 0.0, np.inf)
             order = np.argsort(near, kind="stable")
             order = order[np.isfinite(near[order])][:STARTS_OF_LEVEL]
-            fit = concatenate([take(start, order), *kept])
-            built = math.radians(level + MARGIN)
+            fit = concatenate([take(start, order), *kept[ratio]])
+            built = math.radians(level + margin)
             target = part._replace(transmission=built, ratio=ratio * (1 - RATIO_MARGIN))
             for steps, number_kept in ROUNDS_OF_LEVEL:
                 fit = _best(descend(fit, target, steps, settled=NEARLY_SETTLED), number_kept)
             if len(fit.cost):
-                kept.append(_different(fit, part, most))
-        fits = self._at_all(concatenate(kept) if kept else take(start, slice(0, 0)))
+                kept[ratio].append(_different(fit, part, most))
+        fits = self._at_all(concatenate(sum(kept.values(), [take(start, slice(0, 0))])))
         return self._in_unit(descend(fits, self.whole, 0))  # to the feet
 
     def _starts(self) -> int:
@@ -189,9 +194,10 @@ class PathSearch:
 
     def _sorted(self) -> CurveFit:
         """The curves of the atlas after a few steps, the nearest first."""
-        return _best(
-            descend(take(self.alike, slice(0, MOST_ALIKE)), self.part, FEW_STEPS), MOST_ALIKE
-        )
+        fit, part = take(self.alike, slice(0, MOST_ALIKE)), self.part
+        if part.timing is not None:
+            fit = _timed(descend(fit, part._replace(timing=None), FEW_STEPS), part)
+        return _best(descend(fit, part, FEW_STEPS), MOST_ALIKE)
 
     def _at_all(self, fit: CurveFit) -> CurveFit:
         """Fits at the part of the points, with crank angles (k, N) at all of them."""

@@ -15,6 +15,7 @@ from burmester.verdicts import explanation
 from burmester.verdicts.built_linkages import DRAWS
 from burmester.verdicts.clearance_check import clearance_in_words
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.price_list import price_list
 from burmester.verdicts.quality import enough_transmission, rule
 from burmester.verdicts.ranking import (
     TRADE_GAIN,
@@ -91,7 +92,7 @@ def alternatives(synthesis: Synthesis) -> Iterator[str]:
     if synthesis.family is not None:
         yield from _members(synthesis, best)
         return
-    yield from _prices(synthesis, best)
+    yield from _prices_of_path(synthesis) if task.path is not None else _prices(synthesis, best)
     if not best.determined:
         better = next((each for each in synthesis.usable if each.determined), None)
         if better is not None:
@@ -133,6 +134,22 @@ def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
 
 def _nearer(one: FoundLinkage, other: FoundLinkage, size: float) -> bool:
     return one.combined_error < other.combined_error - ROUNDING * size
+
+
+def _prices_of_path(synthesis: Synthesis) -> Iterator[str]:
+    """What each linkage of the price list costs and gives, where there is a choice."""
+    task, size = synthesis.task, synthesis.length
+    prices = price_list(synthesis.linkages, task)
+    if len(prices) < 2:
+        return
+    yield "What better motion costs, from the nearest on:"
+    for each in prices:
+        text = f"{each.found.id} {explanation.nearness(each.found, task, size)}"
+        if each.times is not None and each is not prices[0]:
+            text += f", {figure(each.times)} times as far"
+        least = notation.least_angle(math.radians(each.transmission_deg))
+        longest = f"longest link {figure(each.link_ratio)} times the shortest"
+        yield f"{text}: transmission angle {least} or more, {longest}."
 
 
 def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:

@@ -37,6 +37,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.rails import Rail
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.price_list import price_list
 
 if TYPE_CHECKING:  # few results hold any of these
     from burmester.certificates.certificate import Certificate
@@ -82,10 +83,29 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         **_critical_points(synthesis),
         "search": [*map(_search, synthesis.fits), *_counted(synthesis)],
         "family": None if synthesis.family is None else _family(synthesis.family),
+        **_prices(synthesis),
         "certificate": None
         if synthesis.certificate is None
         else _certificate(synthesis.certificate),
         "six_bars": None if synthesis.six_bars is None else _six_bars(synthesis.six_bars),
+    }
+
+
+def _prices(synthesis: Synthesis) -> dict[str, Any]:
+    """What better motion costs along a path, the nearest linkage first."""
+    if synthesis.task.path is None:
+        return {}
+    return {
+        "prices": [
+            {
+                "linkage": each.found.id,
+                "miss": each.miss,
+                "times": each.times,
+                "transmission_deg": number(each.transmission_deg),
+                "link_ratio": number(each.link_ratio),
+            }
+            for each in price_list(synthesis.linkages, synthesis.task)
+        ]
     }
 
 

@@ -184,6 +184,8 @@ class Evaluation:
         sensitivity = self.sensitivities(own, places)
         verdicts = self.verdicts(own, places, errors, sensitivity)
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
+        if self.target.path is not None:
+            combined = np.array([each.worst for each in errors])
         standard = Standard.of(self.task)
         distance = np.abs(own.distances(self.task.poses))
         rms, worst = np.sqrt((distance**2).mean(axis=-1)).tolist(), distance.max(axis=-1).tolist()
@@ -361,6 +363,8 @@ class Evaluation:
             ]
         if list(numbers) != list(range(len(numbers))):
             verdicts = [_with_numbers(verdict, numbers) for verdict in verdicts]
+        if self.target.path is not None and self.target.path.closed:
+            verdicts = [_all_round(own.linkage(k), each) for k, each in enumerate(verdicts)]
         degenerate = degenerate_defects(own, sensitivity, self.problem)
         return [
             replace(verdict, defects=verdict.defects + more) if more else verdict
@@ -544,6 +548,27 @@ def _other_types(found: FoundLinkage, covariance: FloatArray) -> tuple[str, ...]
     if found.preferred_driver == "first":
         return others
     return tuple(DRIVEN_FROM_THE_OTHER_SIDE.get(each, each) for each in others)
+
+
+def _all_round(linkage: Linkage, verdict: Verdict) -> Verdict:
+    """A verdict on a closed path, whose crank goes on from the last point to the first.
+
+    The transmission angle is least where the crank points along the ground link.
+    """
+
+    def whole(side: Side, driven: Driven) -> Driven:
+        links = with_driver_first(linkage, side).links
+        if not driven.turns_fully or links is None:
+            return driven
+        ground, crank, coupler, follower = (float(each) for each in links)
+        away = np.array([ground - crank, ground + crank])
+        cosine = (coupler**2 + follower**2 - away**2) / (2 * coupler * follower)
+        least = float(np.arccos(min(np.abs(cosine).max(), 1.0)))
+        return replace(driven, least_over_range=min(driven.least_over_range, least))
+
+    return replace(
+        verdict, first=whole("first", verdict.first), second=whole("second", verdict.second)
+    )
 
 
 def _with_numbers(verdict: Verdict, numbers: Sequence[int]) -> Verdict:

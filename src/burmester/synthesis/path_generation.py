@@ -30,20 +30,32 @@ from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
-from burmester.verdicts.explanation import in_short
+from burmester.verdicts.explanation import above, hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
-from burmester.verdicts.ranking import ranked
-from burmester.wording import count
+from burmester.verdicts.price_list import MET, price_list
+from burmester.verdicts.ranking import (
+    DEFAULT_TOLERANCE,
+    ERROR_RATIO,
+    closest_usable,
+    only_too_far,
+    ranked,
+)
+from burmester.verdicts.standard import Standard
+from burmester.wording import count, figure
 
 __all__ = ["near_points", "with_tolerance"]
 
-ASSUMED_RATIO = 2.0  # of the assumed tolerance to the worst distance of the nearest linkage
+ASSUMED_RATIO = 2.0  # of the assumed tolerance to the greatest distance of the nearest linkage
+# A sound linkage sets it if it misses by no more than that share of the path's span, or by no more
+# than ERROR_RATIO times as much as the nearest one; never by more than DEFAULT_TOLERANCE.
+SOUND_SHARE = 0.03
+GROWTH, MOST_TRIED = 1.5, 4  # from tolerance to tolerance under which linkages are judged; of them
 LEAST_ASSUMED = 1e-4  # spans of the path; a smaller tolerance is not assumed
 MOST_TOLD = 12  # linkages that are told
 ALIKE_ERROR, ALIKE_ANGLE = 0.01, math.radians(0.5)  # of the greatest error; radians; no difference
 SAME = 0.01  # spans of the path; linkages whose pivots and links differ by less are listed once
-EXACT = 1e-7  # spans of the path; points that are missed by less are met
 LEAST_DIFFERENT = 3  # points that make a path
 
 
@@ -63,15 +75,14 @@ def near_points(
     found = linkages_near(task, path, options)
     if not len(found.batch):
         return _none(task, options, findings)
-    given, note = _with_tolerance(task, found, path)
+    given, judged, note = _judged(task, found, path, options)
     problem = SynthesisProblem.of(given, None, options)  # the angles say nothing of a motion
     evaluation = Evaluation(problem, target_of(problem))
-    judged = _judged(evaluation, found)
     if options.rounds:
         judged = evaluation.rounded(judged)
     judged = evaluation.with_spreads(judged)
     linkages = tuple(_with_rank(each, rank) for rank, each in enumerate(judged, start=1))
-    outcome = _outcome(given, linkages, path, problem.length)
+    outcome = _outcome(given, linkages, path, problem)
     warnings = (*findings, *note, *linkage_advice(given, linkages, outcome.code))
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
     return Synthesis(problem, outcome, dyads, linkages, warnings)
@@ -84,11 +95,12 @@ def with_tolerance(task: Task, options: SynthesisOptions) -> tuple[Task, list[Ad
     """
     task = _once(task)
     path = task.path or TracedPath()
-    if _stated(task, path) is None and span(task) > 0:
+    position = _stated(task, path)
+    if position is None and span(task) > 0:
         found = linkages_near(task, path, options)
         if len(found.batch):
-            return _with_tolerance(task, found, path)
-    position = _stated(task, path)
+            given, _, note = _judged(task, found, path, options)
+            return given, note
     if position is None:
         position = np.full((len(task.poses.angle), 2), LEAST_ASSUMED * span(task))
     return replace(task, tolerances=_of_points(position)), []
@@ -110,20 +122,74 @@ def _once(task: Task) -> Task:
     return replace(task.at(index, total), exact=None, path=task.path or TracedPath())
 
 
-def _with_tolerance(task: Task, found: PathLinkages, path: TracedPath) -> tuple[Task, list[Advice]]:
-    """The task with a tolerance of its points, and what is to be said where it is assumed.
+def _judged(
+    task: Task, found: PathLinkages, path: TracedPath, options: SynthesisOptions
+) -> tuple[Task, list[FoundLinkage], list[Advice]]:
+    """The task with its tolerance, linkages judged by it, and what is said where it is assumed.
 
-    Its angles are those of the nearest linkage, to draw the body with; they are free.
+    Where none is stated, ASSUMED_RATIO times what the nearest linkage misses that is sound when
+    judged so; without any that is near enough, the nearest that works; without any, the nearest.
+    The angles of the task are those of the nearest linkage, to draw the body with; they are free.
     """
-    points, number = task.poses.translation, len(task.poses.translation)
-    poses = Displacement(points, found.places[0, :, 2])
-    position, note = _stated(task, path), list[Advice]()
-    if position is None:
-        least = float(np.abs(found.places[..., :2] - points).max(axis=(1, 2)).min())
-        assumed = max(ASSUMED_RATIO * least, LEAST_ASSUMED * span(task))
-        assumed = float(f"{assumed:.2g}")
-        position, note = np.full((number, 2), assumed), [_assumed(task, least, assumed)]
-    return replace(task, poses=poses, tolerances=_of_points(position)), note
+    poses = Displacement(task.poses.translation, found.places[0, :, 2])
+    task = replace(task, poses=poses)
+    stated, size = _stated(task, path), span(task)
+    if stated is not None:
+        given = replace(task, tolerances=_of_points(stated))
+        judged = _evaluated(given, found, options)
+        return given, _front(_different(judged, SAME * size), given), []
+    given, judged, base = _by_nearest(task, found, path, options)
+    told = _front(_different(judged, SAME * size), given)
+    return given, told, [_assumed(given, told, base)]
+
+
+def _by_nearest(
+    task: Task, found: PathLinkages, path: TracedPath, options: SynthesisOptions
+) -> tuple[Task, list[FoundLinkage], FoundLinkage | None]:
+    """The task with a tolerance by a linkage, all linkages judged by it, and that linkage.
+
+    None where no linkage works; the tolerance is then that of the nearest sound one but for what is
+    asked, so that the answer can say what would do.
+    """
+    asked, nothing = task.requirements, Requirements()
+    usual = Standard.of(replace(task, requirements=nothing)).requirements(nothing)
+    wanted, away = (
+        Standard.of(task).requirements(asked),
+        found.greatest_misses(task.poses.translation),
+    )
+    most = max(ERROR_RATIO * float(away.min()), SOUND_SHARE * span(task))
+    near = away <= min(most, DEFAULT_TOLERANCE * span(task))
+    kept = [found.keep(each, turns=path.closed) for each in (wanted, asked, usual)]
+    for demanding, some in ((True, kept[0] & near), (False, kept[1])):
+        for miss in _growing(away[some]):
+            given, judged = _within(miss, task, found, options)
+            base = closest_usable(e for e in judged if not (demanding and e.shortcomings))
+            if base is None:
+                continue
+            if base.error.worst > GROWTH * miss:  # another one, or far from where it was found
+                given, judged = _within(base.error.worst, task, found, options)
+            return given, judged, base
+    some = kept[2] & near
+    return *_within(float(away[some if some.any() else ...].min()), task, found, options), None
+
+
+def _growing(misses: FloatArray) -> list[float]:
+    """The least of the misses and some of the others, each by a share greater than the last."""
+    out: list[float] = []
+    for each in np.sort(misses).tolist():
+        if not out or each > GROWTH * out[-1]:
+            out.append(each)
+    return out[:MOST_TRIED]
+
+
+def _within(
+    miss: float, task: Task, found: PathLinkages, options: SynthesisOptions
+) -> tuple[Task, list[FoundLinkage]]:
+    """The task with the tolerance that such a miss makes, and the linkages judged by it."""
+    assumed = max(ASSUMED_RATIO * miss, LEAST_ASSUMED * span(task))
+    position = np.full((len(task.poses.angle), 2), float(f"{assumed:.2g}"))
+    given = replace(task, tolerances=_of_points(position))
+    return given, _evaluated(given, found, options)
 
 
 def _stated(task: Task, path: TracedPath) -> FloatArray | None:
@@ -148,28 +214,45 @@ def _of_points(position: FloatArray) -> PoseTolerances:
     return PoseTolerances(position, np.full(len(position), math.inf))
 
 
-def _assumed(task: Task, least: float, assumed: float) -> Advice:
-    return Advice(
-        "W226",
-        f"a tolerance of {length_of(assumed, task)} was assumed for x and y of every point",
-        f"say how far the points may be missed: --pose-tolerance {assumed:g},{assumed:g},free",
-        f"the nearest linkage misses them by {length_of(least, task)} at most, and within "
-        f"{ASSUMED_RATIO:g} times that the one that transmits best is chosen",
-    )
+def _assumed(given: Task, judged: Sequence[FoundLinkage], base: FoundLinkage | None) -> Advice:
+    """What is said of the tolerance of a task that is assumed from a linkage, and of the nearest.
+
+    base: None where none works.
+    """
+    assert given.tolerances is not None
+    assumed = float(given.tolerances.position.max())
+    nearest = closest_usable(judged) or min(judged, key=lambda each: each.error.worst)
+    why = f"the nearest linkage misses them by {length_of(nearest.error.worst, given)} at most"
+    least = nearest.error.worst if base is None else base.error.worst
+    if (farther := length_of(least, given)) != length_of(nearest.error.worst, given):
+        why += f", and is not sound; the nearest sound one by {farther}"
+    if ASSUMED_RATIO * least < LEAST_ASSUMED * span(given):
+        why += f"; at least {length_of(assumed, given)}, a ten-thousandth of their span, is assumed"
+    elif base is not None:
+        times = figure(assumed / least)
+        why += f", and within {times} times that the one that transmits best is chosen"
+    help = "say how far the points may be missed"
+    if base is None:
+        help += ", once a linkage keeps what is asked"
+    else:
+        help += f": --pose-tolerance {assumed:g},{assumed:g},free"
+    what = f"a tolerance of {length_of(assumed, given)} was assumed for x and y of every point"
+    return Advice("W226", what, help, why)
 
 
-def _judged(evaluation: Evaluation, found: PathLinkages) -> list[FoundLinkage]:
+def _evaluated(task: Task, found: PathLinkages, options: SynthesisOptions) -> list[FoundLinkage]:
     """The linkages with errors and verdicts, in the order of `ranking`.
 
     Those that cannot be inside the tolerances only where no other is usable: told they are not.
     """
     step(f"judging {count(len(found.batch), 'linkage')}")
-    near = _may_be_inside(evaluation.task, found)
+    problem = SynthesisProblem.of(task, None, options)
+    evaluation = Evaluation(problem, target_of(problem))
+    near = _may_be_inside(task, found)
     judged = _members(evaluation, found, np.flatnonzero(near))
     if not any(each.usable for each in judged):
         judged += _members(evaluation, found, np.flatnonzero(~near))
-    judged = ranked(judged, evaluation.problem)
-    return _front(_different(judged, SAME, span(evaluation.task)))
+    return ranked(judged, problem)
 
 
 def _may_be_inside(task: Task, found: PathLinkages) -> NDArray[np.bool_]:
@@ -180,7 +263,7 @@ def _may_be_inside(task: Task, found: PathLinkages) -> NDArray[np.bool_]:
     assert task.tolerances is not None
     away = np.linalg.norm(found.places[..., :2] - task.poses.translation, axis=-1)
     corner = np.linalg.norm(task.tolerances.position, axis=-1)
-    return np.asarray((away <= corner + EXACT * span(task)).all(axis=-1))
+    return np.asarray((away <= corner + MET * span(task)).all(axis=-1))
 
 
 def _members(
@@ -202,18 +285,25 @@ def _members(
     return evaluation.members(candidates)
 
 
-def _front(found: Sequence[FoundLinkage]) -> list[FoundLinkage]:
+def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     """The usable linkages that no other one beats in distance, transmission and extent at once.
 
-    In their order, MOST_TOLD of them at most, the nearest one among these; where none is usable,
-    all of them.
+    In their order, MOST_TOLD of them at most, those of the price list among these, and
+    the one with the least root mean square.
+    Where none is usable, the nearest, and those that lack least.
     """
     usable = [each for each in found if each.usable and each.quality is not None]
     if not usable:
-        return list(found)[:MOST_TOLD]
+        nearest = list(found)[: MOST_TOLD // 2]  # and those that lack least
+        far = _nearest_too_far(found)
+        others = sorted(
+            found[len(nearest) :],
+            key=lambda each: (each is not far, bool(each.defects), len(each.violations)),
+        )
+        return [*nearest, *others[: MOST_TOLD - len(nearest)]]
     figures = np.array(
         [
-            (each.error.rms, -each.driven.least_over_range, each.quality.extent)
+            (each.combined_error, -each.driven.least_over_range, each.quality.extent)
             for each in usable
             if each.quality is not None
         ]
@@ -222,10 +312,12 @@ def _front(found: Sequence[FoundLinkage]) -> list[FoundLinkage]:
     beaten = (figures[:, None] > figures[None] - slack).all(axis=-1) & (
         figures[:, None] > figures[None] + slack
     ).any(axis=-1)
-    best = [each for k, each in enumerate(usable) if not beaten[k].any()]
-    nearest = min(usable, key=lambda each: each.error.rms)
-    told = best[: MOST_TOLD - 1]
-    return told if nearest in told else [*told, nearest]
+    priced = [each.found for each in price_list(usable, task)]
+    if (squares := min(usable, key=lambda each: each.error.rms)) not in priced:
+        priced.append(squares)
+    best = [e for k, e in enumerate(usable) if e not in priced and not beaten[k].any()]
+    told = [*priced, *best[: max(MOST_TOLD - len(priced), 0)]]
+    return [each for each in usable if each in told]
 
 
 def _with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
@@ -237,25 +329,26 @@ def _with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
     return replace(found, id=f"L{rank}", rank=rank, dyads=(first, second))
 
 
-def _different(found: Sequence[FoundLinkage], share: float, size: float) -> list[FoundLinkage]:
+def _different(found: Sequence[FoundLinkage], least: float) -> list[FoundLinkage]:
     """The first of linkages that are alike: pivots and links, however the body's frame is turned.
 
-    share: of the path's size, by which alike ones differ.
+    The nearest one that works stays.  least: length by which alike ones differ.
     """
+    nearest = closest_usable(found)
     kept: list[FoundLinkage] = []
     told: list[FloatArray] = []
-    for each in found:
+    for each in sorted(found, key=lambda one: one is not nearest):
         batch = LinkageBatch.of([each.driver_first])
         z, arms = batch.dimensions[0], np.linalg.norm(batch.dimensions[0, :, 2:4], axis=-1)
         own = np.concatenate([z[:, :2].ravel(), z[:, 4], arms])
-        if not any(np.abs(own - other).max() <= share * size for other in told):
+        if not any(np.abs(own - other).max() <= least for other in told):
             kept.append(each)
             told.append(own)
-    return kept
+    return [each for each in found if each in kept]
 
 
 def _outcome(
-    task: Task, linkages: Sequence[FoundLinkage], path: TracedPath, size: float
+    task: Task, linkages: Sequence[FoundLinkage], path: TracedPath, problem: SynthesisProblem
 ) -> Outcome:
     points, usable = count(task.poses.shape[0], "point"), [e for e in linkages if e.usable]
     timed = " at their crank angles" if path.crank_angles is not None else ""
@@ -265,12 +358,11 @@ def _outcome(
             "R351",
             f"no usable linkage: {count(len(linkages), 'four-bar')} near {points}{timed}, none of "
             "which works",
-            "give the limits more room, ask for less, or state a wider --pose-tolerance; of noisy "
-            "points that lie closer than their noise, take fewer with --every, or --any-order",
-            f"the nearest, {nearest.id}, {in_short(nearest, task, size)}",
+            _what_would_do(linkages, problem),
+            f"the nearest, {nearest.id}, {in_short(nearest, task, problem.length)}",
         )
-    nearest = min(usable, key=lambda each: each.error.worst)
-    if nearest.error.worst <= EXACT * span(task):
+    nearest = price_list(usable, task)[0].found
+    if nearest.error.worst <= MET * span(task):
         how = f"that {'passes' if len(usable) == 1 else 'pass'} {points}{timed}"
         if _are_few(task, path):
             how = f"of the infinitely many that pass {points}"
@@ -281,6 +373,25 @@ def _outcome(
             "at most"
         )
     return Outcome("R350", f"{count(len(usable), 'usable four-bar')} {how}")
+
+
+def _what_would_do(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
+    """What to change where no linkage of a path works."""
+    texts = [text] if "--" in (text := hints(linkages, problem)) else []
+    if (far := _nearest_too_far(linkages)) is not None:
+        room = above(far.error.worst)
+        within = problem.given.requirements.within is not None
+        option = f"--within {room}" if within else f"--pose-tolerance {room},{room},free"
+        texts.append(f"with {option} {far.id} would do")
+    return "; or ".join(texts) or (
+        "give the limits more room, ask for less, or state a wider --pose-tolerance; of noisy "
+        "points that lie closer than their noise, take fewer with --every, or --any-order"
+    )
+
+
+def _nearest_too_far(linkages: Sequence[FoundLinkage]) -> FoundLinkage | None:
+    """The nearest linkage that would work if the points might be missed by more."""
+    return min(filter(only_too_far, linkages), key=lambda each: each.combined_error, default=None)
 
 
 def _none(task: Task, options: SynthesisOptions, findings: Sequence[Advice]) -> Synthesis:

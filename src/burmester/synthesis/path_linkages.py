@@ -38,13 +38,15 @@ from burmester.tasks.notation import span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
 from burmester.verdicts.standard import Standard
 
 __all__ = ["PathLinkages", "is_timed_exactly", "linkages_near"]
 
 CURVES = 16  # different curves that are looked at; each with its other linkage that has a crank
-LEVELS = (15.0, 22.0, 30.0, 40.0, 50.0, 60.0)  # degrees; least transmission angles that are tried
+LEVELS = (20.0, 30.0, 40.0, 50.0, 60.0)  # degrees; least transmission angles that are tried
+RATIOS = (10.0, 5.0)  # of the longest link to the shortest, that are tried
 NEAREST, STARTS = 4, 10  # number of nearest linkages, and of curves of the atlas, refined for each
 LOWER = 10.0  # degrees; a start may transmit worse by so much
 SANE_RATIO = 10.0  # longest link over shortest of a start from the atlas
@@ -63,6 +65,24 @@ class PathLinkages(NamedTuple):
     batch: LinkageBatch
     places: FloatArray
 
+    def greatest_misses(self, points: FloatArray) -> FloatArray:
+        """The greatest distance (k,) of a point (N, 2) from its place."""
+        return np.asarray(np.linalg.norm(self.places[..., :2] - points, axis=-1).max(axis=-1))
+
+    def keep(self, bounds: Requirements, *, turns: bool) -> NDArray[np.bool_]:
+        """Which linkages (k,) keep bounds of the transmission angle and of the link ratio.
+
+        With either driver.  turns: over the whole turn of the driver, else at the places.
+        """
+        kept = np.zeros(len(self.batch), dtype=bool)
+        for each in (self.batch, self.batch.exchanged()):
+            own, t = CrankLinkages.of(each, self.places)
+            links = np.stack(own.lengths(), axis=-1)
+            sane = links.max(axis=-1) <= bounds.link_ratio * links.min(axis=-1)
+            least = own.least_transmission(None if turns else t)
+            kept |= sane & ~(least < bounds.transmission)
+        return kept
+
 
 def linkages_near(task: Task, path: TracedPath, options: SynthesisOptions) -> PathLinkages:
     """Linkages near the points, or through them, and such as transmit better."""
@@ -78,7 +98,8 @@ def linkages_near(task: Task, path: TracedPath, options: SynthesisOptions) -> Pa
         starts = nine_point_starts(points)
     found = _nearest(task, search, starts)
     if timed:
-        return found
+        more = _transmitting(task, search) if time_for("looking for better transmission") else found
+        return _joined([found, more])
     alike, wide = found, _without_tolerance(task, options)
     if task.limits:
         alike = _with_cognates(_of_fit(search.like_path()))
@@ -198,10 +219,12 @@ def _within_limits(wide: Evaluation, found: PathLinkages) -> PathLinkages:
 
 def _transmitting(task: Task, search: PathSearch) -> PathLinkages:
     """Linkages that transmit better and better, and are sanely built, as near as each can be."""
-    asked = Standard.of(task).requirements(task.requirements)
     most = KEPT if len(task.poses.angle) <= MANY else 1
-    fit = search.transmitting_well(_levels(task), ratio=asked.link_ratio, most=most)
-    return _with_cognates(_of_fit(fit))
+    asked = task.requirements.link_ratio
+    ratios = (asked,) if math.isfinite(asked) else RATIOS
+    return _with_cognates(
+        _of_fit(search.transmitting_well(_levels(task), ratios=ratios, most=most))
+    )
 
 
 def _levels(task: Task) -> list[float]:

@@ -203,13 +203,17 @@ def _with_tolerance(
     if asked.within is not None:
         reach, length = asked.reach(asked.within, length)
         return replace(task, tolerances=_tolerances(task, reach, math.degrees(reach / length))), []
-    away = np.abs(nearest.error.places.translation - task.poses.translation).max()
     turn = np.where(task.free_angles, 0.0, nearest.error.angle).max()
-    worst = max(float(away), length * float(turn), LEAST_ASSUMED * problem.motion_size)
+    worst = max(nearest.error.worst, length * float(turn))
+    least = LEAST_ASSUMED * problem.motion_size
+    floor, worst = worst < least, max(worst, least)
     position = float(f"{ASSUMED_RATIO * worst:.2g}")
     angle = float(f"{math.degrees(ASSUMED_RATIO * worst / length):.2g}")
     sound = "" if nearest.shortcomings else "sound "
     out = replace(task, tolerances=_tolerances(task, position, angle))
+    how = f"within {ASSUMED_RATIO:g} times that the one that transmits best is chosen"
+    if floor:
+        how = f"at least {length_of(position, task)} is assumed"
     return out, [
         Advice(
             "W226",
@@ -217,7 +221,7 @@ def _with_tolerance(
             f"point, and {angle:g}° for the angles",
             f"say how far they may be missed: --pose-tolerance {position:g},{position:g},{angle:g}",
             f"the nearest {sound}linkage misses them by {worst_miss(nearest, out)} at most, and "
-            f"within {ASSUMED_RATIO:g} times that the one that transmits best is chosen",
+            + how,
         )
     ]
 

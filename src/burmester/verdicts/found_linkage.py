@@ -58,7 +58,8 @@ class FoundLinkage:
     combined_error : float
         What was made least: the weighted root mean square (with the norm "worst" the greatest)
         over the poses of position and angle error in one, `PoseError.combined`; infinite where
-        some pose is out of reach.
+        some pose is out of reach.  Along a path the greatest distance of a point from the curve:
+        what "nearest" means there.
     verdict : Verdict
         The defects, and the motion with either driver.
     preferred_driver : "first" or "second"

@@ -25,6 +25,7 @@ from burmester.verdicts.uncertainty import DyadUncertainty
 
 __all__ = [
     "DEFAULT_TOLERANCE",
+    "ERROR_RATIO",
     "TRADE_GAIN",
     "by_quality",
     "closest_usable",
