@@ -17,7 +17,7 @@ import numpy as np
 
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["PathGaps"]
+__all__ = ["PathGaps", "are_drawing"]
 
 STEPS: Final = (4, 64, 960)  # steps of a sampled arc at least and at most, and of all arcs together
 ROUNDS, TRIED = 6, 5  # of narrowing the bracket of the greatest distance: to a half in each round
@@ -26,6 +26,12 @@ ALLOWED_STEPS: Final = 0.5  # steps of the points; a bulge of less may be that o
 ALLOWED_DIAMETERS: Final = 0.1
 DIRECTIONS: Final = 32  # in which the diameter is measured
 ROUNDING: Final = 1e-9  # diameters
+MOST_OPEN: Final = 9  # points; a linkage can meet so many, and leave the way between them open
+
+
+def are_drawing(count: int, *, closed: bool, timed: bool) -> bool:
+    """Whether so many points of a path say where the curve goes between them, too."""
+    return count > MOST_OPEN or (closed and not timed)
 
 
 class PathGaps(NamedTuple):
@@ -59,8 +65,8 @@ class PathGaps(NamedTuple):
 
         tolerance: by which the points may be missed, one number or of each gap (g,).
         """
-        spacing, tolerance = ALLOWED_STEPS * self.step, np.asarray(tolerance)
-        most = np.maximum(spacing, np.maximum(tolerance, ALLOWED_DIAMETERS * self.diameter))
+        spacing = ALLOWED_STEPS * self.step
+        most = np.maximum(spacing, ALLOWED_DIAMETERS * self.diameter)
         return np.asarray(np.minimum(spacing + tolerance, most) + ROUNDING * self.diameter)
 
     def ends(self, along: FloatArray, period: float | FloatArray = 0.0) -> FloatArray:

@@ -18,9 +18,9 @@ import numpy as np
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Defect, Driven, Verdict
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.path_gaps import PathGaps
+from burmester.fourbar.path_gaps import PathGaps, are_drawing
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.tasks.motion_task import MOST_POINTS, Task
+from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, pose_labels
 from burmester.verdicts.found_linkage import FoundLinkage
 
@@ -31,15 +31,12 @@ FULL_TURN: Final = 2 * math.pi
 
 
 def is_drawn(task: Task) -> bool:
-    """Whether the points of a task say where a curve goes between them.
-
-    That is so for more than a linkage can meet exactly, and for those of a closed path.
-    """
+    """Whether the points of a task, met in their order, say where a curve goes between them."""
     path = task.path
     if path is None or task.requirements.any_order:
         return False
-    closed = path.closed and path.crank_angles is None
-    return closed or len(task.poses.angle) > MOST_POINTS
+    timed = path.crank_angles is not None
+    return are_drawing(len(task.poses.angle), closed=path.closed, timed=timed)
 
 
 def _gaps(task: Task) -> PathGaps | None:
