@@ -7,8 +7,8 @@ they keep the order in which they began.  Timed, both components count, and the 
 given but for one phase.
 
 Between the points the curve may not leave their chords by more than is allowed; what it leaves them
-by beyond that counts as a distance does.  Sizes are bounded: without bounds some paths run away to infinitely long links.  The steps are those
-of `curve_kernel`.
+by beyond that counts as a distance does, and more.  Sizes are bounded: without bounds some paths
+run away to infinitely long links.  The steps are those of `curve_kernel`.
 """
 
 from __future__ import annotations

@@ -46,7 +46,7 @@ TINY = cython.declare(cython.double, 2.3e-308)  # keeps what may be 0 from divid
 # Radians of the crank between two looks at an arc, and the number of looks in one at most.
 ARC_TURN = cython.declare(cython.double, 0.12)
 ARC_LOOKS = cython.declare(cython.int, 16)
-STRAY_WEIGHT = cython.declare(cython.double, 8.0)  # of what an arc leaves its chord by too much
+STRAY_WEIGHT = cython.declare(cython.double, 30.0)  # of what an arc leaves its chord by too much
 BUILT_WEIGHT = cython.declare(cython.double, 10.0)  # of squared cosines and logarithms, per point
 FULLNESS = cython.declare(cython.double, 1e-4)  # least margin of a full turn, in sums of lengths
 FULLNESS_STEPS = cython.declare(cython.int, 3)
@@ -127,8 +127,8 @@ class Descent:
     """A linkage on its way, and where a step from it would lead.
 
     points: (n, 3), x, y and the square root of the weight; t: (n,), the crank angles of the feet;
-    missed: (n,), how far the points are from there; timing: (n,), the crank angles but for one phase, or (0,); allowed, turns and others: see
-    `descend`.
+    missed: (n,), how far the points are from there; timing: (n,), the crank angles but for one
+    phase, or (0,); allowed, turns and others: see `descend`.
     last: whether crank angles go all the way to the feet; size: number of unknowns; cost: sum of
     squares; gradient, normal: half its derivatives, and the normal equations, their lower triangle.
     """
@@ -511,10 +511,10 @@ def descend(
 
     points: x, y and the square root of the weight; timing: (n,), the crank angles but for one
     phase, or (0,); allowed: (g, 2), how far the arcs of the gaps between neighbours may leave their
-    chords where the points are met, and at most, or (0, 2); turns: whether cranks go all the way round; unbroken: whether linkages assemble
-    between the points too; cosine, ratio: of the transmission
-    angle, and of the longest link over the shortest, at most; steps: at most; settled: relative
-    gain of the cost below which a step is the last.
+    chords where the points are met, and at most, or (0, 2); turns: whether cranks go all the way
+    round; unbroken: whether linkages assemble between the points too; cosine, ratio: of the
+    transmission angle, and of the longest link over the shortest, at most; steps: at most;
+    settled: relative gain of the cost below which a step is the last.
     """
     way: Descent = Descent(points, timing, allowed, turns, unbroken, cosine, ratio)
     here = cython.declare(cython.double[10])

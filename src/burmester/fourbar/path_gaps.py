@@ -1,4 +1,4 @@
-"""The gaps between neighbouring points of a path, and the arcs by which a coupler point crosses them.
+"""The gaps between neighbouring points of a path, and the arcs of a curve that cross them.
 
 A curve that passes points need not follow their path: between two of them it may go anywhere.  The
 arc of a gap is the curve from one point's place to the next one's in the sense of travel, and its

@@ -34,6 +34,7 @@ from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.explanation import in_short
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 from burmester.verdicts.ranking import ranked
+from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count
 
 __all__ = ["near_points", "with_tolerance"]
@@ -169,6 +170,8 @@ def _judged(evaluation: Evaluation, found: PathLinkages) -> list[FoundLinkage]:
     if not any(each.usable for each in judged):
         judged += _members(evaluation, found, np.flatnonzero(~near))
     judged = ranked(judged, evaluation.problem)
+    if not any(each.usable for each in judged):
+        judged = nearest_both_ways(judged, evaluation.task)
     return _front(_different(judged, SAME, span(evaluation.task)))
 
 
@@ -259,6 +262,8 @@ def _outcome(
 ) -> Outcome:
     points, usable = count(task.poses.shape[0], "point"), [e for e in linkages if e.usable]
     timed = " at their crank angles" if path.crank_angles is not None else ""
+    if not usable and all(map(strays, linkages)):
+        return _all_stray(task, linkages)
     if not usable:
         nearest = min(linkages, key=lambda each: each.combined_error)
         return Outcome(
@@ -281,6 +286,22 @@ def _outcome(
             "at most"
         )
     return Outcome("R350", f"{count(len(usable), 'usable four-bar')} {how}")
+
+
+def _all_stray(task: Task, linkages: Sequence[FoundLinkage]) -> Outcome:
+    """R352, with the linkage that is nearest both ways, which comes first."""
+    nearest, points = linkages[0], count(task.poses.shape[0], "point")
+    traced = Tracing.of(nearest, task)
+    away = length_of(nearest.error.worst, task)
+    left = "" if traced is None else f" and leaves the path by {length_of(traced.to_path[1], task)}"
+    return Outcome(
+        "R352",
+        f"no usable linkage: each of {count(len(linkages), 'four-bar')} near {points} leaves the "
+        "path between some of them",
+        "round the corners of the path, or trace a part of it; if the curve may go anywhere "
+        "between the points, say so with --any-order",
+        f"the nearest both ways, {nearest.id}, misses the points by {away}{left} at most",
+    )
 
 
 def _none(task: Task, options: SynthesisOptions, findings: Sequence[Advice]) -> Synthesis:

@@ -1,4 +1,4 @@
-"""How a linkage traces the points of a path: both ways, from points to curve and from curve to path.
+"""How a linkage traces the points of a path, both ways: points to curve, and curve to path.
 
 That a curve comes near to all points says little of what it does between them.  A linkage strays
 where its arc between two neighbouring points leaves their chord by more than the points allow
@@ -24,7 +24,14 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, pose_labels
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["Tracing", "is_drawn", "stray_defects", "stray_shortcomings"]
+__all__ = [
+    "Tracing",
+    "is_drawn",
+    "nearest_both_ways",
+    "stray_defects",
+    "stray_shortcomings",
+    "strays",
+]
 
 COMPARED: Final = 100  # points at equal steps of arc length, of path and curve, that are compared
 FULL_TURN: Final = 2 * math.pi
@@ -72,6 +79,11 @@ class Tracing:
     to_path: tuple[float, float]
     chamfer: float
     dtw: float
+
+    @property
+    def greatest(self) -> float:
+        """The greatest distance, either way."""
+        return max(self.to_curve[1], self.to_path[1])
 
     @classmethod
     def of(cls, found: FoundLinkage, task: Task) -> Tracing | None:
@@ -133,7 +145,7 @@ def stray_defects(
 
 
 def stray_shortcomings(found: Sequence[FoundLinkage], task: Task) -> list[tuple[str, ...]]:
-    """Of linkages through points that make no drawing, in words that follow "it": where they stray."""
+    """Where linkages through points that make no drawing stray, in words that follow "it"."""
     gaps = None if is_drawn(task) else _gaps(task)
     if gaps is None or not found:
         return [()] * len(found)
@@ -141,6 +153,23 @@ def stray_shortcomings(found: Sequence[FoundLinkage], task: Task) -> list[tuple[
     names = pose_labels(task, range(len(task.poses.angle)))
     strays = _strays(batch, [each.driven for each in found], gaps, task, names)
     return [() if each is None else (each.message,) for each in strays]
+
+
+def nearest_both_ways(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
+    """Linkages by their greatest distance either way; in their order where none strays."""
+    if not any(strays(each) for each in found):
+        return list(found)
+
+    def greatest(each: FoundLinkage) -> float:
+        traced = Tracing.of(each, task)
+        return math.inf if traced is None else traced.greatest
+
+    return sorted(found, key=greatest)
+
+
+def strays(found: FoundLinkage) -> bool:
+    """Whether a linkage leaves the path between points, and is not usable for that."""
+    return any(each.kind == "stray" for each in found.defects)
 
 
 def _strays(
