@@ -1,12 +1,16 @@
 """Shapes to trace: does the coupler stay on the path between the points, too?
 
-    python -m benchmarks.both_ways [--count 1] [--seed 0] [--shape vee bow-tie ...]
+    python -m benchmarks.both_ways [--count 1] [--seed 0] [--shape vee bow-tie ...] [--planted 0]
 
 Each shape is drawn by corners of our own, turned at random, with points at equal steps.  Every
 usable linkage is driven by the witness (`tests/oracles/both_ways`) from point to point.  Printed
 are, of the linkage that comes first and of the nearest one, the greatest distance of the points
 from the curve and of the curve from the path, in per cent of the diameter; and of all usable ones
 the greatest stray.  A stray of more than a tenth of the diameter is one too many.
+
+With --planted so many curves of random cranks are looked for of each kind: closed, open, and timed
+by the crank.  Their points lie at equal steps of arc length, so that sharp tips lie between some of
+them; a usable linkage is to pass them all.
 """
 
 import argparse
@@ -14,6 +18,7 @@ import time
 
 import numpy as np
 from tests.oracles.both_ways import from_path, travelled
+from tests.oracles.coupler_curves import dyads_of, random_crank, traced
 
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.motion_generation import synthesize
@@ -21,6 +26,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.traced_path import TracedPath
 
 MOST = 0.1  # diameters that a usable linkage may stray
+EXACT = 1e-5  # spans; a planted curve that misses its points by less is found
 TRIFOIL = [(1 + 0.55 * np.cos(3 * t)) * np.exp(1j * t) for t in np.linspace(0, 2 * np.pi, 49)[:-1]]
 STAR = [(1.0 if k % 2 == 0 else 0.45) * 1j * np.exp(1j * np.pi * k / 5) for k in range(10)]
 ARC = np.exp(1j * np.linspace(0.25 * np.pi, 1.75 * np.pi, 25))
@@ -53,6 +59,37 @@ SHAPES = {
 }  # fmt: skip
 
 
+def planted(kind, rng):
+    """Points (N, 2) on the curve of a random crank, and crank angles (N,) where it is timed."""
+    z, side = random_crank(rng)
+    if kind == "timed":
+        t = rng.uniform(0, 2 * np.pi) + np.linspace(0, rng.uniform(2, 5.5), 18)
+    else:
+        fine = np.linspace(0, 2 * np.pi, 2001)
+        if kind == "open":
+            fine = rng.uniform(0, 2 * np.pi) + np.linspace(0, rng.uniform(1.5, 4), 2001)
+        steps = np.abs(np.diff(traced(dyads_of(z), side, fine)))
+        at = np.concatenate([[0], steps.cumsum()])
+        number = 15 if kind == "open" else 40
+        t = np.interp(np.linspace(0, at[-1], number, endpoint=kind == "open"), at, fine)
+    p = traced(dyads_of(z), side, t)
+    return np.column_stack([p.real, p.imag]), t - t[0] if kind == "timed" else None
+
+
+def find_planted(number, seed):
+    """Print how many planted curves of each kind are found."""
+    for kind in ("closed", "open", "timed"):
+        missed = []
+        for k in range(number):
+            points, turns = planted(kind, np.random.default_rng([seed, k]))
+            path = TracedPath(kind == "closed", turns)
+            found = synthesize(Task(Displacement(points, np.zeros(len(points))), path=path)).usable
+            size = float(np.linalg.norm(np.ptp(points, axis=0)))
+            missed.append(min((each.error.worst / size for each in found), default=np.inf))
+        exact = int((np.array(missed) < EXACT).sum())
+        print(f"planted, {kind}: {exact} of {number} exact; the worst missed by {max(missed):.1e}")
+
+
 def drawn(shape, rng):
     """Points (N, 2) of a shape at equal steps, turned at random, and whether it is closed."""
     corners, closed, number = SHAPES[shape]
@@ -80,7 +117,11 @@ def main():
     parser.add_argument("--count", type=int, default=1)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--shape", nargs="*", default=list(SHAPES))
+    parser.add_argument("--planted", type=int, default=0)
     given = parser.parse_args()
+    if given.planted:
+        find_planted(given.planted, given.seed)
+        return
     print("shape               s  usable  first: points curve angle  nearest: points curve angle"
           "  most astray")  # fmt: skip
     usable = none = astray = 0

@@ -46,7 +46,7 @@ TINY = cython.declare(cython.double, 2.3e-308)  # keeps what may be 0 from divid
 # Radians of the crank between two looks at an arc, and the number of looks in one at most.
 ARC_TURN = cython.declare(cython.double, 0.12)
 ARC_LOOKS = cython.declare(cython.int, 16)
-STRAY_WEIGHT = cython.declare(cython.double, 30.0)  # of what an arc leaves its chord by too much
+STRAY_WEIGHT = cython.declare(cython.double, 8.0)  # of what an arc leaves its chord by too much
 BUILT_WEIGHT = cython.declare(cython.double, 10.0)  # of squared cosines and logarithms, per point
 FULLNESS = cython.declare(cython.double, 1e-4)  # least margin of a full turn, in sums of lengths
 FULLNESS_STEPS = cython.declare(cython.int, 3)

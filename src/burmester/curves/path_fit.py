@@ -50,7 +50,8 @@ SAME_SHARE = 0.3  # of the root mean square distance; the same while curves are 
 # worse, and margins, degrees and relative, by which the angle and the ratio are kept.
 STARTS_OF_LEVEL, ROUNDS_OF_LEVEL = 160, ((8, 60), (20, 20), (60, 12))
 LOWER, MARGIN, RATIO_MARGIN = 15.0, 0.2, 0.01
-ALLOWED_SHARE = 0.98  # of a bulge that makes no stray; what counts softly is exceeded a little
+# Of bulges that make no stray, where points are met, and at most: these are exceeded a little.
+ALLOWED_SHARE, MOST_SHARE = 0.98, 0.94
 KEPT = 12  # different curves that are given back
 
 
@@ -225,7 +226,8 @@ class PathSearch:
 def _allowed(points: ComplexArray, closed: bool) -> FloatArray:
     """How far arcs (g,) between points (n,) may leave their chords in the search: (g, 2)."""
     gaps = PathGaps.of(pairs_of(points), closed=closed)
-    return ALLOWED_SHARE * np.stack([gaps.allowed(), gaps.allowed(math.inf)], axis=-1)
+    met = ALLOWED_SHARE * gaps.allowed()
+    return np.stack([met, np.maximum(met, MOST_SHARE * gaps.allowed(math.inf))], axis=-1)
 
 
 def _timed(fit: CurveFit, target: PathTarget) -> CurveFit:

@@ -61,6 +61,8 @@ def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
     """The closest linkages where none is usable, else none."""
     if synthesis.usable:
         return []
+    if synthesis.outcome.code == "R352":  # they are ranked so
+        return list(synthesis.linkages[:CLOSEST])
     return explanation.by_nearness(synthesis.linkages, synthesis.length)[:CLOSEST]
 
 
