@@ -265,7 +265,7 @@ def _outcome(
     if not usable and all(map(strays, linkages)):
         return _all_stray(task, linkages)
     if not usable:
-        nearest = min(linkages, key=lambda each: each.combined_error)
+        nearest = min(linkages, key=lambda each: (strays(each), each.combined_error))
         return Outcome(
             "R351",
             f"no usable linkage: {count(len(linkages), 'four-bar')} near {points}{timed}, none of "
