@@ -5,6 +5,7 @@ import pytest
 
 from burmester.curves.crank_linkages import CrankLinkages
 from burmester.curves.curve_descent import CurveFit, PathTarget, descend
+from tests.oracles.both_ways import from_segment
 from tests.oracles.coupler_curves import dyads_of, random_crank, refined_from, traced
 
 NOISE, STRIDE = 0.03, 1e-4
@@ -100,6 +101,28 @@ def test_an_end_assembles_between_the_points_too():
             assert whole or not unbroken
             broken += not whole
     assert broken > 0
+
+
+def test_arcs_between_points_leave_their_chords_by_no_more_than_is_allowed():
+    """The curve of the start goes far around where points are left out of a path."""
+    pulled = 0
+    for seed in range(9):
+        start, points, side = path(seed, 32)
+        kept = np.r_[0:10, 24:32]
+        part, some = start._replace(t=start.t[:, kept]), points[kept]
+        most = 0.3 * np.ones((17, 2))
+        target = PathTarget(some, np.ones(18), False)
+        bulges = []
+        for allowed in (None, most):
+            end = descend(part, target._replace(allowed=allowed), 400)
+            z, t = end.linkages.dimensions[0], end.t[0]
+            arc = traced(dyads_of(z), side, np.linspace(t[9], t[10], 2000))
+            bulges.append(from_segment(arc, some[9], some[10]).max())
+        free, held = bulges
+        # A descent that ends farther away says so in its cost.
+        assert held < 0.33 or end.cost[0] > (held - 0.3) ** 2
+        pulled += free > 0.5 and held < 0.33
+    assert pulled > 2
 
 
 def test_cranks_keep_turning_fully_and_links_keep_to_their_bounds():

@@ -128,6 +128,11 @@ MIXED = (
     "0.643693,2.389129, 0.092623,2.243994,29.85902 "
     "-0.450987,1.760176, -0.716342,1.141258,44.56691"
 )
+CROSS = (
+    "-6,-6 -4,-4.667 -2,-3.333 0,-2 2,-3.333 4,-4.667 6,-6 4.667,-4 3.333,-2 2,0 3.333,2 4.667,4 "
+    "6,6 4,4.667 2,3.333 0,2 -2,3.333 -4,4.667 -6,6 -4.667,4 -3.333,2 -2,0 -3.333,-2 -4.667,-4 "
+    "-6,-6"
+)
 CIRCLE = "x,y\n3,4\n4,3\n5,0\n0,5\n-3,4\n-4,3\n-5,0\n0,-5\n3,-4\n"
 
 
@@ -1453,6 +1458,13 @@ CASES: dict[str, Case] = {
         "synthesize path.json --within 0.001",
         Args("synthesize path.json --within 0.2"),
         {"path.json": timed(*range(0, 18, 2))},
+        exit=1,
+    ),
+    "a path that no four-bar stays on": Case(
+        "R352",
+        "synthesize path.csv",
+        Args("synthesize path.csv --any-order"),
+        {"path.csv": "x,y\n" + CROSS.replace(" ", "\n")},
         exit=1,
     ),
     "a tolerance of a path": Case(

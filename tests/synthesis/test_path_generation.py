@@ -14,6 +14,7 @@ from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.explanation import nearness
+from tests.oracles.both_ways import from_path, travelled
 from tests.oracles.coupler_curves import CABRERA, CABRERA_TURNS, distances, dyads_of, random_crank
 from tests.oracles.coupler_curves import traced as witnessed
 from tests.oracles.witness import places
@@ -57,6 +58,39 @@ def test_closed_curve_from_the_nearest_linkage_to_the_best_one():
     # No angle is asked for, so that none is missed, and none is met.
     assert {worst_errors(found, each)[1] for each in found.usable} == {"free"}
     assert not any("°" in nearness(each, found.task, found.length) for each in found.usable)
+
+
+SHAPES = {
+    "vee": ([-1 + 1j, -1j, 1 + 1j], False, 17),
+    "bow-tie": ([-1 - 0.6j, 1 + 0.6j, 1 - 0.6j, -1 + 0.6j], True, 32),
+    "cross": ([-1 - 1j, -1j / 3, 1 - 1j, 1 / 3, 1 + 1j, 1j / 3, -1 + 1j, -1 / 3], True, 24),
+}
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_what_is_usable_stays_on_the_path_between_the_points(shape):
+    corners, closed, number = SHAPES[shape]
+    line = np.append(corners, corners[:1]) if closed else np.array(corners)
+    at = np.concatenate([[0], np.abs(np.diff(line)).cumsum()])
+    z = np.interp(np.linspace(0, at[-1], number, endpoint=not closed), at, line)
+    points, diameter = np.column_stack([z.real, z.imag]), np.abs(z[:, None] - z).max()
+    found = synthesize(task(points, closed=closed))
+
+    def stray(each):
+        one = each.driver_first
+        pieces = travelled(one.first, one.second, each.error.places, closed)
+        return from_path(np.concatenate(pieces), z, closed).max()
+
+    if shape == "cross":  # no four-bar has such a curve, and that is said
+        assert (found.outcome.code, found.usable) == ("R352", ())
+        both = [max(stray(each), each.error.worst) for each in found.linkages]
+        assert both[0] < min(both) + 0.01 * diameter
+        return
+    assert found.outcome.code == "R350"
+    for each in found.usable:
+        assert stray(each) < 0.1 * diameter
+    if shape == "vee":
+        assert min(each.error.worst for each in found.usable) < 0.01
 
 
 def test_cognates_of_the_answer_trace_the_same_points():

@@ -143,6 +143,8 @@ def _linkages(rows: LinkageRows) -> Any:
     names = ("rms", "worst", "angle_rms_deg", "angle_worst_deg", "combined")
     for name in (*names, "transmission_deg", "extent", "sensitivity"):
         columns[name] = _numbers(getattr(rows, name))
+    for name in ("path_rms", "path_worst", "chamfer", "dtw"):  # poses are no path
+        columns[name] = pa.nulls(len(rows), pa.float64())
     return _struct(LINKAGE, columns)
 
 
@@ -195,6 +197,8 @@ def _linkage(data: Mapping[str, Any], ids: Mapping[str, int], way: str) -> dict[
     quality = data["quality"] or {}
     kinds = [each["kind"] for each in (*data["defects"], *data["unmet"])]
     own = data["dyads"] if data["driver"] != "second" else data["dyads"][::-1]
+    tracing = data.get("tracing") or {}
+    path = tracing.get("curve_to_path") or {}
     return {
         "first": ids.get(own[0]["id"]),
         "second": ids.get(own[1]["id"]),
@@ -207,6 +211,10 @@ def _linkage(data: Mapping[str, Any], ids: Mapping[str, int], way: str) -> dict[
         "combined": data["combined_error"],
         **{name: quality.get(name) for name in ("transmission_deg", "extent", "sensitivity")},
         "dyads": [_dyad(each, way) for each in own],
+        "path_rms": path.get("rms"),
+        "path_worst": path.get("max"),
+        "chamfer": tracing.get("chamfer"),
+        "dtw": tracing.get("dtw"),
     }
 
 

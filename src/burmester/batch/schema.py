@@ -50,6 +50,7 @@ LINKAGE: Final = pa.struct(
         *((name, _NUMBER) for name in ("rms", "worst", "angle_rms_deg", "angle_worst_deg")),
         *((name, _NUMBER) for name in ("combined", "transmission_deg", "extent", "sensitivity")),
         ("dyads", pa.list_(DYAD)),
+        *((name, _NUMBER) for name in ("path_rms", "path_worst", "chamfer", "dtw")),
     ]
 )
 GENERATOR: Final = pa.struct(

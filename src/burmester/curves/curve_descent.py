@@ -6,8 +6,9 @@ fixed (the foot of the normal moves along the curve).  Feet are followed from st
 they keep the order in which they began.  Timed, both components count, and the crank angles are
 given but for one phase.
 
-Sizes are bounded: without bounds some paths run away to infinitely long links.  The steps are those
-of `curve_kernel`.
+Between the points the curve may not leave their chords by more than is allowed; what it leaves them
+by beyond that counts as a distance does, and more.  Sizes are bounded: without bounds some paths
+run away to infinitely long links.  The steps are those of `curve_kernel`.
 """
 
 from __future__ import annotations
@@ -36,6 +37,8 @@ class PathTarget(NamedTuple):
     transmission: the least transmission angle at the feet, or over the whole turn, in radians, and
     ratio: the longest link over the shortest; what they are missed by counts much.
     unbroken: whether linkages have to assemble between the points of an open path as well.
+    allowed: (g, 2), how far the arcs between neighbouring points may leave their chords where the
+    points are met, and at most where they are missed, or None.
     """
 
     points: ComplexArray
@@ -45,6 +48,7 @@ class PathTarget(NamedTuple):
     transmission: float | None = None
     ratio: float = math.inf
     unbroken: bool = True
+    allowed: FloatArray | None = None
 
 
 class CurveFit(NamedTuple):
@@ -70,6 +74,8 @@ def descend(
     t, cost = np.array(start.t, dtype=np.float64, order="C"), np.empty(number)
     points = np.column_stack([target.points.real, target.points.imag, target.share])
     timing = np.empty(0) if target.timing is None else np.array(target.timing, dtype=np.float64)
+    none = np.empty((0, 2))
+    allowed = none if target.allowed is None else np.array(target.allowed, dtype=np.float64)
     cosine = 2.0 if target.transmission is None else math.cos(target.transmission)
     ratio = math.inf if target.transmission is None else target.ratio
     for at in range(0, number, AT_ONCE):
@@ -81,6 +87,7 @@ def descend(
             cost[some],
             points,
             timing,
+            allowed,
             target.turns,
             target.unbroken and not target.turns,
             cosine,

@@ -43,6 +43,10 @@ MAX_DAMPING = cython.declare(cython.double, 1e8)
 OLDER_SCALE = cython.declare(cython.double, 0.7)  # share of a column's unit kept from step to step
 LEAST_SCALE = cython.declare(cython.double, 1e-9)  # of the greatest column; a unit is no less
 TINY = cython.declare(cython.double, 2.3e-308)  # keeps what may be 0 from dividing by 0
+# Radians of the crank between two looks at an arc, and the number of looks in one at most.
+ARC_TURN = cython.declare(cython.double, 0.12)
+ARC_LOOKS = cython.declare(cython.int, 16)
+STRAY_WEIGHT = cython.declare(cython.double, 8.0)  # of what an arc leaves its chord by too much
 BUILT_WEIGHT = cython.declare(cython.double, 10.0)  # of squared cosines and logarithms, per point
 FULLNESS = cython.declare(cython.double, 1e-4)  # least margin of a full turn, in sums of lengths
 FULLNESS_STEPS = cython.declare(cython.int, 3)
@@ -123,7 +127,8 @@ class Descent:
     """A linkage on its way, and where a step from it would lead.
 
     points: (n, 3), x, y and the square root of the weight; t: (n,), the crank angles of the feet;
-    timing: (n,), the crank angles but for one phase, or (0,); turns and others: see `descend`.
+    missed: (n,), how far the points are from there; timing: (n,), the crank angles but for one
+    phase, or (0,); allowed, turns and others: see `descend`.
     last: whether crank angles go all the way to the feet; size: number of unknowns; cost: sum of
     squares; gradient, normal: half its derivatives, and the normal equations, their lower triangle.
     """
@@ -131,6 +136,7 @@ class Descent:
     coupler: Coupler
     points: cython.double[:, ::1]
     timing: cython.double[::1]
+    allowed: cython.double[:, ::1]
     turns: cython.bint
     unbroken: cython.bint
     cosine: cython.double
@@ -138,6 +144,7 @@ class Descent:
     last: cython.bint
     size: cython.int
     t: cython.double[::1]
+    missed: cython.double[::1]
     cost: cython.double
     row: cython.double[10]
     gradient: cython.double[10]
@@ -147,6 +154,7 @@ class Descent:
         self,
         points: cython.double[:, ::1],
         timing: cython.double[::1],
+        allowed: cython.double[:, ::1],
         turns: cython.bint,
         unbroken: cython.bint,
         cosine: cython.double,
@@ -154,9 +162,10 @@ class Descent:
     ) -> None:
         self.coupler = Coupler()
         self.points, self.timing, self.turns, self.unbroken = points, timing, turns, unbroken
+        self.allowed = allowed
         self.cosine, self.ratio, self.last = cosine, ratio, False
         self.size = SIZE + (timing.shape[0] > 0)
-        self.t = np.empty(points.shape[0])
+        self.t, self.missed = np.empty((2, points.shape[0]))
 
     @cython.cfunc
     @cython.exceptval(check=False)
@@ -179,6 +188,7 @@ class Descent:
             share: cython.double = self.points[n, 2]
             x: cython.double = share * (coupler.x - self.points[n, 0])
             y: cython.double = share * (coupler.y - self.points[n, 1])
+            self.missed[n] = hypot(coupler.x - self.points[n, 0], coupler.y - self.points[n, 1])
             if self.timing.shape[0]:
                 self.cost += x * x + y * y
                 self.add_along(x, share, 0.0)
@@ -199,12 +209,56 @@ class Descent:
         if self.unbroken and not self.passes():
             self.cost = INFINITY
             return
+        for n in range(self.allowed.shape[0]):
+            self.add_strays(n)
         if self.cosine < 1:
             self.add_transmission()
         if self.ratio < INFINITY:
             self.add_ratio()
         if not isfinite(self.cost):
             self.cost = INFINITY
+
+    @cython.cfunc
+    @cython.exceptval(check=False)
+    def add_strays(self, n: cython.Py_ssize_t) -> cython.void:
+        """Add by what the arc of a gap leaves its chord farther than is allowed, at a few angles.
+
+        A curve that misses the points beside the gap may leave the chord by as much more, up to a
+        bound.
+        The angles are followed as shares of the arc: where it is farthest from the chord, moving
+        along it changes nothing.
+        """
+        count: cython.Py_ssize_t = self.points.shape[0]
+        after: cython.Py_ssize_t = n + 1 if n + 1 < count else 0
+        turn: cython.double = self.t[after] - self.t[n]
+        if not after and self.turns:
+            turn += TURN if self.t[n] > self.t[0] else -TURN
+        looks: cython.int = int(min(fabs(turn) / ARC_TURN, ARC_LOOKS))
+        missed: cython.double = max(self.missed[n], self.missed[after])
+        if not looks and missed > self.allowed[n, 0]:
+            looks = 1
+        coupler = self.coupler
+        x: cython.double = self.points[n, 0]
+        y: cython.double = self.points[n, 1]
+        chord_x: cython.double = self.points[after, 0] - x
+        chord_y: cython.double = self.points[after, 1] - y
+        squared: cython.double = chord_x * chord_x + chord_y * chord_y + TINY
+        allowed: cython.double = min(self.allowed[n, 0] + missed, self.allowed[n, 1])
+        for k in range(looks):
+            if not coupler.look(self.t[n] + turn * (k + 1) / (looks + 1)):
+                self.cost = INFINITY
+                return
+            to_x: cython.double = coupler.x - x
+            to_y: cython.double = coupler.y - y
+            share: cython.double = (chord_x * to_x + chord_y * to_y) / squared
+            share = max(0.0, min(1.0, share))
+            to_x -= share * chord_x
+            to_y -= share * chord_y
+            away: cython.double = hypot(to_x, to_y)
+            lack: cython.double = STRAY_WEIGHT * (away - allowed)
+            if lack > 0:
+                self.cost += lack * lack
+                self.add_along(lack, STRAY_WEIGHT * to_x / away, STRAY_WEIGHT * to_y / away)
 
     @cython.cfunc
     @cython.exceptval(check=False)
@@ -445,6 +499,7 @@ def descend(
     cost: cython.double[:],
     points: cython.double[:, ::1],
     timing: cython.double[::1],
+    allowed: cython.double[:, ::1],
     turns: cython.bint,
     unbroken: cython.bint,
     cosine: cython.double,
@@ -455,12 +510,13 @@ def descend(
     """Move linkages (k, 9) with crank angles t (k, n) towards points (n, 3), and set costs (k,).
 
     points: x, y and the square root of the weight; timing: (n,), the crank angles but for one
-    phase, or (0,); turns: whether cranks go all the way round; unbroken: whether linkages assemble
-    between the points too; cosine, ratio: of the transmission
-    angle, and of the longest link over the shortest, at most; steps: at most; settled: relative
-    gain of the cost below which a step is the last.
+    phase, or (0,); allowed: (g, 2), how far the arcs of the gaps between neighbours may leave their
+    chords where the points are met, and at most, or (0, 2); turns: whether cranks go all the way
+    round; unbroken: whether linkages assemble between the points too; cosine, ratio: of the
+    transmission angle, and of the longest link over the shortest, at most; steps: at most;
+    settled: relative gain of the cost below which a step is the last.
     """
-    way: Descent = Descent(points, timing, turns, unbroken, cosine, ratio)
+    way: Descent = Descent(points, timing, allowed, turns, unbroken, cosine, ratio)
     here = cython.declare(cython.double[10])
     scale = cython.declare(cython.double[10])
     gradient = cython.declare(cython.double[10])

@@ -7,6 +7,7 @@ def descend(
     cost: FloatArray,
     points: FloatArray,
     timing: FloatArray,
+    allowed: FloatArray,
     turns: bool,
     unbroken: bool,
     cosine: float,

@@ -19,7 +19,14 @@ from burmester.curves.atlas import likenesses
 from burmester.curves.crank_linkages import CrankLinkages
 from burmester.curves.curve_descent import CurveFit, PathTarget, descend
 from burmester.curves.timed_paths import timed_starts
-from burmester.numerics.arrays import FloatArray, complex_of, even_numbers
+from burmester.fourbar.path_gaps import PathGaps, are_drawing
+from burmester.numerics.arrays import (
+    ComplexArray,
+    FloatArray,
+    complex_of,
+    even_numbers,
+    pairs_of,
+)
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import weights_of_mean_one
 from burmester.progress import goes_on, step
@@ -45,6 +52,8 @@ SAME_SHARE = 0.3  # of the root mean square distance; the same while curves are 
 # points outweigh it.
 STARTS_OF_LEVEL, ROUNDS_OF_LEVEL = 160, ((8, 60), (20, 20), (60, 12))
 LOWER, MARGIN, WIDE_MARGIN, RATIO_MARGIN = 15.0, 0.2, 1.0, 0.01
+# Of bulges that make no stray, where points are met, and at most: these are exceeded a little.
+ALLOWED_SHARE, MOST_SHARE = 0.98, 0.94
 KEPT = 12  # different curves that are given back
 
 
@@ -74,6 +83,7 @@ class PathSearch:
         closed: bool = False,
         crank_angles: FloatArray | None = None,
         weights: FloatArray | None = None,
+        any_order: bool = False,
     ) -> Self:
         """The search of a path.
 
@@ -88,6 +98,8 @@ class PathSearch:
             The crank angles at the points but for one phase, in radians.
         weights : (N,) array of float, optional
             Of the squared distances.
+        any_order : bool
+            The points may be met in any order, so that none is a neighbour of another.
         """
         step("looking for coupler curves like the path")
         given = complex_of(np.asarray(points, dtype=np.float64))
@@ -98,9 +110,12 @@ class PathSearch:
         timing = None if crank_angles is None else np.asarray(crank_angles, dtype=np.float64)
         index = even_numbers(len(every), MAX_SEARCHED_POINTS)
         some = None if timing is None else timing[index]
-        part = PathTarget(every[index], share[index], closed, some)
+        drawn = are_drawing(len(every), closed=closed, timed=timing is not None) and not any_order
+        part, whole = (
+            PathTarget(z, w, closed, t, allowed=_allowed(z, closed) if drawn else None)
+            for z, w, t in ((every[index], share[index], some), (every, share, timing))
+        )
         linkages, t, _ = likenesses(part.points, closed, max(MOST_ALIKE, STARTS, OPEN_STARTS))
-        whole = PathTarget(every, share, closed, timing)
         return cls(whole, part, index, size, middle, CurveFit(linkages, t, np.zeros(len(t))))
 
     def nearest(
@@ -212,6 +227,13 @@ class PathSearch:
         middle = np.full(number, self.middle)
         linkages = fit.linkages.moved(np.full(number, self.size + 0j), middle)
         return CurveFit(linkages, fit.t, fit.cost * self.size**2)
+
+
+def _allowed(points: ComplexArray, closed: bool) -> FloatArray:
+    """How far arcs (g,) between points (n,) may leave their chords in the search: (g, 2)."""
+    gaps = PathGaps.of(pairs_of(points), closed=closed)
+    met = ALLOWED_SHARE * gaps.allowed()
+    return np.stack([met, np.maximum(met, MOST_SHARE * gaps.allowed(math.inf))], axis=-1)
 
 
 def _timed(fit: CurveFit, target: PathTarget) -> CurveFit:

@@ -25,6 +25,7 @@ from burmester.verdicts.ranking import (
     states_tolerance,
 )
 from burmester.verdicts.tolerance_words import most_used
+from burmester.verdicts.tracing import Tracing
 from burmester.verdicts.uncertainty import pose_sigma
 from burmester.wording import figure, listed, with_article
 
@@ -41,6 +42,7 @@ __all__ = [
     "rounding_note",
     "standard_note",
     "tolerance_note",
+    "tracing_note",
     "type_doubt",
     "type_note",
     "uncertainty_note",
@@ -212,6 +214,7 @@ def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
         clearance_note,
         pose_tolerance_note,
         tolerance_note,
+        tracing_note,
         rounding_note,
     )
     return [text for note in every if (text := note(synthesis, found)) is not None]
@@ -241,6 +244,22 @@ def clearance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     if found.clearance is None or found.clearance.touches:
         return None
     return f"Clearance: {clearance_in_words(found.clearance, synthesis.problem)}."
+
+
+def tracing_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """How near points and curve are to each other, both ways, where points are traced."""
+    traced = Tracing.of(found, synthesis.task)
+    if traced is None:
+        return None
+    (rms, most), (path_rms, path_most) = traced.to_curve, traced.to_path
+    unit = f" {synthesis.task.length_unit}" if synthesis.task.length_unit else ""
+    points = f"misses the points by {figure(rms)} rms and {figure(most)}{unit} at most"
+    if explanation.meets_exactly(found, synthesis.length):
+        points = "passes the points exactly"
+    return (
+        f"The curve of {found.id} {points}; between them it leaves the path by {figure(path_rms)} "
+        f"rms and {figure(path_most)}{unit} at most."
+    )
 
 
 def dyads_title(synthesis: Synthesis) -> str:

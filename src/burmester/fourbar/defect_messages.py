@@ -27,7 +27,7 @@ __all__ = [
     "undetermined_defect",
 ]
 
-DefectKind: TypeAlias = Literal["assembly", "circuit", "branch", "order", "degenerate"]
+DefectKind: TypeAlias = Literal["assembly", "circuit", "branch", "order", "degenerate", "stray"]
 
 MAX_NAMES: Final = 6  # poses, ranges of poses, or pairs of poses that one message lists
 MAX_ORDER: Final = 12  # poses whose order is told one by one; of more, runs in order are one
@@ -42,8 +42,9 @@ class Defect:
     """A reason why a linkage does not lead through the poses.
 
     poses: the numbers, from 0, of the poses concerned: those missed (assembly), on the circuit with
-        fewer poses (circuit), on both sides of a dead point (branch), out of order (order); none
-        where the dimensions themselves are at fault (degenerate).
+        fewer poses (circuit), on both sides of a dead point (branch), out of order (order), on
+        both sides of gaps in which the path is left (stray); none where the dimensions themselves
+        are at fault (degenerate).
     certain: False where rounding or a nearby dead point leaves the verdict open.
     """
 

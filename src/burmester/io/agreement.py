@@ -219,7 +219,7 @@ def _task_parts(result: WrittenResult, task: Task) -> _Parts:
             yield _Part(keys, code, f"{'a' if given else 'no'} usable linkage as given")
     elif result.linkages and code == "R303":
         yield _Part(keys, code, "linkages")
-    elif usable is not (code in WORKING) and code in (*WORKING, *NOT_USABLE, *NONE, "R351"):
+    elif usable is not (code in WORKING) and code in (*WORKING, *NOT_USABLE, *NONE, "R351", "R352"):
         yield _Part(keys, code, "a usable linkage" if usable else "no usable linkage")
 
 

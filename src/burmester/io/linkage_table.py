@@ -61,6 +61,8 @@ def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
     """The closest linkages where none is usable, else none."""
     if synthesis.usable:
         return []
+    if synthesis.outcome.code == "R352":  # they are ranked so
+        return list(synthesis.linkages[:CLOSEST])
     return explanation.by_nearness(synthesis.linkages, synthesis.length)[:CLOSEST]
 
 
@@ -188,6 +190,7 @@ def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Itera
         sentences.clearance_note,
         sentences.pose_tolerance_note,
         sentences.tolerance_note,
+        sentences.tracing_note,
         sentences.rounding_note,
     )
     for note in (digits, uncertainty, sentences.type_note, *made):

@@ -38,6 +38,7 @@ from burmester.tasks.rails import Rail
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.price_list import price_list
+from burmester.verdicts.tracing import Tracing
 
 if TYPE_CHECKING:  # few results hold any of these
     from burmester.certificates.certificate import Certificate
@@ -72,6 +73,7 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
             {
                 **linkage_data(each, tolerance),
                 **_cognates(synthesis, each),
+                **_tracing(synthesis, each),
                 **_beside_given(synthesis, each),
             }
             for each in synthesis.linkages
@@ -148,6 +150,22 @@ def _cognates(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:
         if each.links is not None
     ]
     return {"cognates": told} if told else {}
+
+
+def _tracing(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:
+    """How near points and curve are both ways, where points are traced in their order."""
+    traced = Tracing.of(found, synthesis.task)
+    if traced is None:
+        return {}
+    (rms, most), (path_rms, path_most) = traced.to_curve, traced.to_path
+    return {
+        "tracing": {
+            "points_to_curve": {"rms": rms, "max": most},
+            "curve_to_path": {"rms": path_rms, "max": path_most},
+            "chamfer": traced.chamfer,
+            "dtw": traced.dtw,
+        }
+    }
 
 
 def _beside_given(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:

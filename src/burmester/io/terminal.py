@@ -138,7 +138,8 @@ def _no_answer(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Con
     draw(message("result", outcome.code, outcome.message, width=console.width), console)
     if three:
         print_trimmed(linkage_table.unusable(synthesis, three, console.width), console)
-    if outcome.why and (synthesis.family is not None or synthesis.causes or not three):
+    told = synthesis.family is not None or synthesis.causes or outcome.code == "R352"
+    if outcome.why and (told or not three):
         draw(note("why", outcome.why, console.width), console)
     if outcome.help:
         draw(note("help", outcome.help, console.width), console)

@@ -43,6 +43,7 @@ from burmester.verdicts.requirement_check import Violation, places_between, viol
 from burmester.verdicts.standard import Standard
 from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
+from burmester.verdicts.tracing import stray_defects, stray_shortcomings
 from burmester.verdicts.uncertainty import (
     DETERMINED_SHARE,
     covariance,
@@ -224,6 +225,9 @@ class Evaluation:
                 within_tolerance=None if shares is None else shares[k],
             )
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
+        for k, strays in enumerate(stray_shortcomings(out, self.task)):
+            if strays:
+                out[k] = replace(out[k], shortcomings=(*out[k].shortcomings, *strays))
         if quality:
             out = self._with_quality(out, places, sensitivity)
         rows = np.arange(len(own))[:, None]
@@ -361,6 +365,7 @@ class Evaluation:
                 in_words_of_tolerances(verdict, share, names)
                 for verdict, share in zip(verdicts, shares, strict=True)
             ]
+        verdicts = stray_defects(own, verdicts, self.task, names)
         if list(numbers) != list(range(len(numbers))):
             verdicts = [_with_numbers(verdict, numbers) for verdict in verdicts]
         if self.target.path is not None and self.target.path.closed:

@@ -43,6 +43,7 @@ from burmester.verdicts.ranking import (
     ranked,
 )
 from burmester.verdicts.standard import Standard
+from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count, figure
 
 __all__ = ["near_points", "with_tolerance"]
@@ -252,7 +253,10 @@ def _evaluated(task: Task, found: PathLinkages, options: SynthesisOptions) -> li
     judged = _members(evaluation, found, np.flatnonzero(near))
     if not any(each.usable for each in judged):
         judged += _members(evaluation, found, np.flatnonzero(~near))
-    return ranked(judged, problem)
+    judged = ranked(judged, problem)
+    if not any(each.usable for each in judged):
+        judged = nearest_both_ways(judged, task)
+    return judged
 
 
 def _may_be_inside(task: Task, found: PathLinkages) -> NDArray[np.bool_]:
@@ -352,8 +356,10 @@ def _outcome(
 ) -> Outcome:
     points, usable = count(task.poses.shape[0], "point"), [e for e in linkages if e.usable]
     timed = " at their crank angles" if path.crank_angles is not None else ""
+    if not usable and all(map(strays, linkages)):
+        return _all_stray(task, linkages)
     if not usable:
-        nearest = min(linkages, key=lambda each: each.combined_error)
+        nearest = min(linkages, key=lambda each: (strays(each), each.combined_error))
         return Outcome(
             "R351",
             f"no usable linkage: {count(len(linkages), 'four-bar')} near {points}{timed}, none of "
@@ -392,6 +398,22 @@ def _what_would_do(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) 
 def _nearest_too_far(linkages: Sequence[FoundLinkage]) -> FoundLinkage | None:
     """The nearest linkage that would work if the points might be missed by more."""
     return min(filter(only_too_far, linkages), key=lambda each: each.combined_error, default=None)
+
+
+def _all_stray(task: Task, linkages: Sequence[FoundLinkage]) -> Outcome:
+    """R352, with the linkage that is nearest both ways, which comes first."""
+    nearest, points = linkages[0], count(task.poses.shape[0], "point")
+    traced = Tracing.of(nearest, task)
+    away = length_of(nearest.error.worst, task)
+    left = "" if traced is None else f" and leaves the path by {length_of(traced.to_path[1], task)}"
+    return Outcome(
+        "R352",
+        f"no usable linkage: each of {count(len(linkages), 'four-bar')} near {points} leaves the "
+        "path between some of them",
+        "round the corners of the path, or trace a part of it; if the curve may go anywhere "
+        "between the points, say so with --any-order",
+        f"the nearest both ways, {nearest.id}, misses the points by {away}{left} at most",
+    )
 
 
 def _none(task: Task, options: SynthesisOptions, findings: Sequence[Advice]) -> Synthesis:

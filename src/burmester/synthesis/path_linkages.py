@@ -90,7 +90,11 @@ def linkages_near(task: Task, path: TracedPath, options: SynthesisOptions) -> Pa
     if is_timed_exactly(task, path):
         return _timed_exactly(points, path)
     search = PathSearch.of(
-        points, closed=path.closed, crank_angles=path.crank_angles, weights=task.weights
+        points,
+        closed=path.closed,
+        crank_angles=path.crank_angles,
+        weights=task.weights,
+        any_order=task.requirements.any_order,
     )
     starts: list[tuple[CrankLinkages, FloatArray]] = []
     asked = options.nine_point_starts and not (path.closed or timed)
