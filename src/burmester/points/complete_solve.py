@@ -91,6 +91,7 @@ def _ends(case: Case, positions: Positions, number: int) -> _Ends:
             start.positions,
             positions,
             accuracy=ACCURACY * FINER,
+            watch=watch,
         )
         more, more_turns, miss = polished(finer.x, finer.turns, positions)
         some = finer.arrived & (miss < SETTLED)

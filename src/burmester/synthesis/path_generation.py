@@ -24,6 +24,12 @@ from burmester.numerics.bundles import take
 from burmester.progress import step
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.path_linkages import PathLinkages, is_timed_exactly, linkages_near
+from burmester.synthesis.point_conditions import special_curve
+from burmester.synthesis.point_generation import (
+    is_traced_by_crank,
+    missed_on_curve,
+    none_on_curve,
+)
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import MOST_POINTS, Task
 from burmester.tasks.notation import length_of, span
@@ -44,7 +50,6 @@ MOST_TOLD = 12  # linkages that are told
 ALIKE_ERROR, ALIKE_ANGLE = 0.01, math.radians(0.5)  # of the greatest error; radians; no difference
 SAME = 0.01  # spans of the path; linkages whose pivots and links differ by less are listed once
 EXACT = 1e-7  # spans of the path; points that are missed by less are met
-LEAST_DIFFERENT = 3  # points that make a path
 
 
 def near_points(
@@ -55,11 +60,15 @@ def near_points(
     The task's positions are the points; its angles are free and count for nothing.  Its `path` says
     whether it is closed and how the crank times it.
     """
-    task = _once(task)
     path = task.path or TracedPath()
     step(f"looking at {count(len(task.poses.angle), 'point')}")
     if not span(task) > 0:
         return _none(task, options, findings)
+    if (special := special_curve(task)) is not None:
+        if is_traced_by_crank(special, task):
+            problem = SynthesisProblem.of(task, None, options)
+            return Synthesis(problem, none_on_curve(special, task), warnings=tuple(findings))
+        findings = (*findings, missed_on_curve(special, task))
     found = linkages_near(task, path, options)
     if not len(found.batch):
         return _none(task, options, findings)
@@ -82,7 +91,6 @@ def with_tolerance(task: Task, options: SynthesisOptions) -> tuple[Task, list[Ad
 
     Where none is stated, the nearest linkages are looked for, as they say what is assumed.
     """
-    task = _once(task)
     path = task.path or TracedPath()
     if _stated(task, path) is None and span(task) > 0:
         found = linkages_near(task, path, options)
@@ -92,22 +100,6 @@ def with_tolerance(task: Task, options: SynthesisOptions) -> tuple[Task, list[Ad
     if position is None:
         position = np.full((len(task.poses.angle), 2), LEAST_ASSUMED * span(task))
     return replace(task, tolerances=_of_points(position)), []
-
-
-def _once(task: Task) -> Task:
-    """The task without points that repeat the one before, whose weights add up.
-
-    Points with crank angles stay: a crank may turn while the point rests.
-    """
-    points = task.poses.translation
-    new = np.concatenate([[True], (np.diff(points, axis=0) != 0).any(axis=1)])
-    timed = task.path is not None and task.path.crank_angles is not None
-    if new.all() or timed or new.sum() < LEAST_DIFFERENT:
-        return task
-    index, group = np.flatnonzero(new), np.cumsum(new) - 1
-    weights = np.ones(len(points)) if task.weights is None else task.weights
-    total = np.asarray(np.bincount(group, weights=weights), dtype=np.float64)
-    return replace(task.at(index, total), exact=None, path=task.path or TracedPath())
 
 
 def _with_tolerance(task: Task, found: PathLinkages, path: TracedPath) -> tuple[Task, list[Advice]]:
@@ -140,7 +132,8 @@ def _stated(task: Task, path: TracedPath) -> FloatArray | None:
 def _are_few(task: Task, path: TracedPath) -> bool:
     """Whether infinitely many linkages pass the points, one way or the other."""
     untimed = path.crank_angles is None and not path.closed
-    return untimed and len(task.poses.angle) + task.pivot_conditions < MOST_POINTS
+    few = untimed and len(task.poses.angle) + task.pivot_conditions < MOST_POINTS
+    return few and special_curve(task) is None
 
 
 def _of_points(position: FloatArray) -> PoseTolerances:
