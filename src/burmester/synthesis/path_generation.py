@@ -161,8 +161,11 @@ def _judged(evaluation: Evaluation, found: PathLinkages) -> list[FoundLinkage]:
     judged = _members(evaluation, found, np.flatnonzero(near))
     if not any(each.usable for each in judged):
         judged += _members(evaluation, found, np.flatnonzero(~near))
-    judged = ranked(judged, evaluation.problem)
-    return _front(_different(judged, SAME, span(evaluation.task)))
+    task = evaluation.task
+    judged = _different(ranked(judged, evaluation.problem), SAME, span(task))
+    if is_timed_exactly(task, task.path or TracedPath()):
+        return judged  # they are few: all that there are
+    return _front(judged)
 
 
 def _may_be_inside(task: Task, found: PathLinkages) -> NDArray[np.bool_]:
