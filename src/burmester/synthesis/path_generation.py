@@ -34,6 +34,7 @@ from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import MOST_POINTS, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.traced_path import TracedPath
@@ -47,6 +48,7 @@ __all__ = ["near_points", "with_tolerance"]
 ASSUMED_RATIO = 2.0  # of the assumed tolerance to the worst distance of the nearest linkage
 LEAST_ASSUMED = 1e-4  # spans of the path; a smaller tolerance is not assumed
 MOST_TOLD = 12  # linkages that are told
+MOST_JUDGED = 2000  # points; of more a sample says which linkages are judged at all of them
 ALIKE_ERROR, ALIKE_ANGLE = 0.01, math.radians(0.5)  # of the greatest error; radians; no difference
 SAME = 0.01  # spans of the path; linkages whose pivots and links differ by less are listed once
 EXACT = 1e-7  # spans of the path; points that are missed by less are met
@@ -75,7 +77,7 @@ def near_points(
     given, note = _with_tolerance(task, found, path)
     problem = SynthesisProblem.of(given, None, options)  # the angles say nothing of a motion
     evaluation = Evaluation(problem, target_of(problem))
-    judged = _judged(evaluation, found)
+    judged = _judged(evaluation, _by_sample(evaluation, found))
     if options.rounds:
         judged = evaluation.rounded(judged)
     judged = evaluation.with_spreads(judged)
@@ -166,6 +168,25 @@ def _judged(evaluation: Evaluation, found: PathLinkages) -> list[FoundLinkage]:
     if is_timed_exactly(task, task.path or TracedPath()):
         return judged  # they are few: all that there are
     return _front(judged)
+
+
+def _by_sample(evaluation: Evaluation, found: PathLinkages) -> PathLinkages:
+    """Of linkages near very many points those that are worth judging at all, by a sample of them.
+
+    All of them where none is usable there.
+    """
+    task, problem = evaluation.task, evaluation.problem
+    if len(task.poses.angle) <= MOST_JUDGED:
+        return found
+    sample = PoseSample.of_task(task, MOST_JUDGED)
+    few = SynthesisProblem.of(task.at(sample.index, sample.cells), None, problem.options)
+    there = found._replace(places=found.places[:, sample.index])
+    judged = _judged(Evaluation(few, target_of(few)), there)
+    if not any(each.usable for each in judged):
+        return found
+    # `_members` numbers the dyads of each by its place.
+    index = [(int(each.dyads[0].id[1:]) - 1) // 2 for each in judged]
+    return take(found, np.array(index, dtype=np.intp))
 
 
 def _may_be_inside(task: Task, found: PathLinkages) -> NDArray[np.bool_]:
