@@ -28,8 +28,10 @@ from burmester.tasks.pose_sample import PoseSample
 
 __all__ = ["PathSearch"]
 
-# A search takes so many points, the refinement of what it finds so many, and the last steps all.
-MAX_SEARCHED_POINTS, MAX_FITTED_POINTS, STEPS_BY_ALL = 60, 200, 4
+# A search takes so many points, the refinement of what it finds so many, and the last steps all:
+# so many feet of a linkage, in at least and at most so many steps.
+MAX_SEARCHED_POINTS, MAX_FITTED_POINTS = 60, 200
+FEET_BY_ALL, STEPS_BY_ALL = 200_000, (4, 400)
 MOST_ALIKE, FEW_STEPS = 3000, 2  # curves of the atlas laid over the path, and steps that sort them
 STARTS = 800  # curves of the atlas that are refined
 # The same of open paths, and points times starts: many curves are like an arc of few points.
@@ -143,7 +145,8 @@ class PathSearch:
         fit = _different(fit, whole, most)
         if len(whole.points) < len(self.every.points):
             fit = _at_others(fit, self.fitted, np.arange(len(self.every.points)))
-            fit = _best(descend(fit, self.every, STEPS_BY_ALL), len(fit.cost))
+            steps = int(np.clip(FEET_BY_ALL // len(self.every.points), *STEPS_BY_ALL))
+            fit = _best(descend(fit, self.every, steps), len(fit.cost))
         return self._in_unit(fit)
 
     def like_path(self) -> CurveFit:

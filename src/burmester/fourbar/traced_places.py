@@ -135,32 +135,25 @@ def places_along(
     few = [way._replace(positions=way.positions[some]) for way in ways]
     near = None if boxes is None else boxes.at(some)
     rows = _at_feet(samples, few, wanted[some], length, near, any_order=any_order)
-    best = _best_ways(batch, samples, ways, rows, wanted[some], share[some], length)
+    misses = np.sqrt(_squares(rows, wanted[some]) @ share[some] / share[some].sum())
+    linkage = samples.row[[each.stretch.circuit for each in ways]]
+    best = _best_ways(linkage, misses, _clear(batch[linkage], rows, length))
     rows = rows[best]
     if len(some) < len(wanted):
         one = [ways[index] for index in best]
         rows = _at_feet(samples, one, wanted, length, boxes, any_order=any_order)
-    out[samples.row[[ways[index].stretch.circuit for index in best]]] = rows
+    out[linkage[best]] = rows
     out[..., 2] = np.unwrap(out[..., 2], period=2 * math.pi * length, axis=-1)
     return out
 
 
 def _best_ways(
-    batch: LinkageBatch,
-    samples: _Samples,
-    ways: list[_Way],
-    rows: FloatArray,
-    wanted: ComplexArray,
-    share: FloatArray,
-    length: float,
+    linkage: NDArray[np.intp], misses: FloatArray, clear: NDArray[np.bool_]
 ) -> list[int]:
-    """The numbers of the ways that are taken, one for each linkage that has some.
+    """The number of the way that each linkage takes, of ways (w,) with their linkages.
 
-    rows: (w, m, 3), the feet on the ways of points (m,), the path's own or an even part of them.
+    misses: (w,), root mean square distances; clear: (w,), of dead points of one driver.
     """
-    misses = np.sqrt(_squares(rows, wanted) @ share / share.sum())
-    linkage = samples.row[[each.stretch.circuit for each in ways]]
-    clear = _clear(batch[linkage], rows, length)
     out = []
     for k in np.unique(linkage):
         own = np.flatnonzero(linkage == k)
