@@ -31,6 +31,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
 from burmester.io.saved import SavedLinkage
+from burmester.refinement.tolerance_boxes import poses_counted
 
 __all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
 
@@ -146,7 +147,7 @@ def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
     }
     if (links := linkage.links) is not None:
         data["links"] = {name: float(length) for name, length in links._asdict().items()}
-    data["poses"] = poses_data(chosen.task.poses)
+    data["poses"] = poses_data(poses_counted(chosen.error.places, chosen.task))
     data["coupler"] = poses_data(chosen.error.places)
     data["position_error"] = {"max": float(chosen.error.position.max())}
     data["angle_error_deg"] = {"max": math.degrees(float(chosen.error.angle.max()))}

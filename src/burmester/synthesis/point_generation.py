@@ -237,11 +237,23 @@ def _of_special_points(special: PointSet) -> Advice:
 
 def _lost(found: PointLinkages) -> Advice:
     """W223, for linkages that were not found."""
+    reached = (
+        f"points in general position have {found.classes:,}, counted with complex ones; "
+        f"{found.found:,} were reached from {count(found.systems, 'solved problem')}"
+    )
+    if found.family:
+        return Advice(
+            "W223",
+            f"{found.lost} of {found.classes:,} solutions were not found: families of infinitely "
+            "many, complex ones counted, take the place of some, and none of these is listed",
+            "leave out a point: good linkages are then chosen from infinitely many; or move one "
+            "a little",
+            f"{reached}; points that are symmetric, or of which two are one, leave families",
+        )
     return Advice(
         "W223",
         f"{found.lost} of {found.classes:,} solutions were not found; a real linkage may be among "
         "them",
         "move a point a little, and compare",
-        f"points in general position have {found.classes:,}, counted with complex ones; "
-        f"{found.found:,} were reached from {count(found.systems, 'solved problem')}",
+        reached,
     )
