@@ -981,6 +981,14 @@ CASES: dict[str, Case] = {
         lambda help: Args("export result.json -o a.svg " + re.search(r"--hole \S+", help)[0]),
         {"result.json": lambda: result(TEN)},
     ),
+    "lengths in px": Case(
+        "E162",
+        "export result.json -o a.svg",
+        lambda help: Args(
+            "export result.json -o a.svg " + re.search(r"--length-unit \S+", help)[0]
+        ),
+        {"result.json": lambda: result(TEN.replace("x_mm,y_mm", "x_px,y_px"))},
+    ),
     "a file that went wrong": Case(
         "E160",
         lambda: checked(lambda text: text.replace("CRANK = 1", "CRANK = 2")),
@@ -1134,6 +1142,13 @@ CASES: dict[str, Case] = {
         S,
         Write("poses.csv", rows(MIXED)),
         {"poses.csv": rows("0,0,0 20,5,10 30,20,20 30,40, 40,30, 50,0, 0,50,")},
+        exit=1,
+    ),
+    "a family in the place of solutions": Case(
+        "W223",
+        S,
+        Write("poses.csv", rows(MIXED)),
+        {"poses.csv": rows("0,0,0 20,5,10 10,30, 30,22,10 10,30, 33,41,35")},
         exit=1,
     ),
     "solutions that are not there": Case(

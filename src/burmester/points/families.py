@@ -26,7 +26,7 @@ MOST: Final = 1e3  # a linkage with greater numbers is on its way to infinity
 def is_in_family(x: ComplexArray, turns: ComplexArray, positions: Positions) -> bool:
     """Whether a linkage near x (8,), turns (J,) is one of infinitely many that meet a problem."""
     free = positions.further_poses
-    own = _met(np.concatenate([x, turns[free:]]), positions, np.empty((0, 0)), 0.0)
+    own = _met(np.concatenate([x, turns[free:]]), positions, np.empty(0, dtype=complex), 0.0)
     if own is None:
         return False
     _, rows = _equations(own, positions)
