@@ -169,3 +169,17 @@ def test_neighbours_that_noise_exchanged_share_a_place_within_the_tolerance():
     one = found[0.8][0].driver_first
     turn = places(one.first, one.second, np.linspace(0, 2 * np.pi, 721))[0]
     assert np.isfinite(turn).all()
+
+
+def test_a_path_with_a_repeat_has_the_answer_of_the_path_without_it():
+    x = np.array([-4.0, -3, -2, -1, 1, 2, 3, 4])
+    points = np.column_stack([x, [0, 1, 1.6, 2, 2, 1.6, 1, 0]])
+    answers = []
+    for index in (np.arange(8), [0, 1, 2, 3, 3, 4, 5, 6, 7]):
+        some = points[index]
+        exact = PoseTolerances(np.zeros((len(some), 2)), np.full(len(some), np.inf))
+        found = synthesize(Task(Displacement(some, np.zeros(len(some))), tolerances=exact))
+        told = sorted((*each.linkage.links, each.driven.least_over_range) for each in found.usable)
+        answers.append(np.array(told))
+    assert len(answers[0]) == 2  # each is the other in a mirror
+    assert answers[1] == pytest.approx(answers[0], rel=1e-6)

@@ -39,7 +39,7 @@ WAYS_AT_ONCE, POINTS_AT_ONCE = 128, 2000  # bound the memory
 MOST_WEIGHED: Final = 400  # points by which the ways are compared; the others go along the best
 # Of a smooth measure: rounds before its parabola is followed, in so many steps; the reach of each
 # is this share of that before; a parabola may promise too much by so much, relative.
-FIRST_ROUNDS, PARABOLAS, CLOSER, PROMISED = 1, 3, 1 / 30, 1e-9
+FIRST_ROUNDS, PARABOLAS, CLOSER, PROMISED = 1, 4, 1 / 30, 1e-9
 
 
 class _Samples(NamedTuple):

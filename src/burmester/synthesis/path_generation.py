@@ -52,6 +52,7 @@ MOST_JUDGED = 2000  # points; of more a sample says which linkages are judged at
 ALIKE_ERROR, ALIKE_ANGLE = 0.01, math.radians(0.5)  # of the greatest error; radians; no difference
 SAME = 0.01  # spans of the path; linkages whose pivots and links differ by less are listed once
 EXACT = 1e-7  # spans of the path; points that are missed by less are met
+ROUNDING = 1e-6  # relative; extents that differ by less are alike
 
 
 def near_points(
@@ -167,7 +168,7 @@ def _judged(evaluation: Evaluation, found: PathLinkages) -> list[FoundLinkage]:
     judged = _different(ranked(judged, evaluation.problem), SAME, span(task))
     if is_timed_exactly(task, task.path or TracedPath()):
         return judged  # they are few: all that there are
-    return _front(judged)
+    return _front(judged, EXACT * span(task))
 
 
 def _by_sample(evaluation: Evaluation, found: PathLinkages) -> PathLinkages:
@@ -219,11 +220,11 @@ def _members(
     return evaluation.members(candidates)
 
 
-def _front(found: Sequence[FoundLinkage]) -> list[FoundLinkage]:
+def _front(found: Sequence[FoundLinkage], met: float) -> list[FoundLinkage]:
     """The usable linkages that no other one beats in distance, transmission and extent at once.
 
     In their order, MOST_TOLD of them at most, the nearest one among these; where none is usable,
-    all of them.
+    all of them.  met: points that are missed by less are met.
     """
     usable = [each for each in found if each.usable and each.quality is not None]
     if not usable:
@@ -235,7 +236,8 @@ def _front(found: Sequence[FoundLinkage]) -> list[FoundLinkage]:
             if each.quality is not None
         ]
     )
-    slack = np.array([ALIKE_ERROR * figures[:, 0].max(), ALIKE_ANGLE, 0.0])
+    error = max(ALIKE_ERROR * figures[:, 0].max(), met)
+    slack = np.array([error, ALIKE_ANGLE, ROUNDING * figures[:, 2].max()])
     beaten = (figures[:, None] > figures[None] - slack).all(axis=-1) & (
         figures[:, None] > figures[None] + slack
     ).any(axis=-1)
