@@ -233,6 +233,16 @@ def test_dimensions_are_in_the_unit_of_the_task():
     assert assembly_of(saved("slider-crank, no unit"), Options()).assumed
 
 
+def test_lengths_in_px_need_a_unit_where_they_are_made():
+    drawn = saved("slider-crank, no unit")
+    drawn = replace(drawn, task=replace(drawn.task, length_unit="px"))
+    with pytest.raises(InputError, match="how long one px is") as caught:
+        assembly_of(drawn, Options())
+    assert caught.value.help.endswith("--length-unit mm")
+    made = assembly_of(drawn, Options(unit="cm"))
+    assert made.plate("driver").holes[1, 0] == pytest.approx(10, abs=1e-12)
+
+
 def test_arcs_are_those_of_circles():
     made = assembly_of(saved("crank-rocker, mm"), Options())
     r = made.dimensions.width / 2

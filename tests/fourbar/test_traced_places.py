@@ -67,3 +67,21 @@ def test_exchanged_neighbours_share_a_place_inside_their_tolerances(seed, sense,
     assert boxes.share(rows).max() <= 1
     rows, _ = places(dyads, points, 0.4 * gap)  # no place is inside both
     assert (sense * steps_of_crank(dyads, rows)).min() < -1e-4
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_feet_of_many_points_are_the_nearest_places(seed):
+    """Beside a curve that is drawn by the witness in 20,000 places, on both sides and past ends."""
+    dyads, fine = drawn(seed, np.linspace(0, 2 * np.pi, 20_000, endpoint=False))
+    rng = np.random.default_rng(seed)
+    at = np.sort(rng.integers(0, 20_000, 700))
+    size = np.ptp(fine, axis=0).max()
+    points = fine[at] + 1e-3 * size * rng.normal(size=(700, 2))
+    (rows,) = places_along(LinkageBatch.of([Linkage(*dyads)]), points, 1.0)
+    told = np.linalg.norm(rows[:, :2] - points, axis=1)
+    beside = (at[:, None] + np.arange(-400, 401)) % 20_000
+    chord = fine[(beside + 1) % 20_000] - fine[beside]
+    to = points[:, None] - fine[beside]
+    along = np.clip((to * chord).sum(axis=2) / (chord**2).sum(axis=2), 0, 1)
+    least = np.linalg.norm(to - along[..., None] * chord, axis=2).min(axis=1)
+    assert told == pytest.approx(least, abs=1e-7 * size)

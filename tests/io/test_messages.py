@@ -986,6 +986,14 @@ CASES: dict[str, Case] = {
         lambda help: Args("export result.json -o a.svg " + re.search(r"--hole \S+", help)[0]),
         {"result.json": lambda: result(TEN)},
     ),
+    "lengths in px": Case(
+        "E162",
+        "export result.json -o a.svg",
+        lambda help: Args(
+            "export result.json -o a.svg " + re.search(r"--length-unit \S+", help)[0]
+        ),
+        {"result.json": lambda: result(TEN.replace("x,y", "x_px,y_px", 1))},
+    ),
     "a file that went wrong": Case(
         "E160",
         lambda: checked(lambda text: text.replace("CRANK = 1", "CRANK = 2")),
@@ -1146,6 +1154,13 @@ CASES: dict[str, Case] = {
         S,
         Write("poses.csv", rows(MIXED)),
         {"poses.csv": rows("0,0,10 20,5,10 30,22,10 33,41,35 44,63, 71,51,")},
+        exit=1,
+    ),
+    "a family in the place of solutions": Case(
+        "W223",
+        S,
+        Write("poses.csv", rows(MIXED)),
+        {"poses.csv": rows("0,0,0 20,5,10 10,30, 30,22,10 10,30, 33,41,35")},
         exit=1,
     ),
     "little rotation": Case(

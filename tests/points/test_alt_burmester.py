@@ -100,3 +100,14 @@ def test_random_starts_find_nothing_new(case):
     seen = pivots_from_random_starts(positions, poses.angle, is_point, 200, rng)
     assert len(seen) > 3
     assert not len(lacking(found.batch.dimensions[:, :, :4], seen, 1e-4))
+
+
+@pytest.mark.parametrize("repeated", [False, True])
+def test_a_family_is_told_where_one_condition_is_there_twice(repeated):
+    """A point that is there twice leaves one condition too few: a curve of linkages."""
+    poses, is_point, _ = problem(Case(4, 2), 2)
+    if repeated:
+        poses = poses[[0, 1, 2, 3, 4, 4]]
+    found = linkages_through(poses, is_point)
+    assert found.family == repeated
+    assert bool(found.lost) == repeated

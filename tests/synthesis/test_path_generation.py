@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
+from burmester.curves.timed_paths import linkages_of_five_points
 from burmester.describe.digits import worst_errors
 from burmester.fourbar.cognates import cognates
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.synthesis.motion_generation import synthesize
@@ -155,6 +157,40 @@ def test_timed_points(count):
         assert np.degrees(best.driven.least_over_range) > 45
     else:
         assert best.error.worst < 1e-9
+        batch, _ = linkages_of_five_points(points, turns)
+        every = {
+            tuple(LinkageBatch.of([each.linkage]).dimensions.ravel().round(6))
+            for each in found.linkages
+        }
+        assert len(every) == len(found.linkages) == len(batch)
+
+
+def test_of_five_timed_points_one_beaten_by_another_is_listed():
+    """Two of six linkages transmit at 28.8°, two at 29.4°, and all pass the points."""
+    x = [-3.080718151, -3.960298819, -3.947418581, -3.171657315, -2.244655240]
+    y = [2.678116929, 1.058494832, 1.040649210, 1.623322438, 2.487277925]
+    turns = np.radians([0.0, 113.529745731, 116.572781063, 176.818615401, 219.203491893])
+    found = synthesize(task(np.column_stack([x, y]), turns=turns))
+    least = np.degrees([each.driven.least_over_range for each in found.usable])
+    assert {29.4, 28.8} <= set(least.round(1).tolist())
+    assert max(each.error.worst for each in found.usable) < 1e-9
+
+
+def test_of_very_many_points_all_count():
+    """One point in 3,000 that lies off the curve is in no sample, and in every error."""
+    t = np.linspace(0, 2 * np.pi, 3000, endpoint=False)
+    points = path(0, t, 0.0)
+    away = 0.02 * np.ptp(points, axis=0).max()
+    normal = np.array([[0, 1], [-1, 0]]) @ (points[1002] - points[1000])
+    points[1001] += away * normal / np.linalg.norm(normal)
+    found = synthesize(task(points, closed=True))
+    nearest = min(found.usable, key=lambda each: each.error.rms)
+    assert nearest.error.position.argmax() == 1001
+    assert nearest.error.worst == pytest.approx(away, rel=0.1)
+    assert np.median(nearest.error.position) < 1e-3 * away
+    one = nearest.driver_first
+    far = distances((one.first, one.second), points[::30])
+    assert far == pytest.approx(nearest.error.position[::30], abs=1e-5 * np.ptp(points))
 
 
 def test_neighbours_that_noise_exchanged_share_a_place_within_the_tolerance():
@@ -170,3 +206,17 @@ def test_neighbours_that_noise_exchanged_share_a_place_within_the_tolerance():
     one = found[0.8][0].driver_first
     turn = places(one.first, one.second, np.linspace(0, 2 * np.pi, 721))[0]
     assert np.isfinite(turn).all()
+
+
+def test_a_path_with_a_repeat_has_the_answer_of_the_path_without_it():
+    x = np.array([-4.0, -3, -2, -1, 1, 2, 3, 4])
+    points = np.column_stack([x, [0, 1, 1.6, 2, 2, 1.6, 1, 0]])
+    answers = []
+    for index in (np.arange(8), [0, 1, 2, 3, 3, 4, 5, 6, 7]):
+        some = points[index]
+        exact = PoseTolerances(np.zeros((len(some), 2)), np.full(len(some), np.inf))
+        found = synthesize(Task(Displacement(some, np.zeros(len(some))), tolerances=exact))
+        told = sorted((*each.linkage.links, each.driven.least_over_range) for each in found.usable)
+        answers.append(np.array(told))
+    assert len(answers[0]) == 2  # each is the other in a mirror
+    assert answers[1] == pytest.approx(answers[0], rel=1e-6)

@@ -9,13 +9,14 @@ import pytest
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Point, box
 from burmester.io.result import synthesis_data
-from burmester.points.point_sets import point_set
+from burmester.points.point_sets import line_or_circle, point_set
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.point_conditions import point_conditions
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
+from burmester.tasks.repeated_poses import repeats_in_sequence
 from tests.oracles.witness import missed
 
 GROUNDED = (Point((0.0, 0.0)), Point((2.8, 0.0)))  # the fixed pivots of the linkage below
@@ -156,3 +157,103 @@ def test_fewer_rows_leave_infinitely_many_and_pivots_open(poses, points, code):
         assert np.abs(places.translation - task.poses.translation).max() < 1e-6
         assert each.uncertainty is None
     assert np.degrees(synthesis.usable[0].driven.least_over_range) > 30
+
+
+@pytest.mark.parametrize(("at", "why"), [(2, "row 4 repeats 3"), (5, "row 6 repeats 7")])
+def test_a_row_that_repeats_the_one_beside_it_is_taken_out(at, why):
+    """A point that is there twice, and a point before the pose that has its place."""
+    is_point = np.array([0, 0, 1, 0, 1, 0], dtype=bool)
+    task = of_crank_rocker(np.array([20, 50, 85, 120, 160, 200]), is_point)
+    once = synthesize(task)
+    more = task.at(np.array([0, 1, 2, 3, 4, 5])[np.sort([0, 1, 2, 3, 4, 5, at])])
+    if not is_point[at]:
+        free = task.tolerances.at(np.sort([0, 1, 2, 3, 4, 5, at]))
+        angle = free.angle.copy()
+        angle[at] = np.inf
+        more = replace(more, tolerances=PoseTolerances(free.position, angle))
+    twice = synthesize(more)
+    assert (twice.warnings[0].code, twice.warnings[0].why) == ("W208", why)
+    links = [sorted(each.linkage.links) for each in once.linkages]
+    assert np.array([sorted(each.linkage.links) for each in twice.linkages]) == pytest.approx(
+        np.array(links)
+    )
+
+
+def test_a_path_of_ten_rows_with_a_repeat_is_nine_points():
+    task = of_crank_rocker(np.linspace(20, 200, 9), np.ones(9, dtype=bool))
+    rows = task.poses.translation[[0, 1, 2, 3, 3, 4, 5, 6, 7, 8]]
+    free = PoseTolerances(np.zeros((10, 2)), np.full(10, np.inf))
+    synthesis = synthesize(Task(Displacement(rows, np.zeros(10)), tolerances=free))
+    assert (synthesis.outcome.code, synthesis.points.classes) == ("R340", 1442)
+    made = [1.0, 2.4, 2.6, 2.8]
+    assert any(
+        sorted(each.linkage.links) == pytest.approx(made, abs=1e-5) for each in synthesis.usable
+    )
+
+
+def test_a_point_that_the_curve_passes_twice_stays():
+    points = Displacement(np.array([[0.0, 0], [1, 1], [2, 0], [1, 1], [0, 2]]), np.zeros(5))
+    first, group = repeats_in_sequence(points, np.ones(5, dtype=bool))
+    assert first.tolist() == group.tolist() == [0, 1, 2, 3, 4]
+
+
+def of_points(points, decimals=None):
+    """A task of points, known to so many decimals."""
+    if decimals is not None:
+        points = np.round(points, decimals)
+    return Task(
+        Displacement(points, np.zeros(len(points))),
+        tolerances=PoseTolerances(np.zeros((len(points), 2)), np.full(len(points), np.inf)),
+        resolution=(0.0 if decimals is None else 0.5 * 10.0**-decimals, 0.0),
+    )
+
+
+ON_CIRCLE = np.column_stack([np.cos(np.linspace(0, 5, 9)), np.sin(np.linspace(0, 5, 9))])
+
+
+@pytest.mark.parametrize("count", [8, 9, 12])
+def test_a_circle_is_known_by_the_digits_of_its_points(count):
+    angle = np.linspace(0, 5, count)
+    circle = 40 * np.column_stack([np.cos(angle), np.sin(angle)]) + [7, -3]
+    synthesis = synthesize(of_points(circle, 3))
+    assert (synthesis.outcome.code, synthesis.linkages) == ("R343", ())
+    assert "(7, -3) with the length 40" in synthesis.outcome.why
+
+
+def test_eight_of_nine_points_on_a_line_are_missed_by_the_nearest():
+    """No coupler curve meets a line in more than six points; what is listed traces them nearly."""
+    points = np.column_stack([np.arange(9.0), np.zeros(9)])
+    points[-1] = 8, 1
+    synthesis = synthesize(of_points(points, 6))
+    assert synthesis.outcome.code == "R350"
+    assert "8 of the 9 points lie on a line" in synthesis.warnings[0].message
+    for each in synthesis.usable:
+        rows = np.column_stack([each.error.places.translation, each.error.places.angle])
+        assert max(missed(each.linkage, row) for row in rows) < 1e-6
+        assert 0 < np.abs(rows[:, :2] - points).max() < 1e-2
+
+
+@pytest.mark.parametrize(
+    ("beside", "kind"), [((), "circle"), ((4,), "circle"), ((1, 6), "circle"), ((1, 3, 6), None)]
+)
+def test_lines_and_circles_with_some_points_beside_them(beside, kind):
+    points = ON_CIRCLE.copy()
+    points[list(beside)] *= 1.1
+    found = line_or_circle(points)
+    assert (None if found is None else found.kind) == kind
+    if kind:
+        assert np.flatnonzero(~found.on).tolist() == list(beside)
+        assert found.centre == pytest.approx([0, 0], abs=1e-12)
+    rounded = line_or_circle(np.round(points, 4), 5e-5)
+    assert (None if rounded is None else rounded.kind) == kind
+    assert line_or_circle(np.round(points, 4)) is None
+
+
+def test_positions_on_a_line_with_angles_at_some_have_no_linkage():
+    points = np.column_stack([np.arange(8.0), np.zeros(8)])
+    angle = np.where(np.isin(np.arange(8), [0, 7]), 0.0, np.inf)
+    tolerances = PoseTolerances(np.zeros((8, 2)), angle)
+    poses = Displacement(points, np.linspace(0, 0.5, 8))
+    synthesis = synthesize(Task(poses, tolerances=tolerances))
+    assert (synthesis.outcome.code, synthesis.points) == ("R342", None)
+    assert "all 8 positions lie on a line" in synthesis.outcome.message

@@ -11,9 +11,9 @@ from burmester.errors import InputError
 __all__ = ["in_python_words"]
 
 _FLAG = re.compile(r"add --force\b")
-_TEXT = re.compile(r"--(to|unit) (?!out\b)(\w+)")
+_TEXT = re.compile(r"--(?:length-)?(to|unit) (?!out\b)(\w+)")
 _NUMBER = re.compile(r"--(hole|width|thickness|gap|pose) ([\d.e+-]*\d)")
-_NAME = re.compile(r"--([a-z]+)")
+_NAME = re.compile(r"--(?:length-)?([a-z]+)")
 
 
 @contextmanager

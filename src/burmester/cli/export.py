@@ -38,7 +38,11 @@ Lengths are in the unit of the poses."""
 @click.option("-o", "--output", metavar="FILE", required=True, help="Name of the file.")
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
 @click.option(
-    "--unit", metavar="UNIT", help="Unit of the lengths, if the poses state none; by default mm."
+    "--length-unit",
+    "--unit",
+    "unit",
+    metavar="UNIT",
+    help="Unit of the lengths, if the poses state none or px; by default mm.",
 )
 @click.option("--hole", type=float, metavar="LENGTH", help="Diameter of holes.")
 @click.option("--pin", type=float, metavar="LENGTH", help="Diameter of pins.")

@@ -11,7 +11,7 @@ import numpy as np
 from burmester.curves.crank_linkages import CrankLinkages
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, even_numbers
-from burmester.points.point_sets import point_set
+from burmester.points.point_sets import line_or_circle
 from burmester.points.real_linkages import linkages_through
 
 __all__ = ["nine_point_starts"]
@@ -26,8 +26,7 @@ def nine_point_starts(points: FloatArray) -> list[tuple[CrankLinkages, FloatArra
     """
     index = even_numbers(len(points), NINE)
     nine = points[index]
-    special = point_set(nine)
-    if len(nine) < NINE or (special is not None and special.kind != "conic"):
+    if len(nine) < NINE or line_or_circle(nine) is not None:
         return []
     found = linkages_through(Displacement(nine, np.zeros(NINE)), np.ones(NINE, dtype=bool))
     out = []

@@ -20,8 +20,8 @@ from burmester.curves.crank_linkages import CrankLinkages
 from burmester.curves.curve_descent import CurveFit, PathTarget, descend
 from burmester.curves.timed_paths import timed_starts
 from burmester.fourbar.path_gaps import PathGaps, are_drawing
+from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import (
-    ComplexArray,
     FloatArray,
     complex_of,
     even_numbers,
@@ -30,10 +30,14 @@ from burmester.numerics.arrays import (
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import weights_of_mean_one
 from burmester.progress import goes_on, step
+from burmester.tasks.pose_sample import PoseSample
 
 __all__ = ["PathSearch"]
 
-MAX_SEARCHED_POINTS = 60  # a search takes so many, evenly chosen; the last refinement takes all
+# A search takes so many points, the refinement of what it finds so many, and the last steps all:
+# so many feet of a linkage, in at least and at most so many steps.
+MAX_SEARCHED_POINTS, MAX_FITTED_POINTS = 60, 200
+FEET_BY_ALL, STEPS_BY_ALL = 200_000, (4, 400)
 MOST_ALIKE, FEW_STEPS = 3000, 2  # curves of the atlas laid over the path, and steps that sort them
 STARTS = 800  # curves of the atlas that are refined
 # The same of open paths, and points times starts: many curves are like an arc of few points.
@@ -41,7 +45,7 @@ OPEN_STARTS, OPEN_WORK = 5000, 75_000
 FURTHER_STEPS = 200  # of further starts, before they join
 # Steps of a round of refinement, and the share of the starts that goes on after it.
 ROUNDS = ((8, 3 / 8), (20, 1 / 8), (100, 1 / 20))
-MORE_STEPS = 80  # with all points, where the search took some
+MORE_STEPS = 80  # with more points than the search took
 LAST, LAST_STEPS = 12, 400  # the best curves are refined to their end; valleys may be long
 NEARLY_SETTLED = 1e-6  # relative gain of the cost below which a step before that is the last
 SAME_CURVE = 2e-3  # radii of gyration; curves that are nearer at all feet are one curve
@@ -62,15 +66,19 @@ KEPT = 12  # different curves that are given back
 class PathSearch:
     """A path that linkages are looked for near, and curves of the atlas that are like it.
 
-    whole, part: the path about its middle, in its radii of gyration, by all points and by an even
-    part of them; index: the numbers of these.
+    every: the path about its middle, in its radii of gyration.
+    whole, part: the same by at most MAX_FITTED_POINTS, even along the path and in their number, of
+    the weight of those that each stands for; and by MAX_SEARCHED_POINTS of these.
+    fitted, searched: the numbers of these points.
     size, middle: that radius, and the middle, in the task's unit.
     alike: (k,), curves of the atlas laid over the part, the most alike first.
     """
 
+    every: PathTarget
     whole: PathTarget
     part: PathTarget
-    index: NDArray[np.intp]
+    fitted: NDArray[np.intp]
+    searched: NDArray[np.intp]
     size: float
     middle: complex
     alike: CurveFit
@@ -105,18 +113,17 @@ class PathSearch:
         given = complex_of(np.asarray(points, dtype=np.float64))
         middle = complex(given.mean())
         size = float(np.sqrt((np.abs(given - middle) ** 2).mean())) or 1.0
-        every = (given - middle) / size
-        share = np.sqrt(weights_of_mean_one(weights, every.shape))
         timing = None if crank_angles is None else np.asarray(crank_angles, dtype=np.float64)
-        index = even_numbers(len(every), MAX_SEARCHED_POINTS)
-        some = None if timing is None else timing[index]
-        drawn = are_drawing(len(every), closed=closed, timed=timing is not None) and not any_order
-        part, whole = (
-            PathTarget(z, w, closed, t, allowed=_allowed(z, closed) if drawn else None)
-            for z, w, t in ((every[index], share[index], some), (every, share, timing))
-        )
+        share = np.sqrt(weights_of_mean_one(weights, given.shape))
+        every = PathTarget((given - middle) / size, share, closed, timing)
+        whole, fitted = _sampled(every, MAX_FITTED_POINTS)
+        some = even_numbers(len(fitted), MAX_SEARCHED_POINTS)
+        part, searched = _at(whole, some), fitted[some]
+        if not any_order and are_drawing(len(given), closed=closed, timed=timing is not None):
+            whole, part = (each._replace(allowed=_allowed(each)) for each in (whole, part))
         linkages, t, _ = likenesses(part.points, closed, max(MOST_ALIKE, STARTS, OPEN_STARTS))
-        return cls(whole, part, index, size, middle, CurveFit(linkages, t, np.zeros(len(t))))
+        alike = CurveFit(linkages, t, np.zeros(len(t)))
+        return cls(every, whole, part, fitted, searched, size, middle, alike)
 
     def nearest(
         self, most: int = KEPT, starts: Sequence[tuple[CrankLinkages, FloatArray]] = ()
@@ -132,7 +139,7 @@ class PathSearch:
         for linkages, t in starts:
             smaller, none = np.full(len(linkages), 1 / self.size), np.zeros(len(linkages))
             own = linkages.moved(smaller + 0j, -self.middle * smaller)
-            begun = CurveFit(own, t[:, self.index], none)
+            begun = CurveFit(own, t[:, self.searched], none)
             # They are few, and far from the best at first: a round among the others would end them.
             fits.append(_best(descend(begun, part, FURTHER_STEPS), len(none)))
         fit = concatenate(fits)
@@ -144,19 +151,26 @@ class PathSearch:
             fit = _best(descend(fit, part, steps, settled=NEARLY_SETTLED), kept)
             if steps > ROUNDS[0][0]:
                 fit = _different(fit, part, kept, SAME_SHARE)
-        if len(self.index) < len(whole.points):
-            fit = _best(descend(self._at_all(fit), whole, MORE_STEPS), len(fit.cost))
+        if len(part.points) < len(whole.points):
+            begun = _at_others(fit, self.searched, self.fitted)
+            fit = _best(descend(begun, whole, MORE_STEPS), len(fit.cost))
         fit = _different(fit, whole, max(most, LAST))
         last = descend(take(fit, slice(0, LAST)), whole, LAST_STEPS)
         fit = _best(concatenate([last, take(fit, slice(LAST, None))]), len(fit.cost))
-        return self._in_unit(_different(fit, whole, most))
+        fit = _different(fit, whole, most)
+        if len(whole.points) < len(self.every.points):
+            fit = _at_others(fit, self.fitted, np.arange(len(self.every.points)))
+            steps = int(np.clip(FEET_BY_ALL // len(self.every.points), *STEPS_BY_ALL))
+            fit = _best(descend(fit, self.every, steps), len(fit.cost))
+        return self._in_unit(fit)
 
     def like_path(self) -> CurveFit:
         """Linkages whose curves are like the path, hardly refined, so that they stay different.
 
         Start values where pivots or links are limited.
         """
-        return self._in_unit(self._at_all(self._sorted()))
+        every = np.arange(len(self.every.points))
+        return self._in_unit(_at_others(self._sorted(), self.searched, every))
 
     def transmitting_well(
         self, levels_deg: Sequence[float], *, ratios: Sequence[float] = (math.inf,), most: int = 3
@@ -191,8 +205,9 @@ class PathSearch:
                 fit = _best(descend(fit, target, steps, settled=NEARLY_SETTLED), number_kept)
             if len(fit.cost):
                 kept[ratio].append(_different(fit, part, most))
-        fits = self._at_all(concatenate(sum(kept.values(), [take(start, slice(0, 0))])))
-        return self._in_unit(descend(fits, self.whole, 0))  # to the feet
+        fits = concatenate(sum(kept.values(), [take(start, slice(0, 0))]))
+        fits = _at_others(fits, self.searched, np.arange(len(self.every.points)))
+        return self._in_unit(descend(fits, self.every, 0))  # to the feet
 
     def _starts(self) -> int:
         """How many curves of the atlas are refined."""
@@ -214,13 +229,6 @@ class PathSearch:
             fit = _timed(descend(fit, part._replace(timing=None), FEW_STEPS), part)
         return _best(descend(fit, part, FEW_STEPS), MOST_ALIKE)
 
-    def _at_all(self, fit: CurveFit) -> CurveFit:
-        """Fits at the part of the points, with crank angles (k, N) at all of them."""
-        number = len(self.whole.points)
-        every = np.arange(number)
-        t = [np.interp(every, self.index, row) for row in fit.t]
-        return fit._replace(t=np.reshape(t, (len(fit.cost), number)))
-
     def _in_unit(self, fit: CurveFit) -> CurveFit:
         """Fits in the task's unit."""
         number = len(fit.cost)
@@ -229,11 +237,34 @@ class PathSearch:
         return CurveFit(linkages, fit.t, fit.cost * self.size**2)
 
 
-def _allowed(points: ComplexArray, closed: bool) -> FloatArray:
-    """How far arcs (g,) between points (n,) may leave their chords in the search: (g, 2)."""
-    gaps = PathGaps.of(pairs_of(points), closed=closed)
+def _allowed(path: PathTarget) -> FloatArray:
+    """How far arcs (g,) between its points may leave their chords in the search: (g, 2)."""
+    gaps = PathGaps.of(pairs_of(path.points), closed=path.closed)
     met = ALLOWED_SHARE * gaps.allowed()
     return np.stack([met, np.maximum(met, MOST_SHARE * gaps.allowed(math.inf))], axis=-1)
+
+
+def _sampled(path: PathTarget, most: int) -> tuple[PathTarget, NDArray[np.intp]]:
+    """At most so many of the points of a path, and their numbers."""
+    count = len(path.points)
+    if count <= most:
+        return path, np.arange(count)
+    poses = Displacement(pairs_of(path.points), np.zeros(count))
+    sample = PoseSample.of(poses, path.share**2, most)
+    share = np.sqrt(sample.cells / sample.cells.mean())
+    return _at(path, sample.index)._replace(share=share), sample.index
+
+
+def _at(path: PathTarget, index: NDArray[np.intp]) -> PathTarget:
+    """Some of the points of a path."""
+    timing = None if path.timing is None else path.timing[index]
+    return path._replace(points=path.points[index], share=path.share[index], timing=timing)
+
+
+def _at_others(fit: CurveFit, known: NDArray[np.intp], wanted: NDArray[np.intp]) -> CurveFit:
+    """Fits with crank angles at some points of a path, with crank angles (k, n) at others."""
+    t = [np.interp(wanted, known, row) for row in fit.t]
+    return fit._replace(t=np.reshape(t, (len(fit.cost), len(wanted))))
 
 
 def _timed(fit: CurveFit, target: PathTarget) -> CurveFit:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.diagnosis.conventions import other_convention
 from burmester.diagnosis.odd_pose import odd_pose
@@ -21,7 +22,7 @@ from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
 from burmester.values import require_instance
 from burmester.wording import figure, listed, shortened
 
-__all__ = ["Diagnosis", "diagnose", "disagreement"]
+__all__ = ["Diagnosis", "diagnose", "disagreement", "repeats_advice"]
 
 MAX_DISTANCE = 1e8  # spans of the poses, from the origin; beyond it half of the digits are lost
 DOUBLE_DIGITS = 16  # decimal ones of a double
@@ -96,7 +97,7 @@ def diagnose(task: Task) -> Diagnosis:
     motion = classify_motion(task) if task.poses.shape[0] > 1 else None
     checks = [_far_away(task), _exchanged(task)]
     if motion is not None:
-        checks.insert(0, _repeats(task, motion))
+        checks.insert(0, repeats_advice(task, motion.first, motion.group))
     return Diagnosis(task, motion, tuple(each for each in checks if each is not None))
 
 
@@ -120,19 +121,23 @@ def _has_free_parts(task: Task) -> bool:
     return task.tolerances is not None and bool(task.tolerances.free.any())
 
 
-def _repeats(task: Task, motion: MotionClass) -> Advice | None:
-    """W208: repeated poses."""
-    if motion.distinct == len(motion.group):
+def repeats_advice(
+    task: Task, first: NDArray[np.int_], group: NDArray[np.int_], row: str = "pose"
+) -> Advice | None:
+    """W208: rows of a task that repeat others; None where none does.
+
+    first: (k,), the distinct rows; group: (N,), which of them each row is; row: what it is called.
+    """
+    if len(first) == len(group):
         return None
-    again = sorted(set(range(len(motion.group))) - set(motion.first.tolist()))
-    first = [int(motion.first[motion.group[i]]) for i in again]
-    pairs = [f"{i + 1} repeats {j + 1}" for i, j in zip(again, first, strict=True)]
+    again = sorted(set(range(len(group))) - set(first.tolist()))
+    pairs = [f"{i + 1} repeats {int(first[group[i]]) + 1}" for i in again]
     return Advice(
         "W208",
-        f"only {motion.distinct} of the {len(motion.group)} poses are different; each counts once"
+        f"only {len(first)} of the {len(group)} {row}s are different; each counts once"
         + ("" if task.weights is None else ", with all its weight"),
-        "delete the repeats; to let a pose count more give it a weight",
-        f"pose {listed(shortened(pairs, MAX_LISTED, 'more'))}",
+        f"delete the repeats; to let a {row} count more give it a weight",
+        f"{row} {listed(shortened(pairs, MAX_LISTED, 'more'))}",
     )
 
 

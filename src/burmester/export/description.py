@@ -8,7 +8,7 @@ from typing import Final
 from burmester.describe import six_bar_words
 from burmester.describe.decimals import Decimals, decimals_of_linkage, figures_of
 from burmester.describe.dimensions import dimensions_of
-from burmester.export.options import Options, unit_of
+from burmester.export.options import Options, stated_unit, unit_of
 from burmester.export.reference import Reference
 from burmester.export.six_bar_reference import SixBarReference
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
@@ -38,25 +38,28 @@ def description(
     chosen: SavedLinkage | SavedSixBar, options: Options, unit: str | None
 ) -> list[str]:
     """Sentences on what a file holds, for its head; unit: of its lengths, None for the task's."""
-    own = unit_of(chosen, options)
-    named = f" {own}" if unit is not None or chosen.unit or options.unit else ""
+    stated = stated_unit(chosen, options)
+    own = stated if unit is None else unit_of(chosen, options)
+    named = f" {own}" if own else ""
     sentences = (
         _of_six_bar(chosen) if isinstance(chosen, SavedSixBar) else _of_four_bar(chosen, named)
     )
     if unit is None:
-        unit_stated = chosen.unit or options.unit
-        sentences.append(
-            f"Lengths are in {unit_stated}." if unit_stated else "The task names no unit of length."
-        )
+        sentences.append(f"Lengths are in {own}." if own else "The task names no unit of length.")
         return sentences
-    if own == unit or chosen.unit is None:
+    if own == unit or chosen.unit != own:
         sentences.append(f"Lengths are in {unit}.")
     else:
         sentences.append(f"Lengths are in {unit}; the task's are in {own}.")
-    if chosen.unit is None:
+    if chosen.unit != own:
+        of = "names no unit of length" if chosen.unit is None else f"is in {chosen.unit}"
         sentences.append(
-            f"The task names no unit of length: one of its units is taken for 1 {own}"
-            + (f", as --unit {own} states." if options.unit else "; --unit states another.")
+            f"The task {of}: one of its units is taken for 1 {own}"
+            + (
+                f", as --length-unit {own} states."
+                if options.unit
+                else "; --length-unit states another."
+            )
         )
     return sentences
 

@@ -12,7 +12,7 @@ from burmester.errors import InputError
 from burmester.io.saved import SavedLinkage
 from burmester.io.saved_six_bars import SavedSixBar
 
-__all__ = ["MILLIMETRES", "Options", "unit_of"]
+__all__ = ["MILLIMETRES", "Options", "stated_unit", "unit_of"]
 
 MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 
@@ -27,7 +27,7 @@ class Options:
     Attributes
     ----------
     unit : str or None
-        Unit of the task's lengths, where the task states none; mm where both are None.
+        Unit of the task's lengths, where the task states none or px; mm where both are None.
     hole, width, thickness, gap, pin : float or None
         Diameter of holes, width of links, thickness of plates, gap between plates that lie on each
         other, diameter of pins; in the unit of the task's lengths.
@@ -62,7 +62,11 @@ class Options:
 
 
 def unit_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> str:
-    """The unit of the linkage's lengths, a key of `MILLIMETRES`; raises E162."""
+    """The unit of the linkage's lengths, a key of `MILLIMETRES`; raises E162.
+
+    Lengths that the task states in another unit, such as px, count as one of the unit that the
+    options state.
+    """
     known = ", ".join(MILLIMETRES)
     own, stated = chosen.unit, options.unit
     if stated is not None and stated not in MILLIMETRES:
@@ -70,21 +74,30 @@ def unit_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> str:
             "E162",
             f"there is no unit {stated!r}",
             why=f"the units are {known}",
-            help="give --unit mm",
+            help="give --length-unit mm",
         )
-    if own is not None and stated is not None and own != stated:
+    if own in MILLIMETRES and stated is not None and own != stated:
         raise InputError(
             "E162",
             f"the lengths of this linkage are in {own}, not in {stated}",
             why="the poses state that unit",
-            help="leave --unit out",
+            help="leave --length-unit out",
         )
-    unit = own or stated or "mm"
-    if unit not in MILLIMETRES:
+    if stated is None and own is not None and own not in MILLIMETRES:
         raise InputError(
             "E162",
-            f"lengths in {unit} cannot be exported",
-            why=f"the units are {known}",
-            help="state the poses in one of these units",
+            f"how long one {own} is has to be known for this format",
+            why=f"the lengths of this linkage are in {own}, and the units are {known}",
+            help=f"say what one {own} counts as: --length-unit mm",
         )
-    return unit
+    return own if own in MILLIMETRES else stated or "mm"
+
+
+def stated_unit(chosen: SavedLinkage | SavedSixBar, options: Options) -> str | None:
+    """The unit in which the task or the options say lengths are; None where nobody does.
+
+    For formats that keep the task's lengths, which may be in px as well; raises E162.
+    """
+    if options.unit is None:
+        return chosen.unit
+    return unit_of(chosen, options)

@@ -19,7 +19,7 @@ import numpy as np
 
 from burmester.export.coupler_motion import CouplerMotion
 from burmester.export.numbers import decimals_within, rounded
-from burmester.export.options import Options, unit_of
+from burmester.export.options import Options, stated_unit
 from burmester.export.reference import (
     PRECISION,
     Reference,
@@ -31,6 +31,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
 from burmester.io.saved import SavedLinkage
+from burmester.refinement.tolerance_boxes import poses_counted
 
 __all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
 
@@ -53,7 +54,7 @@ def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
     motion = CouplerMotion.of(chosen, np.array([share for share, _ in marked]))
     turns = motion.circuit.loop.turns
     drive = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
-    unit = _unit(chosen, options)
+    unit = stated_unit(chosen, options)
     in_unit = f"_{unit}" if unit else ""
     # An angle moves what is a span away by the span.
     error = ROUNDING * PRECISION
@@ -137,7 +138,7 @@ def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
         "id": chosen.id,
         "type": chosen.type,
         "usable": chosen.usable,
-        "length_unit": _unit(chosen, options),
+        "length_unit": stated_unit(chosen, options),
         "driver": "first",
         "dyads": [
             {"id": name, **_dyad(dyad)}
@@ -146,7 +147,7 @@ def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
     }
     if (links := linkage.links) is not None:
         data["links"] = {name: float(length) for name, length in links._asdict().items()}
-    data["poses"] = poses_data(chosen.task.poses)
+    data["poses"] = poses_data(poses_counted(chosen.error.places, chosen.task))
     data["coupler"] = poses_data(chosen.error.places)
     data["position_error"] = {"max": float(chosen.error.position.max())}
     data["angle_error_deg"] = {"max": math.degrees(float(chosen.error.angle.max()))}
@@ -185,12 +186,6 @@ def check_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
     gap = reference.places.translation - reference.poses.translation
     worst = float(np.hypot(gap[:, 0], gap[:, 1]).max())
     require_equal("the error", data["position_error"]["max"], worst, 10 * tolerance)
-
-
-def _unit(chosen: SavedLinkage, options: Options) -> str | None:
-    """The unit in which the task or the options say lengths are; None where nobody does."""
-    stated = chosen.unit or options.unit
-    return unit_of(chosen, options) if stated else None
 
 
 def _dyad(dyad: Dyad) -> dict[str, Any]:

@@ -35,7 +35,11 @@ CLEAR_RATIO: Final = 2.0  # a way clear of dead points may miss the points by so
 ROUNDING: Final = 1e-9  # lengths, root mean square; ways that miss by less miss by nothing
 ROUNDS, TRIED = 19, 9  # of narrowing brackets: to a quarter in each round, and so to rounding
 BESIDE: Final = 2.0  # distances of a point from the curve; a place in its box is looked for so far
-WAYS_AT_ONCE: Final = 128  # bounds the memory
+WAYS_AT_ONCE, POINTS_AT_ONCE = 128, 2000  # bound the memory
+MOST_WEIGHED: Final = 400  # points by which the ways are compared; the others go along the best
+# Of a smooth measure: rounds before its parabola is followed, in so many steps; the reach of each
+# is this share of that before; a parabola may promise too much by so much, relative.
+FIRST_ROUNDS, PARABOLAS, CLOSER, PROMISED = 1, 4, 1 / 30, 1e-9
 
 
 class _Samples(NamedTuple):
@@ -58,20 +62,29 @@ class _Samples(NamedTuple):
         return np.asarray(self.share[circuit, sample] + turns)
 
     def gaps(self, circuits: NDArray[np.intp], points: ComplexArray) -> FloatArray:
-        """Squared distances (c, s, m) of points (m,) from the curve beside each sample.
+        """Squared distances (c, s, m) of points (m,) from the curve beside each sample."""
+        every = np.arange(self.share.shape[1])[:, None]
+        return np.stack([self.gaps_beside(each, every, points) for each in circuits.tolist()])
+
+    def gaps_beside(
+        self, circuit: int, sample: NDArray[np.intp], points: ComplexArray
+    ) -> FloatArray:
+        """Squared distances of points (m,) from the curve of a circuit beside samples (*, m).
 
         That is the chord to half way to the next sample and to the one before: between samples a
         curve may pass a point that it meets at none.  Infinite where a sample does not assemble.
         """
-        curve, closed = self.curve[circuits], self.closed[circuits]
-        to = points - curve[..., None]
+        curve, closed = self.curve[circuit], self.closed[circuit]
+        to = points - curve[sample]
         best = np.full(to.shape, np.inf)
         for step, end in ((-1, -1), (1, 0)):
-            chord = np.nan_to_num(np.roll(curve, step, axis=1) - curve)
-            chord[~closed, end] = 0.0
+            chord = np.nan_to_num(np.roll(curve, step) - curve)
+            if not closed:
+                chord[end] = 0.0
             size = np.maximum(np.abs(chord) ** 2, np.finfo(float).tiny)
-            along = (chord.conj()[..., None] * to).real / size[..., None]
-            rest = to - np.clip(along, 0.0, 0.5) * chord[..., None]
+            own = chord[sample]
+            along = (own.conj() * to).real / size[sample]
+            rest = to - np.clip(along, 0.0, 0.5) * own
             best = np.fmin(best, rest.real**2 + rest.imag**2)
         return best
 
@@ -118,10 +131,30 @@ def places_along(
         return out
     ways = _free_ways(samples, wanted, share, any_order)
     ways += _clear_ways(samples, ways, wanted, share, any_order)
-    rows = _at_feet(samples, ways, wanted, length, boxes, any_order=any_order)
-    misses = np.sqrt(_squares(rows, wanted) @ share / share.sum())
+    some = even_numbers(len(wanted), MOST_WEIGHED)
+    few = [way._replace(positions=way.positions[some]) for way in ways]
+    near = None if boxes is None else boxes.at(some)
+    rows = _at_feet(samples, few, wanted[some], length, near, any_order=any_order)
+    misses = np.sqrt(_squares(rows, wanted[some]) @ share[some] / share[some].sum())
     linkage = samples.row[[each.stretch.circuit for each in ways]]
-    clear = _clear(batch[linkage], rows, length)
+    best = _best_ways(linkage, misses, _clear(batch[linkage], rows, length))
+    rows = rows[best]
+    if len(some) < len(wanted):
+        one = [ways[index] for index in best]
+        rows = _at_feet(samples, one, wanted, length, boxes, any_order=any_order)
+    out[linkage[best]] = rows
+    out[..., 2] = np.unwrap(out[..., 2], period=2 * math.pi * length, axis=-1)
+    return out
+
+
+def _best_ways(
+    linkage: NDArray[np.intp], misses: FloatArray, clear: NDArray[np.bool_]
+) -> list[int]:
+    """The number of the way that each linkage takes, of ways (w,) with their linkages.
+
+    misses: (w,), root mean square distances; clear: (w,), of dead points of one driver.
+    """
+    out = []
     for k in np.unique(linkage):
         own = np.flatnonzero(linkage == k)
         best = own[misses[own].argmin()]
@@ -129,8 +162,7 @@ def places_along(
             other = sound[misses[sound].argmin()]
             if misses[other] <= max(CLEAR_RATIO * misses[best], ROUNDING):
                 best = other
-        out[k] = rows[best]
-    out[..., 2] = np.unwrap(out[..., 2], period=2 * math.pi * length, axis=-1)
+        out.append(int(best))
     return out
 
 
@@ -288,6 +320,10 @@ class _Bracket(NamedTuple):
     low: FloatArray
     high: FloatArray
 
+    def at(self, index: NDArray[np.intp]) -> _Bracket:
+        """The brackets of some points."""
+        return _Bracket(self.middle[:, index], self.reach[:, index], self.low, self.high)
+
 
 def _at_feet(
     samples: _Samples,
@@ -299,9 +335,41 @@ def _at_feet(
     any_order: bool,
 ) -> FloatArray:
     """Rows (w, N, 3) of the places nearest to the points, each down from where it is laid."""
+    parts = []
+    for at in range(0, len(wanted), POINTS_AT_ONCE):
+        some = slice(at, at + POINTS_AT_ONCE)
+        few = [way._replace(positions=way.positions[some]) for way in ways]
+        own = None if boxes is None else boxes.at(some)
+        parts.append(_block_at_feet(samples, few, wanted[some], length, own))
+    feet, middles, speeds = (np.concatenate(each, axis=1) for each in zip(*parts, strict=True))
+    if boxes is None or any_order:
+        return feet
+    circuits = samples.circuits[[each.stretch.circuit for each in ways]]
+    shared = np.array(
+        [
+            _in_sequence(samples, way, at, np.square(pace))
+            for way, at, pace in zip(ways, middles, speeds, strict=True)
+        ]
+    )
+    moved = np.flatnonzero((shared != middles).any(axis=1))
+    if len(moved):
+        there = places_at(circuits[moved], shared[moved], length)
+        sound = (boxes.share(there) <= 1).all(axis=1)
+        feet[moved[sound]] = there[sound]
+    return feet
+
+
+def _block_at_feet(
+    samples: _Samples,
+    ways: list[_Way],
+    wanted: ComplexArray,
+    length: float,
+    boxes: Boxes | None,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """The same of some points in any order, with the fractions (w, N) and the speeds (w, N)."""
     circuits = samples.circuits[[each.stretch.circuit for each in ways]]
     middle, reach, speed = np.empty((3, len(ways), len(wanted)))
-    low, high = np.empty((2, len(ways), 1, 1))
+    low, high = np.empty((2, len(ways), 1))
     number = samples.share.shape[1]
     for row, way in enumerate(ways):
         stretch, curve = way.stretch, samples.curve[way.stretch.circuit]
@@ -316,35 +384,22 @@ def _at_feet(
         if stretch.size == number:  # a whole circuit goes on beyond the last samples
             low[row], high[row] = (-np.inf, np.inf) if stretch.around else (0.0, 1.0)
 
-    def away(rows: FloatArray) -> FloatArray:
-        return _squares(rows, wanted)
-
     bracket = _Bracket(middle, reach, low, high)
-    middle, rows = _narrowed(circuits, bracket, away, length)
+    middle, rows = _nearest(circuits, bracket, wanted, length)
     if boxes is None:
-        return rows
+        return rows, middle, speed
+    away = np.sqrt(_squares(rows, wanted))
     out = boxes.share(rows) > 1
-    if out.any():
-        reach = np.minimum(BESIDE * np.sqrt(away(rows)) / np.maximum(speed, 1e-9), 1 / 4)
-        bracket = _Bracket(middle, np.where(out, reach, 0.0), low, high)
-        beside, inside = _narrowed(circuits, bracket, boxes.share, length)
-        out &= boxes.share(inside) <= 1
-        middle = np.where(out, beside, middle)
-        rows = np.where(out[..., None], inside, rows)
-    if any_order:
-        return rows
-    shared = np.array(
-        [
-            _in_sequence(samples, way, at, np.square(pace))
-            for way, at, pace in zip(ways, middle, speed, strict=True)
-        ]
-    )
-    moved = np.flatnonzero((shared != middle).any(axis=1))
-    if len(moved):
-        there = places_at(circuits[moved], shared[moved], length)
-        sound = (boxes.share(there) <= 1).all(axis=1)
-        rows[moved[sound]] = there[sound]
-    return rows
+    own = np.flatnonzero(out.any(axis=0))
+    if len(own):
+        reach = np.minimum(BESIDE * away / np.maximum(speed, 1e-9), 1 / 4)
+        bracket = _Bracket(middle, np.where(out, reach, 0.0), low, high).at(own)
+        few, out = boxes.at(own), out[:, own]
+        beside, inside = _narrowed(circuits, bracket, few.share, length)
+        out &= few.share(inside) <= 1
+        middle[:, own] = np.where(out, beside, middle[:, own])
+        rows[:, own] = np.where(out[..., None], inside, rows[:, own])
+    return rows, middle, speed
 
 
 def _in_sequence(samples: _Samples, way: _Way, at: FloatArray, weight: FloatArray) -> FloatArray:
@@ -382,18 +437,55 @@ def _pooled(x: FloatArray, weight: FloatArray) -> FloatArray:
     return np.repeat([each[0] for each in blocks], [each[2] for each in blocks])
 
 
+def _nearest(
+    circuits: Circuits, bracket: _Bracket, wanted: ComplexArray, length: float
+) -> tuple[FloatArray, FloatArray]:
+    """The places in brackets nearest to points (N,): fractions (w, N), rows (w, N, 3).
+
+    Down the parabola through the squares of three distances; by narrowing alone where that fails,
+    as at the ends of a circuit and at cusps.
+    """
+
+    def away(rows: FloatArray) -> FloatArray:
+        return _squares(rows, wanted)
+
+    middle, _ = _narrowed(circuits, bracket, away, length, FIRST_ROUNDS)
+    reach = bracket.reach * (2.0 / (TRIED - 1)) ** FIRST_ROUNDS
+    inside = (middle - reach >= bracket.low) & (middle + reach <= bracket.high)
+    side, least = np.array([-1.0, 0.0, 1.0])[:, None], np.full(middle.shape, np.inf)
+    for _ in range(PARABOLAS):
+        tried = middle[:, None] + reach[:, None] * side
+        rows = places_at(circuits, tried.reshape(len(middle), -1), length)
+        before, here, after = np.moveaxis(away(rows.reshape(*tried.shape, 3)), 1, 0)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            step = (before - after) / (before - 2 * here + after) / 2
+        inside &= (np.abs(step) <= 1) & (before + after > 2 * here)
+        least = np.minimum(least, here)
+        middle = np.where(inside, middle + reach * step, middle)
+        reach = reach * CLOSER
+    rows = places_at(circuits, middle, length)
+    inside &= away(rows) <= least * (1 + PROMISED) + ROUNDING**2
+    if len(rest := np.flatnonzero(~inside.all(axis=0))):
+        wanted = wanted[rest]
+        narrow = _narrowed(circuits, bracket.at(rest), away, length)
+        middle[:, rest] = np.where(inside[:, rest], middle[:, rest], narrow[0])
+        rows[:, rest] = np.where(inside[:, rest, None], rows[:, rest], narrow[1])
+    return middle, rows
+
+
 def _narrowed(
     circuits: Circuits,
     bracket: _Bracket,
     measure: Callable[[FloatArray], FloatArray],
     length: float,
+    rounds: int = ROUNDS,
 ) -> tuple[FloatArray, FloatArray]:
     """Where a measure (*, N) of rows (*, N, 3) is least: fractions (w, N), rows (w, N, 3)."""
     middle, reach, low, high = bracket
     best = np.empty((*middle.shape, 3))
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         tried = middle[:, None] + reach[:, None] * np.linspace(-1, 1, TRIED)[:, None]
-        tried = np.clip(tried, low, high)
+        tried = np.clip(tried, low[:, None], high[:, None])
         rows = places_at(circuits, tried.reshape(len(middle), -1), length)
         rows = rows.reshape(*tried.shape, 3)
         at = measure(rows).argmin(axis=1)[:, None]
@@ -406,16 +498,21 @@ def _narrowed(
 def _downhill(samples: _Samples, way: _Way, wanted: ComplexArray) -> NDArray[np.intp]:
     """The positions (N,) to which points go down from sample to sample, within their stretch."""
     stretch, number = way.stretch, samples.share.shape[1]
-    every = np.arange(stretch.size)
-    gaps = samples.gaps(np.array([stretch.circuit]), wanted)[0]
-    away = gaps[(stretch.first + every) % number]
-    beside = np.stack([np.roll(away, 1, axis=0), away, np.roll(away, -1, axis=0)])
-    if not stretch.around:
-        beside[0, 0] = beside[2, -1] = np.inf
-    beside[1] = np.nextafter(away, -np.inf)  # it stays where its neighbours are as near
-    go = (every[:, None] + beside.argmin(axis=0) - 1) % stretch.size
-    for _ in range(math.ceil(math.log2(max(stretch.size, 2)))):
-        go = np.take_along_axis(go, go, axis=0)
-    begin = (way.positions - stretch.first) % stretch.size
-    at = go[begin, np.arange(len(wanted))]
+    at = (way.positions - stretch.first) % stretch.size
+    beside = np.array([[-1], [0], [1]])
+    moving = np.arange(len(at))
+    for _ in range(stretch.size):
+        tried = at[moving] + beside
+        if stretch.around:
+            tried %= stretch.size
+        inside = (tried >= 0) & (tried < stretch.size)
+        sample = (stretch.first + tried) % number
+        away = samples.gaps_beside(stretch.circuit, sample, wanted[moving])
+        away = np.where(inside, away, np.inf)
+        away[1] = np.nextafter(away[1], -np.inf)  # it stays where its neighbours are as near
+        best = away.argmin(axis=0)
+        at[moving] = np.take_along_axis(tried, best[None], axis=0)[0]
+        moving = moving[best != 1]
+        if not len(moving):
+            break
     return np.asarray(stretch.first + at)

@@ -15,6 +15,7 @@ from burmester.numerics.arrays import ComplexArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.points.alt_burmester import Positions
 from burmester.points.classes import distinct
+from burmester.points.families import is_in_family
 from burmester.points.path_tracking import ACCURACY, polished, tracked
 from burmester.points.start_systems import CASES, Case, start_system
 from burmester.progress import goes_on, step
@@ -24,6 +25,8 @@ __all__ = ["AllLinkages", "all_linkages", "case_of"]
 SETTLED: Final = 1e-7  # relative; Newton's last step on a linkage
 FINER: Final = 1e-2  # share of the accuracy with which lost paths are followed again
 HUNDRED: Final = 100  # parts of the way that progress is told in
+FAR: Final = 100.0  # sizes of the problem; a path that stops farther leads to infinity
+MOST_TRIED: Final = 20  # ends of paths that are looked at for families
 
 
 @final
@@ -34,6 +37,7 @@ class AllLinkages(NamedTuple):
     classes: how many there are of a problem in general position; n were found.
     followed: how many of them were followed to the task; fewer where a time limit ended it.
     systems: from how many solved problems they were looked for.
+    family: whether linkages are left that are not alone: infinitely many meet the problem.
     """
 
     x: ComplexArray
@@ -41,6 +45,7 @@ class AllLinkages(NamedTuple):
     classes: int
     followed: int
     systems: int
+    family: bool = False
 
 
 def case_of(positions: Positions) -> Case:
@@ -52,22 +57,33 @@ def all_linkages(positions: Positions) -> AllLinkages:
     """The linkages of a problem of one of the CASES, its base at 0, its size about 1."""
     case = case_of(positions)
     classes = CASES[case]
-    x, turns, followed = _ends(case, positions, 0)
-    systems = 1
+    x, turns, followed, others, other_turns = _ends(case, positions, 0)
+    systems, family = (
+        1,
+        any(
+            is_in_family(*each, positions)
+            for each in zip(others[:MOST_TRIED], other_turns[:MOST_TRIED], strict=True)
+        ),
+    )
     while len(x) < followed == classes and systems < case.systems:
         again = _ends(case, positions, systems)
         x, turns = concatenate([(x, turns), (again.x, again.turns)])
         x, turns = take((x, turns), distinct(x, positions))
         systems += 1
-    return AllLinkages(x, turns, classes, followed, systems)
+    return AllLinkages(x, turns, classes, followed, systems, family)
 
 
 class _Ends(NamedTuple):
-    """The ends x (n, 8) with turns (n, J) of so many paths, each of them once."""
+    """The ends x (n, 8) with turns (n, J) of so many paths, each of them once.
+
+    others: (k, 8), where paths stopped that did not arrive, with their turns (k, J).
+    """
 
     x: ComplexArray
     turns: ComplexArray
     followed: int
+    others: ComplexArray
+    other_turns: ComplexArray
 
 
 def _ends(case: Case, positions: Positions, number: int) -> _Ends:
@@ -85,15 +101,18 @@ def _ends(case: Case, positions: Positions, number: int) -> _Ends:
     good = paths.arrived & (miss < SETTLED)
     index = np.flatnonzero(good)[distinct(x[good], positions)]
     missing = np.setdiff1d(np.flatnonzero(begun), index)
+    stopped = begun & ~paths.arrived & (np.abs(paths.x).max(axis=1, initial=0.0) < FAR)
+    others = paths.x[stopped], paths.turns[stopped]
     if begun.all() and len(missing):
         finer = tracked(
             *take((start.x, start.turns), missing),
             start.positions,
             positions,
             accuracy=ACCURACY * FINER,
+            watch=watch,
         )
         more, more_turns, miss = polished(finer.x, finer.turns, positions)
         some = finer.arrived & (miss < SETTLED)
         x, turns = concatenate([(x[good], turns[good]), take((more, more_turns), some)])
         index = distinct(x, positions)
-    return _Ends(x[index], turns[index], int(begun.sum()))
+    return _Ends(x[index], turns[index], int(begun.sum()), *others)

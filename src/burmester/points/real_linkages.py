@@ -30,6 +30,7 @@ class PointLinkages(NamedTuple):
     batch: of pins, in the frames of the task; places: (k, N, 3), x, y and angle at all positions.
     classes, followed, found, lost: of the solve, complex linkages too; systems: of the solve.
     real: how many classes have a real linkage.
+    family: whether infinitely many linkages, complex ones too, are left beside them.
     """
 
     batch: LinkageBatch
@@ -39,6 +40,7 @@ class PointLinkages(NamedTuple):
     found: int
     real: int
     systems: int
+    family: bool
 
     @property
     def lost(self) -> int:
@@ -81,7 +83,14 @@ def linkages_through(
     places[..., 2] = np.where(is_point, places[..., 2], poses.angle)
     batch = LinkageBatch(np.zeros((len(x), 2), dtype=np.int8), rows)
     return PointLinkages(
-        batch, places, every.classes, every.followed, len(every.x), real, every.systems
+        batch,
+        places,
+        every.classes,
+        every.followed,
+        len(every.x),
+        real,
+        every.systems,
+        every.family,
     )
 
 

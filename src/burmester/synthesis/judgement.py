@@ -22,6 +22,7 @@ from burmester.progress import limited, step, time_for
 from burmester.synthesis.given_linkage import GivenDyad, dyads_at_poses, require_linkage
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.point_approximation import with_nearest_angles
+from burmester.synthesis.point_conditions import each_once
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
 from burmester.tasks.motion_task import Task
@@ -108,6 +109,7 @@ def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, t
     The points of a path have free angles, and a tolerance where the task states none; so have poses
     and points that are more than a linkage can meet.
     """
+    task, repeats = each_once(task)
     if task.path is not None:
         from burmester.synthesis.path_generation import with_tolerance  # noqa: PLC0415  paths only
 
@@ -117,7 +119,7 @@ def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, t
     task, note = with_nearest_angles(task, options)
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
-    return problem, (*note, *diagnosis.findings)
+    return problem, (*repeats, *note, *diagnosis.findings)
 
 
 def _found_dyads(dyads: tuple[Dyad, Dyad], evaluation: Evaluation) -> Pair:

@@ -32,6 +32,7 @@ from burmester.synthesis.outcome import (
     undetermined,
 )
 from burmester.synthesis.point_approximation import with_nearest_angles
+from burmester.synthesis.point_conditions import each_once, special_curve
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
 from burmester.synthesis.usual_pivots import with_usual_pivots
@@ -94,15 +95,16 @@ def _require_few(task: Task) -> None:
 def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     both = task.limits * (2 if len(task.limits) == 1 else 1)
     require_feasible(task.poses, both, task.exact)
+    task, repeats = each_once(task)
     if task.path is not None:
         from burmester.synthesis.path_generation import near_points  # noqa: PLC0415  paths only
 
-        return near_points(task, options, task.notes)
+        return near_points(task, options, (*task.notes, *repeats))
     step(f"looking at {task.poses.shape[0]} poses")
     task, note = with_nearest_angles(task, options)
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options)
-    known = (*task.notes, *note, *diagnosis.findings)
+    known = (*task.notes, *repeats, *note, *diagnosis.findings)
     if (points := _of_points(problem, known)) is not None:
         return points
     open_ = max(problem.missing_conditions) > 0 and options.method in ("auto", "exact")
@@ -169,7 +171,8 @@ def _of_points(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
 
     found = through_points(problem, findings)
     traced = task.tolerances.are_points and problem.task.poses.shape[0] >= CONDITIONS
-    if found is None and traced and problem.leaves_linkages_open:
+    open_ = problem.leaves_linkages_open or special_curve(task) is not None
+    if found is None and traced and open_:
         return near_points(replace(task, path=TracedPath()), options, findings)
     return found
 

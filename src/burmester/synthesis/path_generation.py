@@ -24,10 +24,17 @@ from burmester.numerics.bundles import take
 from burmester.progress import step
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.path_linkages import PathLinkages, is_timed_exactly, linkages_near
+from burmester.synthesis.point_conditions import special_curve
+from burmester.synthesis.point_generation import (
+    is_traced_by_crank,
+    missed_on_curve,
+    none_on_curve,
+)
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import MOST_POINTS, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
@@ -55,9 +62,10 @@ SOUND_SHARE = 0.03
 GROWTH, MOST_TRIED = 1.5, 4  # from tolerance to tolerance under which linkages are judged; of them
 LEAST_ASSUMED = 1e-4  # spans of the path; a smaller tolerance is not assumed
 MOST_TOLD = 12  # linkages that are told
+MOST_JUDGED = 2000  # points; of more a sample says which linkages are judged at all of them
 ALIKE_ERROR, ALIKE_ANGLE = 0.01, math.radians(0.5)  # of the greatest error; radians; no difference
 SAME = 0.01  # spans of the path; linkages whose pivots and links differ by less are listed once
-LEAST_DIFFERENT = 3  # points that make a path
+ROUNDING = 1e-6  # relative; extents that differ by less are alike
 
 
 def near_points(
@@ -68,11 +76,15 @@ def near_points(
     The task's positions are the points; its angles are free and count for nothing.  Its `path` says
     whether it is closed and how the crank times it.
     """
-    task = _once(task)
     path = task.path or TracedPath()
     step(f"looking at {count(len(task.poses.angle), 'point')}")
     if not span(task) > 0:
         return _none(task, options, findings)
+    if (special := special_curve(task)) is not None:
+        if is_traced_by_crank(special, task):
+            problem = SynthesisProblem.of(task, None, options)
+            return Synthesis(problem, none_on_curve(special, task), warnings=tuple(findings))
+        findings = (*findings, missed_on_curve(special, task))
     found = linkages_near(task, path, options)
     if not len(found.batch):
         return _none(task, options, findings)
@@ -94,7 +106,6 @@ def with_tolerance(task: Task, options: SynthesisOptions) -> tuple[Task, list[Ad
 
     Where none is stated, the nearest linkages are looked for, as they say what is assumed.
     """
-    task = _once(task)
     path = task.path or TracedPath()
     position = _stated(task, path)
     if position is None and span(task) > 0:
@@ -105,22 +116,6 @@ def with_tolerance(task: Task, options: SynthesisOptions) -> tuple[Task, list[Ad
     if position is None:
         position = np.full((len(task.poses.angle), 2), LEAST_ASSUMED * span(task))
     return replace(task, tolerances=_of_points(position)), []
-
-
-def _once(task: Task) -> Task:
-    """The task without points that repeat the one before, whose weights add up.
-
-    Points with crank angles stay: a crank may turn while the point rests.
-    """
-    points = task.poses.translation
-    new = np.concatenate([[True], (np.diff(points, axis=0) != 0).any(axis=1)])
-    timed = task.path is not None and task.path.crank_angles is not None
-    if new.all() or timed or new.sum() < LEAST_DIFFERENT:
-        return task
-    index, group = np.flatnonzero(new), np.cumsum(new) - 1
-    weights = np.ones(len(points)) if task.weights is None else task.weights
-    total = np.asarray(np.bincount(group, weights=weights), dtype=np.float64)
-    return replace(task.at(index, total), exact=None, path=task.path or TracedPath())
 
 
 def _judged(
@@ -134,13 +129,13 @@ def _judged(
     """
     poses = Displacement(task.poses.translation, found.places[0, :, 2])
     task = replace(task, poses=poses)
-    stated, size = _stated(task, path), span(task)
-    if stated is not None:
+    if len(task.poses.angle) > MOST_JUDGED:
+        found = _by_sample(task, found, path, options)
+    if (stated := _stated(task, path)) is not None:
         given = replace(task, tolerances=_of_points(stated))
-        judged = _evaluated(given, found, options)
-        return given, _front(_different(judged, SAME * size), given), []
+        return given, _told(_evaluated(given, found, options), given), []
     given, judged, base = _by_nearest(task, found, path, options)
-    told = _front(_different(judged, SAME * size), given)
+    told = _told(judged, given)
     return given, told, [_assumed(given, told, base)]
 
 
@@ -207,7 +202,8 @@ def _stated(task: Task, path: TracedPath) -> FloatArray | None:
 def _are_few(task: Task, path: TracedPath) -> bool:
     """Whether infinitely many linkages pass the points, one way or the other."""
     untimed = path.crank_angles is None and not path.closed
-    return untimed and len(task.poses.angle) + task.pivot_conditions < MOST_POINTS
+    few = untimed and len(task.poses.angle) + task.pivot_conditions < MOST_POINTS
+    return few and special_curve(task) is None
 
 
 def _of_points(position: FloatArray) -> PoseTolerances:
@@ -259,6 +255,23 @@ def _evaluated(task: Task, found: PathLinkages, options: SynthesisOptions) -> li
     return judged
 
 
+def _by_sample(
+    task: Task, found: PathLinkages, path: TracedPath, options: SynthesisOptions
+) -> PathLinkages:
+    """Of linkages near very many points those that are worth judging at all, by a sample of them.
+
+    All of them where none is usable there.
+    """
+    sample = PoseSample.of_task(task, MOST_JUDGED)
+    there = found._replace(places=found.places[:, sample.index])
+    _, judged, _ = _judged(task.at(sample.index, sample.cells), there, path, options)
+    if not any(each.usable for each in judged):
+        return found
+    # `_members` numbers the dyads of each by its place.
+    index = [(int(each.dyads[0].id[1:]) - 1) // 2 for each in judged]
+    return take(found, np.array(index, dtype=np.intp))
+
+
 def _may_be_inside(task: Task, found: PathLinkages) -> NDArray[np.bool_]:
     """Which linkages (k,) may have places inside the tolerances of all points.
 
@@ -289,6 +302,14 @@ def _members(
     return evaluation.members(candidates)
 
 
+def _told(judged: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
+    """What is listed of judged linkages: each once, and of those that are many the front."""
+    different = _different(judged, SAME * span(task))
+    if is_timed_exactly(task, task.path or TracedPath()):
+        return different  # they are few: all that there are
+    return _front(different, task)
+
+
 def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     """The usable linkages that no other one beats in distance, transmission and extent at once.
 
@@ -312,7 +333,8 @@ def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
             if each.quality is not None
         ]
     )
-    slack = np.array([ALIKE_ERROR * figures[:, 0].max(), ALIKE_ANGLE, 0.0])
+    error = max(ALIKE_ERROR * figures[:, 0].max(), MET * span(task))
+    slack = np.array([error, ALIKE_ANGLE, ROUNDING * figures[:, 2].max()])
     beaten = (figures[:, None] > figures[None] - slack).all(axis=-1) & (
         figures[:, None] > figures[None] + slack
     ).any(axis=-1)

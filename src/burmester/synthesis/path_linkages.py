@@ -56,7 +56,6 @@ STEPS, CHOICE, KEPT = 50, ((10, 8),), 3  # steps of each; after how many how man
 LIMITED, OFF_WEIGHTS = 40, (0.003, 0.03, 0.3)
 LIMITED_STEPS, LIMITED_CHOICE = 60, ((10, 30), (25, 12))
 MANY, FEW = 200, 3  # points from which on judging takes long, and nearest curves judged then
-FAR = 20.0  # spans of the path; a linkage of five timed points with a longer link is left out
 
 
 class PathLinkages(NamedTuple):
@@ -132,12 +131,9 @@ def _of_fit(fit: CurveFit) -> PathLinkages:
 
 
 def _timed_exactly(points: FloatArray, path: TracedPath) -> PathLinkages:
-    """All linkages of five timed points but those with endless links."""
+    """All linkages of five timed points."""
     assert path.crank_angles is not None
-    batch, places = linkages_of_five_points(points, path.crank_angles)
-    size = float(np.linalg.norm(np.ptp(points, axis=0)))
-    sane = batch.dimensions[:, :, 4].max(axis=-1, initial=0.0) < FAR * size
-    return PathLinkages(batch[sane], places[sane])
+    return PathLinkages(*linkages_of_five_points(points, path.crank_angles))
 
 
 def _with_cognates(found: PathLinkages) -> PathLinkages:

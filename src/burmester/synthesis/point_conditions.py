@@ -8,20 +8,33 @@ without a pose the first point has no angle to begin with, and N is one more.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.diagnosis.checks import repeats_advice
+from burmester.errors import Advice
 from burmester.geometry.regions import Point
 from burmester.numerics.arrays import FloatArray
 from burmester.points.classes import CLASS
+from burmester.points.point_sets import PointSet, line_or_circle
 from burmester.points.start_systems import CASES, Case
 from burmester.tasks.limits import Limits
-from burmester.tasks.motion_task import CONDITIONS, Task
+from burmester.tasks.motion_task import CONDITIONS, MOST_POINTS, Task
+from burmester.tasks.repeated_poses import repeats_in_sequence
 from burmester.wording import count, listed
 
-__all__ = ["PointConditions", "given_pivots", "point_conditions"]
+__all__ = [
+    "PointConditions",
+    "each_once",
+    "given_pivots",
+    "point_conditions",
+    "special_curve",
+]
+
+LEAST_DIFFERENT = 3  # rows; where fewer differ, that is told of the task as given
 
 
 @final
@@ -78,6 +91,42 @@ def point_conditions(task: Task) -> PointConditions | None:
     if task.tolerances is None or not task.tolerances.are_poses_and_points:
         return None
     return PointConditions(task.free_angles, *given_pivots(task.limits))
+
+
+def each_once(task: Task) -> tuple[Task, list[Advice]]:
+    """A task with points, each row that repeats another taken out, and what is to be said of it.
+
+    Weights add up.  What is left is then a task like any other: nine points where a path of ten
+    held one twice.  Points with crank angles stay: a crank may turn while the point rests.
+    """
+    stated, path = task.tolerances, task.path
+    traced = path is not None and path.crank_angles is None
+    if stated is None or not (traced or (path is None and stated.are_poses_and_points)):
+        return task, []
+    first, group = repeats_in_sequence(task.poses, task.free_angles)
+    if len(first) == len(group) or len(first) < LEAST_DIFFERENT:
+        return task, []
+    if path is not None and not path.closed and stated.are_points and len(first) <= MOST_POINTS:
+        path = None
+    weights = task.weights
+    if path is not None or weights is not None:
+        weights = np.bincount(group, weights, len(first)).astype(np.float64)
+    exact = None if task.exact is None else np.bincount(group, task.exact) > 0
+    once = replace(task.at(first, weights), path=path, exact=exact)
+    if once.path is not None:  # of many points a repeat adds to the weight, and that is all
+        return once, []
+    told = repeats_advice(task, first, group, "point" if stated.are_points else "row")
+    return once, [] if told is None else [told]
+
+
+def special_curve(task: Task) -> PointSet | None:
+    """The line or circle that holds more positions of a task than a coupler curve meets of it.
+
+    Within the digits of the positions; None where the crank times them.
+    """
+    if task.path is not None and task.path.crank_angles is not None:
+        return None
+    return line_or_circle(task.poses.translation, task.resolution[0])
 
 
 def given_pivots(limits: Sequence[Limits]) -> tuple[FloatArray, bool]:

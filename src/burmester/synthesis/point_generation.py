@@ -17,11 +17,15 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.bundles import where
-from burmester.points.point_sets import PointSet, point_set
+from burmester.points.point_sets import MOST_MET, PointSet, point_set
 from burmester.points.real_linkages import PointLinkages, linkages_through
 from burmester.progress import step
 from burmester.synthesis.outcome import linkage_advice
-from burmester.synthesis.point_conditions import PointConditions, point_conditions
+from burmester.synthesis.point_conditions import (
+    PointConditions,
+    point_conditions,
+    special_curve,
+)
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import length_of
@@ -32,18 +36,23 @@ from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.ranking import ranked
 from burmester.wording import count
 
-__all__ = ["through_points"]
+__all__ = ["is_traced_by_crank", "missed_on_curve", "none_on_curve", "through_points"]
 
 
 def through_points(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
-    """All four-bars through poses and points; None where they are not finitely many."""
+    """All four-bars through poses and points; None where they are not finitely many.
+
+    None as well for points of which a line or a circle holds too many: they are missed.
+    """
     task, asked = problem.given, point_conditions(problem.given)
     if asked is None or asked.case is None:
         return None
+    if (crossed := special_curve(task)) is not None:
+        if asked.is_point.all():
+            return None
+        return Synthesis(problem, none_on_curve(crossed, task), warnings=tuple(findings))
     points = task.poses.translation[asked.is_point]
-    special = None if len(asked.pivots) else point_set(points)
-    if special is not None and asked.is_point.all() and special.kind != "conic":
-        return Synthesis(problem, _on_a_curve(special, task), warnings=tuple(findings))
+    special = None if len(asked.pivots) else point_set(points, task.resolution[0])
     found = linkages_through(task.poses, asked.is_point, asked.pivots)
     linkages = _judged(problem, found, asked) if len(found.batch) else ()
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
@@ -141,24 +150,77 @@ def _outcome(
     return Outcome("R340", works + "s" * (len(usable) == 1), why=why)
 
 
-def _on_a_curve(special: PointSet, task: Task) -> Outcome:
-    """Points on a line, or on a circle."""
-    if special.kind == "line":
+def is_traced_by_crank(special: PointSet | None, task: Task) -> bool:
+    """Whether a crank alone traces all points, and no limit asks for something else."""
+    circle = special is not None and special.kind == "circle" and bool(special.on.all())
+    return circle and not task.limits
+
+
+def none_on_curve(special: PointSet, task: Task) -> Outcome:
+    """What comes of positions of which a line or a circle holds more than a coupler curve meets."""
+    number = task.poses.shape[0]
+    where = f"{_how_many(special)} {_rows(task)} lie on a {special.kind}"
+    if not is_traced_by_crank(special, task):
         return Outcome(
-            "R343",
-            f"no linkage: all {task.poses.shape[0]} points lie on a line, and no four-bar traces "
-            "so many points of a line",
-            "give fewer points of the line, move some off it by what is allowed, or use a slider",
+            "R342",
+            f"no linkage: {where}, and a coupler curve meets that in {MOST_MET} points at most",
+            f"move {number - MOST_MET} of them off the {special.kind}, or leave them out",
+            _exceptions(special),
         )
     assert special.centre is not None
     centre = np.round(special.centre / special.radius, 6) * special.radius
     x, y = (length_of(float(each) + 0.0, task) for each in centre)
+    crank = f"a crank about ({x}, {y}) with the length {length_of(special.radius, task)}"
+    turned = "whatever else the linkage is"
+    help = (
+        "use a crank alone; where its pivot may not be there, say where pivots may lie "
+        "(--fixed-pivot), and linkages near the points are looked for"
+    )
+    if not task.angles_are_free:
+        turned = "and any second dyad through the poses turns the body"
+        help = "give the poses alone, and limit one dyad to this crank"
     return Outcome(
         "R343",
-        f"infinitely many linkages: all {task.poses.shape[0]} points lie on a circle",
-        "use a crank alone, or give poses, which say how the body turns",
-        f"a crank about ({x}, {y}) with the length {length_of(special.radius, task)} traces it, "
-        "whatever else the linkage is",
+        f"infinitely many linkages: {where}",
+        help,
+        f"{crank} traces it, {turned}",
+    )
+
+
+def missed_on_curve(special: PointSet, task: Task) -> Advice:
+    """W222, for points of which a line or a circle holds more than a coupler curve meets."""
+    if special.kind == "circle" and special.on.all():
+        cure = "use a crank alone, if its pivot may be at the middle of the circle"
+    elif special.kind == "line":
+        cure = "use a slider where the line has to be met"
+    else:
+        cure = "move points off the circle where they have to be met"
+    return Advice(
+        "W222",
+        f"{_how_many(special)} {_rows(task)} lie on a {special.kind}, and a coupler curve meets "
+        f"that in {MOST_MET} points at most: the linkages come near them",
+        cure,
+        _exceptions(special),
+    )
+
+
+def _how_many(special: PointSet) -> str:
+    """Of how many positions it is said: "all 9", "8 of the 9"."""
+    on, number = int(special.on.sum()), len(special.on)
+    return f"all {number}" if on == number else f"{on} of the {number}"
+
+
+def _rows(task: Task) -> str:
+    return "points" if task.angles_are_free else "positions"
+
+
+def _exceptions(special: PointSet) -> str | None:
+    """Which curves hold a circle; none holds a line."""
+    if special.kind == "line":
+        return None
+    return (
+        "only the curves of a crank's own pin, of parallelograms and of kites hold a circle, and "
+        "what else these pass is beyond a change point"
     )
 
 
@@ -175,11 +237,23 @@ def _of_special_points(special: PointSet) -> Advice:
 
 def _lost(found: PointLinkages) -> Advice:
     """W223, for linkages that were not found."""
+    reached = (
+        f"points in general position have {found.classes:,}, counted with complex ones; "
+        f"{found.found:,} were reached from {count(found.systems, 'solved problem')}"
+    )
+    if found.family:
+        return Advice(
+            "W223",
+            f"{found.lost} of {found.classes:,} solutions were not found: families of infinitely "
+            "many, complex ones counted, take the place of some, and none of these is listed",
+            "leave out a point: good linkages are then chosen from infinitely many; or move one "
+            "a little",
+            f"{reached}; points that are symmetric, or of which two are one, leave families",
+        )
     return Advice(
         "W223",
         f"{found.lost} of {found.classes:,} solutions were not found; a real linkage may be among "
         "them",
         "move a point a little, and compare",
-        f"points in general position have {found.classes:,}, counted with complex ones; "
-        f"{found.found:,} were reached from {count(found.systems, 'solved problem')}",
+        reached,
     )

@@ -38,8 +38,8 @@ from burmester.tasks.motion_task import COARSE, Task
 from burmester.tasks.repeated_poses import (
     COORDINATE_ROUNDING,
     distinguishable,
-    exact_repeats,
     orientation_arc,
+    repeats_in_sequence,
     rotation_range,
     spanning,
 )
@@ -115,7 +115,7 @@ def classify_motion(task: Task) -> MotionClass:
 
     Formula `rotation-and-sliders` of the theory.
     """
-    first, group = exact_repeats(task.poses)
+    first, group = repeats_in_sequence(task.poses, task.free_angles)
     motion = _RotationFit.of(task.poses[first], task.resolution)
     canonical = Displacement(
         _pairs_of(motion.residual / (motion.length or 1.0)), np.angle(motion.turn)

@@ -14,6 +14,7 @@ __all__ = [
     "exact_repeats",
     "orientation_arc",
     "orientation_arcs",
+    "repeats_in_sequence",
     "rotation_range",
     "spanning",
 ]
@@ -54,6 +55,31 @@ def exact_repeats(poses: Displacement) -> tuple[Indices, Indices]:
     same_as[twins] = earliest[label]
     first = np.flatnonzero(same_as == np.arange(len(same_as)))
     return first, np.searchsorted(first, same_as)
+
+
+def repeats_in_sequence(
+    poses: Displacement, is_point: NDArray[np.bool_]
+) -> tuple[Indices, Indices]:
+    """The first (k,) of each distinct row of poses and points, and which of them each row is (N,).
+
+    is_point: (N,), where the angle is free.  Poses repeat each other anywhere, as in
+    `exact_repeats`.  A point repeats a row beside it only: a coupler curve may pass through one
+    point twice, with other rows between.  Of a pose and points beside it the pose stays.
+    """
+    number, points = np.arange(len(is_point)), poses.translation
+    reach = COORDINATE_ROUNDING * float(np.abs(points).max())
+    run = np.concatenate([[0], (np.abs(np.diff(points, axis=0)) > reach).any(axis=1).cumsum()])
+    same_as, posed = number.copy(), np.flatnonzero(~is_point)
+    if len(posed):
+        first, group = exact_repeats(poses[posed])
+        same_as[posed] = posed[first[group]]
+    stays = np.full(run[-1] + 1, len(number))
+    np.minimum.at(stays, run[posed], same_as[posed])
+    alone = stays[run] == len(number)
+    np.minimum.at(stays, run[alone], number[alone])
+    same_as[is_point] = stays[run[is_point]]
+    first, group = np.unique(same_as, return_inverse=True)
+    return first, group
 
 
 def distinguishable(poses: Displacement, position: float, angle: float, most: int) -> Indices:

@@ -224,7 +224,8 @@ def notes_on(assembly: Assembly) -> list[str]:
     ]
     if assembly.assumed:
         notes.append(
-            "They follow the linkage's size. With --unit they are sizes of drills, bars and sheets."
+            "They follow the linkage's size. With --length-unit they are sizes of drills, bars and "
+            "sheets."
         )
     if assembly.plate("ground-2") is not None:
         notes.append(

@@ -60,7 +60,10 @@ def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
     gravity = " ".join(number(each) for each in model.gravity())
     stiff = f"{number(2 * servo.time_step)} 1"
     bound = f' boundmass="{LEAST}" boundinertia="{LEAST}"' if _small(model) else ""
-    head = [each.replace("--unit", "the option unit") for each in description(chosen, options, "m")]
+    head = [
+        each.replace("--length-unit", "the option unit")
+        for each in description(chosen, options, "m")
+    ]
     lines = [
         f"<mujoco model={xml_attribute(chosen.id)}>",
         f"  <!-- {' '.join(map(xml_comment, head))} -->",

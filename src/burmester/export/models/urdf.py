@@ -49,7 +49,10 @@ def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
     """Write the description; raises E162 and E163."""
     model = DynamicModel.of(chosen, options)
     tree = tree_of(model, options.pose - 1)
-    head = [each.replace("--unit", "the option unit") for each in description(chosen, options, "m")]
+    head = [
+        each.replace("--length-unit", "the option unit")
+        for each in description(chosen, options, "m")
+    ]
     tilt = " ".join(map(number, TILT[options.up]))
     lines = [
         '<?xml version="1.0"?>',

@@ -73,6 +73,7 @@ _LENGTHS: dict[str, str] = {
     "in": "in, inch, inches, Zoll, pouce, pouces, pulgada, pulgadas, pollice, pollici, "
     "英寸, インチ",
     "ft": "ft, foot, feet",
+    "px": "px, pixel, pixels",
 }
 _ANGLES: dict[str, str] = {
     "deg": "deg, degree, degrees, °, degré, degrés, grado, grados, gradi, 度",
