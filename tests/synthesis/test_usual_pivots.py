@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from benchmarks.planted_limits import planted
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.synthesis.motion_generation import synthesize
@@ -61,3 +62,9 @@ def test_a_linkage_with_far_pivots_comes_first_where_the_poses_are_its_own():
     found = sorted(float(dyad.radius) for dyad in (first.linkage.first, first.linkage.second))
     assert found == pytest.approx(own, rel=1e-2)
     assert not any(each.code == "W215" for each in result.warnings)
+
+
+def test_a_footprint_away_from_the_motion_holds_the_pivots_itself():
+    task, _ = planted(0, 233)
+    assert task.requirements.footprint is not None
+    assert synthesize(task).usable

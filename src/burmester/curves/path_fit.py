@@ -239,7 +239,7 @@ class PathSearch:
 
 def _allowed(path: PathTarget) -> FloatArray:
     """How far arcs (g,) between its points may leave their chords in the search: (g, 2)."""
-    gaps = PathGaps.of(pairs_of(path.points), closed=path.closed)
+    gaps = PathGaps.of(pairs_of(path.points), closed=path.turns)
     met = ALLOWED_SHARE * gaps.allowed()
     return np.stack([met, np.maximum(met, MOST_SHARE * gaps.allowed(math.inf))], axis=-1)
 

@@ -77,6 +77,7 @@ def _leaves_pivots_open(problem: SynthesisProblem, linkages: Sequence[FoundLinka
         and problem.options.refines
         and problem.options.method == "complete"
         and not states_tolerance(task)
+        and task.requirements.footprint is None  # it holds all pivots
         and any(None in (each.fixed_pivot, each.moving_pivot) for each in limits)
     )
 
