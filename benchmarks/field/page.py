@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from io import BytesIO
 from pathlib import Path
 from statistics import median
 from string import Template
 from typing import Any
 
-from benchmarks.field.generated import KINDS
+from benchmarks.field.generated import KINDS, PATH
 
 TEMPLATE = Template(Path(__file__).with_name("page.md").read_text(encoding="utf-8"))
 DOCS = Path(__file__).parents[2] / "docs"
@@ -18,7 +17,7 @@ SHARES, TIMES = DOCS / "field-solved.png", DOCS / "field-time.png"
 OURS = "burmester_synthesize"
 SHORT = {
     "burmester_synthesize": "burmester",
-    "pencil": "pencil (the paper's)",
+    "pencil": "pencil of the paper",
     "scipy_starts": "SciPy, many starts",
     "evolution": "SciPy, evolution",
     "fourbarhinge_fit": "fourbarhinge",
@@ -129,16 +128,33 @@ def better(data: dict[str, Any]) -> list[str]:
         if name == OURS:
             continue
         title = data["tools"][name]["title"]
-        more = _solves_what_ours_does_not(results, name)
+        more = [
+            task
+            for task in results.tasks
+            if _solved(results.records.get((name, task), {}))
+            and not _solved(results.records.get((OURS, task), {}))
+        ]
         if more:
             lines.append(f"**{title}** solves what burmester does not: {', '.join(more)}.")
+        first = [
+            task
+            for task in results.tasks
+            if _first(results.records.get((name, task), {}))
+            and not _first(ours := results.records.get((OURS, task), {}))
+            and _solved(ours)
+        ]
+        if first:
+            lines.append(
+                f"**{title}** solves by its first answer what burmester solves by a later one: "
+                f"{', '.join(first)}."
+            )
         nearer = []
         for task in results.tasks.values():
             theirs, ours = (results.records.get((each, task["name"]), {}) for each in (name, OURS))
             a, b = theirs.get("best_error"), ours.get("best_error")
-            if ours.get("status") == "does not apply" or a is None or not _solved(theirs):
+            if a is None or not (_solved(theirs) and _solved(ours)):
                 continue
-            if _solved(ours) and b > ROUNDING and a < NEARER * b:
+            if b > ROUNDING and a < NEARER * b:
                 nearer.append(f"{task['name']} ({a:.2g} beside {b:.2g})")
         if nearer:
             lines.append(f"**{title}** comes nearer, both solving: {', '.join(nearer)}.")
@@ -146,22 +162,6 @@ def better(data: dict[str, Any]) -> list[str]:
         if quicker:
             lines.append(f"**{title}** is faster in the median: {', '.join(quicker)}.")
     return lines
-
-
-def _solves_what_ours_does_not(results: Results, name: str) -> list[str]:
-    """Tasks by name, and how many of the kinds that ours does not take."""
-    out, not_taken = [], Counter[str]()
-    for task in results.tasks.values():
-        theirs = results.records.get((name, task["name"]), {})
-        ours = results.records.get((OURS, task["name"]), {})
-        if _solved(theirs) and not _solved(ours):
-            if ours.get("status") == "does not apply":
-                not_taken[task["kind"]] += 1
-            else:
-                out.append(task["name"])
-    for kind, count in not_taken.items():
-        out.append(f"{_tasks(count)} of “{kind}”, which burmester does not take")
-    return out
 
 
 def _tasks(count: int) -> str:
@@ -222,28 +222,55 @@ def text(data: dict[str, Any]) -> str:
         limit=f"{data['limit']:g}",
         ahead="\n".join(f"- {line}" for line in better(data)) or "Nowhere in these results.",
         trouble=f"\nWhat crashed or ran out of time:\n\n{trouble}\n" if trouble else "",
-        date=data["date"],
+        paths=_paths(results),
+        dates=_dates(results),
         **data["machine"],
     )
 
 
 def _answer(results: Results) -> str:
     """The outcome in a few sentences, from the figures."""
-    said = {name: results.of(name) for name in results.names}
-    ours = said.pop(OURS)
-    ranked = sorted(said, key=lambda name: -sum(map(_solved, said[name])) / len(said[name]))
-    there = {record["task"] for record in ours}
-    rest = []
-    for name in ranked:
-        both = [record for record in said[name] if record["task"] in there]
-        rest.append(f"{SHORT[name]} {_share(said[name])} ({_share(both)})")
+    parts = {name: results.of(name) for name in results.names}
+    ours = parts.pop(OURS)
+    ranked = sorted(parts, key=lambda name: -sum(map(_solved, parts[name])) / len(parts[name]))
+    rest = [f"{SHORT[name]} {_share(parts[name])}" for name in ranked]
     return (
-        f"burmester solves {_share(ours)} tasks that it takes, {_seconds(ours):.2g} s of processor "
-        "time in the median. The others, of the tasks that they take, and in brackets of those "
-        f"that burmester takes, too: {'; '.join(rest)}. Those who write this page write "
-        "burmester; a judge that shares no code with any tool says what is solved, and [where "
-        "other tools are better](#where-other-tools-are-better) is listed by the same script."
+        f"burmester solves {_share(ours)} tasks. The median task takes {_seconds(ours):.2g} s of "
+        f"processor time. The others, of the tasks that they take: {'; '.join(rest)}. The authors "
+        "of burmester wrote this page. A judge that shares no code with any tool decides what is "
+        "solved. The same script lists [where other tools are better]"
+        "(#where-other-tools-are-better)."
     )
+
+
+def _paths(results: Results) -> str:
+    """Whether paths are followed between their points: of the tools for which it was scored."""
+    lines, without = [], []
+    for name in results.names:
+        part = [record for record in results.of(name, PATH) if record["status"] == "answered"]
+        if not part:
+            continue
+        if any("follows" not in record for record in part):
+            without.append(SHORT[name])
+            continue
+        number = sum(record["follows"] > 0 for record in part)
+        lines.append(
+            f"{SHORT[name]} solves {_share(part)} paths at their points, and follows {number} of "
+            "them between the points, too."
+        )
+    if without:
+        lines.append(f"Not scored there, as their figures are older: {'; '.join(without)}.")
+    return " ".join(lines)
+
+
+def _dates(results: Results) -> str:
+    """When each tool was run."""
+    tools = results.data["tools"]
+    by_date: dict[str, list[str]] = {}
+    for name in results.names:
+        by_date.setdefault(tools[name]["date"], []).append(SHORT[name])
+    newest_first = sorted(by_date.items(), reverse=True)
+    return "\n".join(f"- {date}: {'; '.join(names)}." for date, names in newest_first)
 
 
 def _share(part: list[Record]) -> str:

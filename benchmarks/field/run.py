@@ -125,7 +125,7 @@ def results(
     seed: int,
 ) -> dict[str, Any]:
     """All that the page is made of."""
-    about = {}
+    about, today = {}, datetime.date.today().isoformat()
     for name in names:
         chosen = tool(name)
         about[name] = {
@@ -133,6 +133,7 @@ def results(
             "package": chosen.PACKAGE,
             "version": version(chosen.PACKAGE),
             "called": chosen.CALLED,
+            "date": today,
         }
     heads = [
         {
@@ -146,7 +147,6 @@ def results(
         for task in every
     ]
     return {
-        "date": datetime.date.today().isoformat(),
         "machine": machine(),
         "limit": limit,
         "seed": seed,

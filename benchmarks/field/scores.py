@@ -23,6 +23,7 @@ def scores(task: FieldTask, answers: Sequence[FourBar]) -> dict[str, Any]:
     best_error: the least greatest error, in spans, of an answer whose pivots are right; None if
     none comes near.  one_branch, anywhere: the same without the order, and without the branch.
     known_found: how many of the known linkages are among the answers.
+    follows, for a path: how many of the answers solve it and follow it between its points, too.
     """
     counted = list(answers)[:COUNTED]
     traces = [trace(answer, task) for answer in counted]
@@ -32,6 +33,7 @@ def scores(task: FieldTask, answers: Sequence[FourBar]) -> dict[str, Any]:
     ]
     kept = [each for each, good in zip(traces, allowed, strict=True) if good]
     found = sum(any(_same(task, known, answer) for answer in counted) for known in task.known)
+    followed = sum(each.follows and good for each, good in zip(traces, allowed, strict=True))
     return {
         "answers": len(answers),
         "solved": any(solved),
@@ -42,6 +44,7 @@ def scores(task: FieldTask, answers: Sequence[FourBar]) -> dict[str, Any]:
         "anywhere": _least([each.anywhere for each in kept]),
         "known": len(task.known),
         "known_found": found,
+        **({"follows": followed} if task.is_path else {}),
     }
 
 

@@ -24,6 +24,7 @@ CUTS = 64  # at most, of a full turn into "first to last"
 SHUT = 1e-10  # of the gate: below it two places are one, and rounding decides
 LOOSE = 1e-9  # of a link's square: nearer to each other two links are one, and hold nothing
 GOLDEN = (np.sqrt(5) - 1) / 2
+BULGE = 0.5  # of the spacing of points: a curve that leaves their path by less follows it
 
 
 def held(
@@ -196,11 +197,14 @@ class Trace:
     anywhere: each pose wherever the linkage can be put together.
     one_branch: all poses on one branch of one drive.
     in_order: and one after the other, by a drive that never turns back.
+    follows: for a path, whether they are met so within the tolerance and the curve between
+    neighbouring points stays near their chord, as `strays` has it.
     """
 
     anywhere: float
     one_branch: float
     in_order: float
+    follows: bool = False
 
 
 def trace(four_bar: FourBar, task: FieldTask) -> Trace:
@@ -208,6 +212,7 @@ def trace(four_bar: FourBar, task: FieldTask) -> Trace:
     count = len(task.rows)
     anywhere = np.full(count, np.inf)
     one_branch = in_order = np.inf
+    follows = False
     pair = (four_bar.first, four_bar.second)
     for driver, follower in (pair, pair[::-1]):
         for branch in branches(driver, follower, task):
@@ -217,7 +222,28 @@ def trace(four_bar: FourBar, task: FieldTask) -> Trace:
             one_branch = min(one_branch, bound)
             if bound < in_order:
                 in_order = min(in_order, _in_order(refined, errors, nearest, branch.closed))
-    return Trace(float(anywhere.max()), float(one_branch), float(in_order))
+            if task.is_path and not follows and bound <= task.tolerance:
+                away = strays(task, branch.body(refined)[0])
+                follows = any(
+                    _reaches(part <= task.tolerance, gaps)
+                    for part, gaps in _senses(refined, errors, away, nearest, branch.closed)
+                )
+    return Trace(float(anywhere.max()), float(one_branch), float(in_order), follows)
+
+
+def strays(task: FieldTask, curve: np.ndarray) -> np.ndarray:
+    """Which places (K,) of a curve are too far from the chord of each gap of a path: (N - 1, K).
+
+    Too far is half the spacing of the points there (the longest of a gap's chord and its
+    neighbours) and the tolerance.
+    """
+    begin, chord = task.places[:-1, None], np.diff(task.places)[:, None]
+    size = abs(chord)
+    along = (np.conj(chord) * (curve - begin)).real / np.maximum(size, 1e-300) ** 2
+    away = abs(curve - begin - np.clip(along, 0, 1) * chord)
+    beside = np.pad(size[:, 0], 1, mode="edge")
+    spacing = np.maximum(size[:, 0], np.maximum(beside[:-2], beside[2:]))
+    return away > (BULGE * spacing + task.tolerance * task.span)[:, None]
 
 
 def _errors(branch: Branch, task: FieldTask) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -244,17 +270,39 @@ def _errors(branch: Branch, task: FieldTask) -> tuple[np.ndarray, np.ndarray, np
 
 def _in_order(at: np.ndarray, errors: np.ndarray, nearest: np.ndarray, closed: bool) -> float:
     """The least greatest error with which a drive meets the poses one after the other."""
-    if not closed:
-        return min(_ascending(errors), _ascending(errors[:, ::-1]))
-    # A turn has no beginning: it is cut between places where poses are nearest, wide gaps first.
-    gaps = np.diff(np.concatenate([nearest, nearest[:1] + 2 * np.pi]))
-    chosen = np.argsort(-gaps, kind="stable")[:CUTS]
-    cuts = (nearest + gaps / 2)[chosen] % (2 * np.pi)
-    best = np.inf
-    for cut in cuts:
-        rolled = np.roll(errors, -int(np.searchsorted(at, cut)), axis=1)
-        best = min(best, _ascending(rolled), _ascending(rolled[:, ::-1]))
-    return best
+    return min(_ascending(part) for part, _ in _senses(at, errors, errors, nearest, closed))
+
+
+def _senses(
+    at: np.ndarray, errors: np.ndarray, others: np.ndarray, nearest: np.ndarray, closed: bool
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Errors (N, K) and other rows (·, K) along the drive, in both senses, from every cut."""
+    shifts = [0]
+    if closed:
+        # A turn has no beginning: it is cut between places where poses are nearest, wide gaps
+        # first.
+        gaps = np.diff(np.concatenate([nearest, nearest[:1] + 2 * np.pi]))
+        chosen = np.argsort(-gaps, kind="stable")[:CUTS]
+        cuts = (nearest + gaps / 2)[chosen] % (2 * np.pi)
+        shifts = [-int(np.searchsorted(at, cut)) for cut in cuts]
+    for shift in shifts:
+        a, b = np.roll(errors, shift, axis=1), np.roll(others, shift, axis=1)
+        yield a, b
+        yield a[:, ::-1], b[:, ::-1]
+
+
+def _reaches(near: np.ndarray, away: np.ndarray) -> bool:
+    """Whether places k1 <= k2 <= ... are near, one for each row (N, K), and none between is away.
+
+    away: (N - 1, K), a row for the places from one k to the next.
+    """
+    number = np.arange(near.shape[1])
+    here = near[0]
+    for row, gap in zip(near[1:], away, strict=True):
+        last = np.maximum.accumulate(np.where(here & ~gap, number, -1))
+        barred = np.maximum.accumulate(np.where(gap, number, -1))
+        here = row & (last > barred)
+    return bool(here.any())
 
 
 def _ascending(errors: np.ndarray) -> float:

@@ -127,6 +127,29 @@ def test_a_path_has_no_angles():
     assert trace(turned, task).in_order > 0.1
 
 
+@pytest.mark.parametrize(
+    ("degrees", "follows"),
+    [
+        ([20, 40, 60, 80], True),
+        ([80, 60, 40, 20], True),
+        ([340, 0, 20, 40], True),  # over the place where the turn begins
+        ([0, 10, 20, 350], False),  # all the way round between the last two
+        ([0, 10, 180, 190], True),  # an arc of 170 degrees: a bulge of 0.92 half chords
+        ([0, 10, 200, 210], False),  # of 190 degrees: of 1.09
+    ],
+)
+def test_a_path_is_followed_between_its_points_or_not(degrees, follows):
+    """A point of a crank draws a circle: which arc joins two of its points is known."""
+    poses = through_pin(np.radians(degrees))
+    points = replace(poses, rows=poses.rows[:, :2])
+    met = trace(SLOT, points)
+    assert met.in_order < NEAR
+    assert met.follows == follows
+    counted = scores(points, [SLOT, SLOT])
+    assert (counted["solving"], counted["follows"]) == (2, 2 * follows)
+    assert "follows" not in scores(poses, [SLOT])
+
+
 def test_five_published_poses_have_the_published_dyads_and_one_circuit_defect(shelf):
     """The presets say four dyads, and that links of 5.534 and 8.043 need two circuits."""
     task = shelf["motiongen-shoulder"]
@@ -203,8 +226,7 @@ def record(tool, task, status="answered", **more):
 
 
 def test_where_another_tool_is_better_the_page_says_so():
-    path = "paths: points without angles"
-    kinds = {"a": "noisy poses", "b": "noisy poses", "c": "sliders", "d": path}
+    kinds = {"a": "noisy poses", "b": "noisy poses", "c": "sliders", "d": page.PATH}
     about = {name: {"title": name.title()} for name in (page.OURS, "scipy_starts", "pencil")}
     tasks = [{"name": name, "kind": kind} for name, kind in kinds.items()]
     won = {"solved": True, "best_error": 1e-3, "cpu": 1.0}
@@ -215,15 +237,14 @@ def test_where_another_tool_is_better_the_page_says_so():
         record("scipy_starts", "a", **won | {"best_error": 5e-4, "cpu": 3.0}),
         record("scipy_starts", "b", **won | {"best_error": 2e-3, "cpu": 3.0}),
         record("scipy_starts", "c", **won),
-        record(page.OURS, "d", status="does not apply"),
-        record("pencil", "d", **won),
+        record(page.OURS, "d", **won),
+        record("pencil", "d", **won, solved_first=True),
         record("pencil", "a", **won | {"cpu": 0.1}),
         record("pencil", "b", **won | {"solved": False, "cpu": 0.1, "best_error": 1e-9}),
     ]
     lines = page.better({"tools": about, "tasks": tasks, "records": records})
     assert lines == [
-        f"**Pencil** solves what burmester does not: 1 task of “{path}”, which burmester does not "
-        "take.",
+        "**Pencil** solves by its first answer what burmester solves by a later one: d.",
         "**Pencil** is faster in the median: noisy poses (0.1 s beside 1 s, 1 task).",
         "**Scipy_Starts** solves what burmester does not: c.",
         "**Scipy_Starts** comes nearer, both solving: a (0.0005 beside 0.001).",
@@ -239,6 +260,26 @@ def test_figures_of_one_tool_are_kept_beside_those_of_the_others():
     assert [(each["tool"], each["n"]) for each in both["records"]] == [("a", 1), ("b", 2)]
     with pytest.raises(ValueError, match="other tasks"):
         merged(old | {"limit": 9}, new)
+
+
+def test_the_page_says_which_paths_were_followed_and_when_each_tool_ran():
+    about = {"title": "x", "package": "x", "version": "1", "called": "x"}
+    data = json.loads(RESULTS.read_text(encoding="utf-8"))
+    data["tools"] = {
+        page.OURS: about | {"date": "2026-02-02"},
+        "pencil": about | {"date": "2026-01-01"},
+    }
+    data["tasks"] = [{"name": name, "kind": page.PATH, "source": "generated"} for name in "ab"]
+    won = {"solved": True, "best_error": 1e-3, "cpu": 1.0}
+    data["records"] = [
+        record(page.OURS, "a", **won, follows=2),
+        record(page.OURS, "b", **won, follows=0),
+        record("pencil", "a", **won),
+    ]
+    text = page.text(data)
+    assert "burmester solves 2 of 2 paths at their points, and follows 1 of them" in text
+    assert "Not scored there, as their figures are older: pencil" in text
+    assert text.index("- 2026-02-02: burmester.") < text.index("- 2026-01-01: pencil")
 
 
 def test_the_page_is_that_of_the_results():

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from benchmarks.field.linkage import Dyad, FourBar
 from benchmarks.field.task import FieldTask
 
@@ -11,21 +13,26 @@ TITLE = "burmester"
 PACKAGE = "burmester"
 CALLED = (
     "`burmester.synthesize(task, length_per_radian=...)`, with ground pivots as `Limits` where the "
-    "task has some; the linkages of the result in their order"
+    "task has some; points of a path as poses whose angle is free; the linkages of the result in "
+    "their order"
 )
 
 
 def refuses(task: FieldTask) -> str | None:
-    return "it takes no points without angles" if task.is_path else None
+    return None
 
 
 def solve(task: FieldTask, seconds: float) -> list[FourBar]:
     import burmester
+    from burmester.tasks.pose_tolerances import PoseTolerances
 
-    poses = burmester.Displacement.from_poses(task.rows)
-    given = burmester.Task(poses, limits=_limits(task))
+    count, points = len(task.rows), task.is_path
+    rows = np.column_stack([task.rows, np.full(count, np.nan)]) if points else task.rows
+    free = PoseTolerances.uniform(count, 0, 0, np.inf) if points else None
+    given = burmester.Task.from_rows(rows, angle_unit="rad", limits=_limits(task), tolerances=free)
+    radian = None if points else task.disc
     # A time limit is one of the clock; this one ends searches only, and the limit here is CPU time.
-    result = burmester.synthesize(given, length_per_radian=task.disc, time_limit=0.9 * seconds)
+    result = burmester.synthesize(given, length_per_radian=radian, time_limit=0.9 * seconds)
     found = [_four_bar(each.driver_first) for each in result]
     return [four_bar for four_bar in found if four_bar is not None]
 
