@@ -98,6 +98,6 @@ def stated_unit(chosen: SavedLinkage | SavedSixBar, options: Options) -> str | N
 
     For formats that keep the task's lengths, which may be in px as well; raises E162.
     """
-    if options.unit is None:
+    if options.unit is None and chosen.unit in (None, "px"):
         return chosen.unit
     return unit_of(chosen, options)
