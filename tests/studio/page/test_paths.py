@@ -125,7 +125,8 @@ def test_a_path_is_solved_and_its_cognates_are_chosen_and_exported(page, visitor
     )
     for command in (judge, export):
         words = [sys.executable, "-m", *shlex.split(command)]
-        subprocess.run(words, cwd=tmp_path, capture_output=True, check=True)
+        done = subprocess.run(words, check=False, cwd=tmp_path, capture_output=True)
+        assert done.returncode in (0, 1), done  # 1: this cognate's pivots lie outside the box
     (drawn,) = tmp_path.glob("*.dxf")
     assert ours == drawn.read_bytes()
     judged = json.loads((tmp_path / "leg-by-hand.json").read_text(encoding="utf-8"))
