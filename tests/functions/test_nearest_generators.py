@@ -11,7 +11,7 @@ from benchmarks.function_requirements import TABLE, drawn, task_of, witnessed
 from burmester.functions.exact_pairs import exact_generators
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.further_starts import FurtherStarts
-from burmester.functions.kept import Kept
+from burmester.functions.kept_requirements import KeptRequirements
 from burmester.synthesis.function_generation import generate_function
 from tests.oracles import function_loops
 from tests.oracles.generators import drawn as drawn_generator
@@ -56,20 +56,20 @@ def test_scipy_finds_no_nearer_one_from_the_same_starts():
 
 def test_better_transmission_stands_beside_the_nearest_with_its_price():
     found = generate_function(task_of(np.log, (1, 2), 90, 90, minimax=True))
-    nearest, *others = found.trade_off
+    nearest, *others = found.prices
     assert np.degrees(nearest.max_error) == pytest.approx(0.0152, abs=2e-4)
     assert nearest.max_error == min(each.max_error for each in found.usable)
-    least = [np.degrees(each.least_transmission) for each in found.trade_off]
+    least = [np.degrees(each.least_transmission) for each in found.prices]
     assert least == sorted(least)
     assert {30, 40, 50, 60} <= {round(each) for each in least}
-    for each, below in zip(others, found.trade_off, strict=False):
+    for each, below in zip(others, found.prices, strict=False):
         assert each.max_error > below.max_error
         assert not any(
             one.max_error < each.max_error / 1.03
             and one.least_transmission > each.least_transmission
             for one in found.usable
         )
-    assert set(found.trade_off) <= set(found.leading(8))
+    assert set(found.prices) <= set(found.leading(8))
 
 
 def test_types_are_searched_for_and_not_only_sorted_out():
@@ -126,7 +126,7 @@ def test_of_mirror_images_through_exact_pairs_one_is_listed():
 def test_constraints_are_what_they_say_and_so_are_their_derivatives(types):
     one = [drawn_generator(seed)[0] for seed in range(20)]
     every = type(one[0]).joined(one)
-    kept = Kept(np.full(20, 35 * DEG), np.full(20, 3.0), types)
+    kept = KeptRequirements(np.full(20, 35 * DEG), np.full(20, 3.0), types)
     values, slopes = kept.constraints(every, 0.0, 1.2)
     keeps = (every.least_transmission(0.0, 1.2) >= 35 * DEG) & (every.link_ratio <= 3.0)
     if types:

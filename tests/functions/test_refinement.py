@@ -10,7 +10,7 @@ from burmester.functions.function_task import (
     chebyshev_spacing,
     even_spacing,
 )
-from burmester.functions.kept import Kept
+from burmester.functions.kept_requirements import KeptRequirements
 from burmester.functions.refinement import refined
 from burmester.synthesis.function_generation import generate_function
 from tests.oracles import function_loops
@@ -26,7 +26,7 @@ def task_of(values, x, input_deg, output_deg, **how):
 def test_least_squares_is_a_minimum_of_the_driven_error():
     one, inputs, outputs = drawn(7, count=12)
     outputs = outputs + 0.01 * np.random.default_rng(7).normal(size=12)
-    anything = Kept(np.zeros(1), np.full(1, np.inf))
+    anything = KeptRequirements(np.zeros(1), np.full(1, np.inf))
     end, error, arrived = refined(one, FunctionTask(inputs, outputs), anything)
     assert arrived.all()
     assert error == pytest.approx(np.sqrt((end.error(inputs, outputs) ** 2).mean(axis=1)))
@@ -48,7 +48,7 @@ def test_least_squares_is_a_minimum_of_the_driven_error():
 def test_minimax_errors_alternate_at_one_level():
     """Five unknowns: six greatest errors of alternate sign, which no small change lowers."""
     task = task_of(np.log10, (1, 2), 60, 60, minimax=True)
-    best = generate_function(task).trade_off[0]
+    best = generate_function(task).prices[0]
     error = np.degrees(best.errors)
     level = np.abs(error).max()
     assert level == pytest.approx(0.00365, abs=1e-5)
@@ -67,7 +67,7 @@ def test_minimax_errors_alternate_at_one_level():
     ],
 )
 def test_least_greatest_errors(values, x, ranges, expected):
-    best = generate_function(task_of(values, x, *ranges, minimax=True)).trade_off[0]
+    best = generate_function(task_of(values, x, *ranges, minimax=True)).prices[0]
     assert np.degrees(np.abs(best.errors).max()) == pytest.approx(expected, rel=0.02)
     inputs = np.radians(ranges[0]) * even_spacing(13)
     driven = np.degrees(function_loops.outputs(best.generator, inputs))
@@ -84,7 +84,7 @@ def test_least_greatest_errors(values, x, ranges, expected):
 def test_scipys_minimax_finds_no_lower_level(values, x, ranges):
     """The level and five dimensions, by sequential quadratic programs on the driven error."""
     task = task_of(values, x, *ranges, minimax=True)
-    best = generate_function(task).trade_off[0]
+    best = generate_function(task).prices[0]
     g, level = best.generator, np.abs(best.errors).max()
     at = np.array([g.input_link, g.coupler, g.output_link, g.input_phase, g.output_phase]).ravel()
     side = float(g.side.ravel()[0])

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
 from burmester.numerics.bundles import take
@@ -136,9 +137,7 @@ class CrankLinkages:
         else:
             pin = complex_of(self.dimensions[:, G1])[:, None] + a[:, None] * np.exp(1j * t)
             away = np.abs(complex_of(self.dimensions[:, G2])[:, None] - pin)
-        cosine = ((b * b + r * r)[:, None] - away**2) / (2 * b * r)[:, None]
-        with np.errstate(invalid="ignore"):
-            return np.asarray(np.arccos(np.abs(cosine)).min(axis=-1))
+        return np.asarray(crossing_angle(b[:, None], r[:, None], away).min(axis=-1))
 
     def lengths(self) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """Ground, crank, coupler and follower (k,) each."""

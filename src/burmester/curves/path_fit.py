@@ -21,12 +21,7 @@ from burmester.curves.curve_descent import CurveFit, PathTarget, descend
 from burmester.curves.timed_paths import timed_starts
 from burmester.fourbar.path_gaps import PathGaps, are_drawing
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import (
-    FloatArray,
-    complex_of,
-    even_numbers,
-    pairs_of,
-)
+from burmester.numerics.arrays import FloatArray, complex_of, even_numbers, pairs_of
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import weights_of_mean_one
 from burmester.progress import goes_on, step

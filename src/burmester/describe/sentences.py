@@ -251,14 +251,15 @@ def tracing_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     traced = Tracing.of(found, synthesis.task)
     if traced is None:
         return None
-    (rms, most), (path_rms, path_most) = traced.to_curve, traced.to_path
-    unit = f" {synthesis.task.length_unit}" if synthesis.task.length_unit else ""
-    points = f"misses the points by {figure(rms)} rms and {figure(most)}{unit} at most"
+    rms, most, path_rms, path_most = (
+        notation.length_of(each, synthesis.task) for each in (*traced.to_curve, *traced.to_path)
+    )
+    points = f"misses the points by {rms} rms and {most} at most"
     if explanation.meets_exactly(found, synthesis.length):
         points = "passes the points exactly"
     return (
-        f"The curve of {found.id} {points}; between them it leaves the path by {figure(path_rms)} "
-        f"rms and {figure(path_most)}{unit} at most."
+        f"The curve of {found.id} {points}; between them it leaves the path by {path_rms} rms and "
+        f"{path_most} at most."
     )
 
 

@@ -22,6 +22,7 @@ from burmester.numerics.arrays import FloatArray, complex_of
 __all__ = [
     "Centrodes",
     "centrodes",
+    "crossing_angle",
     "instant_centre",
     "mechanical_advantage",
     "transmission_angle",
@@ -147,3 +148,15 @@ def transmission_angle(linkage: Linkage, places: Displacement) -> FloatArray:
     if isinstance(linkage.first, PP) or isinstance(linkage.second, PP):
         return np.full(places.shape, np.nan)
     return with_trailing_axes(DrivenLoop.of(linkage), len(places.shape)).transmission(places)
+
+
+def crossing_angle(one: FloatArray, other: FloatArray, apart: FloatArray) -> FloatArray:
+    """The angle in [0, pi/2] at which two links cross at their common pin, radians.
+
+    one, other: their lengths; apart: how far their other ends are apart; nan where they do not
+    reach each other.  Of coupler and follower, with the distance of the crank's pin from the fixed
+    pivot, it is the transmission angle of four pins, least where the crank is in line with the
+    ground.
+    """
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.arccos(np.abs((one**2 + other**2 - apart**2) / (2 * one * other))))

@@ -14,7 +14,7 @@ from burmester.errors import Advice
 from burmester.fourbar.linkage import Linkage
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
-from burmester.functions.kept import MOST_SIZE
+from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.functions.refinement import at_bounds
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.wording import figure, in_runs, with_article
@@ -25,7 +25,7 @@ __all__ = [
     "MOST_LINK_RATIO",
     "FoundGenerator",
     "found_generators",
-    "trade_off",
+    "price_list",
 ]
 
 LEAST_TRANSMISSION: Final = 30.0  # degrees; below it friction and play grow quickly
@@ -35,7 +35,7 @@ MET: Final = 1e-7  # radians; a pair missed by less is met exactly
 SAME_EXACT: Final = 1e-6  # of the logarithm of a link, and radians, through exact pairs
 SAME_VALLEY: Final = 0.25  # the same of linkages downhill of starts
 MORE_TRANSMISSION: Final = math.radians(1)  # what makes a linkage of one valley another one
-STEP_OF_TRADE_OFF: Final = math.radians(3)  # of transmission, between members of it
+STEP_OF_PRICES: Final = math.radians(3)  # of transmission, between members of it
 MORE_ERROR: Final = 1.03  # times the error; the same
 MOST_PAIRS: Final = 6  # pairs or runs of them that a message names
 
@@ -149,7 +149,7 @@ def _repeats(one: FoundGenerator, before: FoundGenerator, image: Generator, *, e
     return bool(g.side == image.side) and apart < (SAME_EXACT if exact else SAME_VALLEY)
 
 
-def trade_off(usable: Sequence[FoundGenerator]) -> tuple[FoundGenerator, ...]:
+def price_list(usable: Sequence[FoundGenerator]) -> tuple[FoundGenerator, ...]:
     """Of usable generators those than which none is as near and transmits as well, nearest first.
 
     One that costs hardly more error than one before it stands for that one, unless that is the
@@ -158,7 +158,7 @@ def trade_off(usable: Sequence[FoundGenerator]) -> tuple[FoundGenerator, ...]:
     front: list[FoundGenerator] = []
     best = -math.inf
     for each in sorted(usable, key=lambda one: (one.max_error, -one.least_transmission)):
-        if each.least_transmission > best + STEP_OF_TRADE_OFF:
+        if each.least_transmission > best + STEP_OF_PRICES:
             if len(front) > 1 and each.max_error < MORE_ERROR * front[-1].max_error:
                 front.pop()
             front.append(each)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
-from burmester.functions.kept import MOST_SIZE
+from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.numerics.counted_draws import uniform_draws
 

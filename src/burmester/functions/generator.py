@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import RR
+from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import TYPES, Linkage, Links, grashof_numbers
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 
@@ -134,10 +135,7 @@ class Generator:
         The angle between coupler and output link; nan where the linkage opens or locks on the way.
         """
         b, r = self.output_link[..., None], self.coupler[..., None]
-        with np.errstate(invalid="ignore"):
-            cosine = (r * r + b * b - self.reach(low, high) ** 2) / (2 * r * b)
-            angle = np.arccos(cosine)
-        return np.asarray(np.minimum(angle, np.pi - angle).min(axis=-1))
+        return np.asarray(crossing_angle(r, b, self.reach(low, high)).min(axis=-1))
 
     def runs_through(self, low: float, high: float) -> NDArray[np.bool_]:
         """Whether (*,) the linkage goes from low to high on one branch, without a dead point."""

@@ -17,7 +17,7 @@ from burmester.functions.found_generator import MOST_LINK_RATIO
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.further_starts import FurtherStarts
 from burmester.functions.generator import Generator
-from burmester.functions.kept import Kept
+from burmester.functions.kept_requirements import KeptRequirements
 from burmester.functions.refinement import different, refined
 
 __all__ = ["nearest_generators"]
@@ -83,7 +83,7 @@ def _descended(
 ) -> list[Generator]:
     """The best generators of each level downhill of its starts, none twice."""
     which = np.repeat(np.arange(len(levels)), [len(each) for each in starts])
-    kept = Kept(
+    kept = KeptRequirements(
         np.array([each.transmission for each in levels])[which],
         np.array([each.ratio for each in levels])[which],
         levels[0].types,

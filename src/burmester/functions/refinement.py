@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
-from burmester.functions.kept import MOST_SIZE, SPARE, Kept
+from burmester.functions.kept_requirements import MOST_SIZE, SPARE, KeptRequirements
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import put, take
 from burmester.numerics.least_squares import Attempt, damped_descent
@@ -46,7 +46,7 @@ LONGEST_STEP = 0.5  # of the logarithm of a link, and radians
 def refined(
     start: Generator,
     task: FunctionTask,
-    kept: Kept,
+    kept: KeptRequirements,
     *,
     minimax: bool = False,
 ) -> tuple[Generator, FloatArray, NDArray[np.bool_]]:
@@ -94,7 +94,9 @@ class _Point(NamedTuple):
 class _Problem:
     """The errors of a task and what is kept, for the rows of a descent."""
 
-    def __init__(self, task: FunctionTask, kept: Kept, side: FloatArray, minimax: bool) -> None:
+    def __init__(
+        self, task: FunctionTask, kept: KeptRequirements, side: FloatArray, minimax: bool
+    ) -> None:
         self.task, self.kept, self.side, self.minimax = task, kept, side, minimax
         share = np.ones(len(task.inputs)) if task.weights is None else task.weights
         self.roots = np.ones(len(share)) if minimax else np.sqrt(share / share.sum())

@@ -54,13 +54,13 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
             "found": synthesis.found,
             "real": synthesis.real,
         },
-        "trade_off": [
+        "prices": [
             {
                 "id": each.id,
                 "min_transmission_angle_deg": _degrees(each.least_transmission),
                 "max_error_deg": _degrees(each.max_error),
             }
-            for each in synthesis.trade_off
+            for each in synthesis.prices
         ],
         "linkages": [_linkage(each, task) for each in synthesis.generators],
         "warnings": list(map(message_data, synthesis.warnings)),

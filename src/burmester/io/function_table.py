@@ -41,8 +41,8 @@ def show_function(
         shown = [each for each in shown if each.usable]
     if len(shown) > 1 or (shown and not usable):
         _table(shown, task, console)
-    if synthesis.price:
-        draw(wrapped(synthesis.price, console.width), console)
+    if synthesis.price_note:
+        draw(wrapped(synthesis.price_note, console.width), console)
     if synthesis.method == "judged" and len(task.inputs) <= MOST_PAIRS:
         _pair_errors(shown[0], task, console)
     if usable:

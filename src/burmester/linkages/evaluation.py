@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.defects import Defect, Driven, Verdict, judge
 from burmester.fourbar.dyad import Dyad
+from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
 from burmester.fourbar.pose_error import PoseError
@@ -567,8 +568,8 @@ def _all_round(linkage: Linkage, verdict: Verdict) -> Verdict:
             return driven
         ground, crank, coupler, follower = (float(each) for each in links)
         away = np.array([ground - crank, ground + crank])
-        cosine = (coupler**2 + follower**2 - away**2) / (2 * coupler * follower)
-        least = float(np.arccos(min(np.abs(cosine).max(), 1.0)))
+        angle = crossing_angle(np.array(coupler), np.array(follower), away)
+        least = float(np.nan_to_num(angle).min())
         return replace(driven, least_over_range=min(driven.least_over_range, least))
 
     return replace(

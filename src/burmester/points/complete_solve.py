@@ -58,13 +58,8 @@ def all_linkages(positions: Positions) -> AllLinkages:
     case = case_of(positions)
     classes = CASES[case]
     x, turns, followed, others, other_turns = _ends(case, positions, 0)
-    systems, family = (
-        1,
-        any(
-            is_in_family(*each, positions)
-            for each in zip(others[:MOST_TRIED], other_turns[:MOST_TRIED], strict=True)
-        ),
-    )
+    stopped = zip(others[:MOST_TRIED], other_turns[:MOST_TRIED], strict=True)
+    systems, family = 1, any(is_in_family(*each, positions) for each in stopped)
     while len(x) < followed == classes and systems < case.systems:
         again = _ends(case, positions, systems)
         x, turns = concatenate([(x, turns), (again.x, again.turns)])

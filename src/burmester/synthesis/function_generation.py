@@ -21,7 +21,7 @@ import numpy as np
 from burmester.errors import Advice, InputError
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import exact_generators, generators_of_phases
-from burmester.functions.found_generator import MET, FoundGenerator, found_generators, trade_off
+from burmester.functions.found_generator import MET, FoundGenerator, found_generators, price_list
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.functions.nearest_generators import nearest_generators
@@ -83,28 +83,28 @@ class FunctionSynthesis:
         return tuple(each for each in self.generators if each.usable)
 
     @property
-    def trade_off(self) -> tuple[FoundGenerator, ...]:
+    def prices(self) -> tuple[FoundGenerator, ...]:
         """Of those that work: the nearest one, and what each better transmission angle costs."""
-        return trade_off(self.usable)
+        return price_list(self.usable)
 
     @property
-    def price(self) -> str:
+    def price_note(self) -> str:
         """What better transmission angles cost, in a sentence; empty where there is no choice."""
-        if len(self.trade_off) < 2:
+        if len(self.prices) < 2:
             return ""
-        nearest, *others = self.trade_off
+        nearest, *others = self.prices
         miss = f"misses by {_degrees(nearest)}" if nearest.max_error > MET else "is exact"
         parts = [f"{nearest.id} {miss} at {_transmission(nearest)}"]
         for each in others:
             times = each.max_error / max(nearest.max_error, MET)
             price = f" ({figure(times)} times)" if LEAST_TIMES < times < MOST_TIMES else ""
             parts.append(f"{each.id} by {_degrees(each)} at {_transmission(each)}{price}")
-        return f"What transmission costs: {'; '.join(parts)}."
+        return f"What better transmission costs: {'; '.join(parts)}."
 
     def leading(self, most: int) -> list[FoundGenerator]:
-        """At most so many, by rank: those of the trade-off, and the first of the others."""
+        """At most so many, by rank: those of the price list, and the first of the others."""
         every = self.generators
-        wanted = list(dict.fromkeys([*every[:1], *self.trade_off, *every]))
+        wanted = list(dict.fromkeys([*every[:1], *self.prices, *every]))
         return sorted(wanted[:most], key=lambda each: each.rank)
 
 
@@ -250,7 +250,7 @@ def _nearly(task: FunctionTask) -> FunctionSynthesis:
     start = start.with_better_side(task.inputs, task.outputs, task.weights)
     step("refining the output angle")
     found = found_generators(nearest_generators(start, task), task, exact=False)
-    nearest = next(iter(trade_off([each for each in found if each.usable])), None)
+    nearest = next(iter(price_list([each for each in found if each.usable])), None)
     if nearest and bool(at_bounds(nearest.generator)):
         warnings.append(
             Advice(

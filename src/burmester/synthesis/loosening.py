@@ -16,13 +16,7 @@ import numpy as np
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.regions import Polygon
 from burmester.synthesis.cleared_region import cleared, swept_pivots
-from burmester.synthesis.wider_region import (
-    DIGITS,
-    plain,
-    region_text,
-    wider,
-    wider_all_around,
-)
+from burmester.synthesis.wider_region import DIGITS, plain, region_text, wider, wider_all_around
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import TYPES

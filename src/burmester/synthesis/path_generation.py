@@ -24,6 +24,7 @@ from burmester.numerics.bundles import take
 from burmester.progress import step
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.path_linkages import PathLinkages, is_timed_exactly, linkages_near
+from burmester.synthesis.point_approximation import ASSUMED_RATIO, LEAST_ASSUMED
 from burmester.synthesis.point_conditions import special_curve
 from burmester.synthesis.point_generation import (
     is_traced_by_crank,
@@ -55,12 +56,10 @@ from burmester.wording import count, figure
 
 __all__ = ["near_points", "with_tolerance"]
 
-ASSUMED_RATIO = 2.0  # of the assumed tolerance to the greatest distance of the nearest linkage
 # A sound linkage sets it if it misses by no more than that share of the path's span, or by no more
 # than ERROR_RATIO times as much as the nearest one; never by more than DEFAULT_TOLERANCE.
 SOUND_SHARE = 0.03
 GROWTH, MOST_TRIED = 1.5, 4  # from tolerance to tolerance under which linkages are judged; of them
-LEAST_ASSUMED = 1e-4  # spans of the path; a smaller tolerance is not assumed
 MOST_TOLD = 12  # linkages that are told
 MOST_JUDGED = 2000  # points; of more a sample says which linkages are judged at all of them
 ALIKE_ERROR, ALIKE_ANGLE = 0.01, math.radians(0.5)  # of the greatest error; radians; no difference

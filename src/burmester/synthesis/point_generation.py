@@ -21,11 +21,7 @@ from burmester.points.point_sets import MOST_MET, PointSet, point_set
 from burmester.points.real_linkages import PointLinkages, linkages_through
 from burmester.progress import step
 from burmester.synthesis.outcome import linkage_advice
-from burmester.synthesis.point_conditions import (
-    PointConditions,
-    point_conditions,
-    special_curve,
-)
+from burmester.synthesis.point_conditions import PointConditions, point_conditions, special_curve
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import length_of
@@ -163,7 +159,7 @@ def none_on_curve(special: PointSet, task: Task) -> Outcome:
     if not is_traced_by_crank(special, task):
         return Outcome(
             "R342",
-            f"no linkage: {where}, and a coupler curve meets that in {MOST_MET} points at most",
+            f"no linkage: {where}, which a coupler curve meets in {MOST_MET} points at most",
             f"move {number - MOST_MET} of them off the {special.kind}, or leave them out",
             _exceptions(special),
         )
@@ -197,8 +193,8 @@ def missed_on_curve(special: PointSet, task: Task) -> Advice:
         cure = "move points off the circle where they have to be met"
     return Advice(
         "W222",
-        f"{_how_many(special)} {_rows(task)} lie on a {special.kind}, and a coupler curve meets "
-        f"that in {MOST_MET} points at most: the linkages come near them",
+        f"{_how_many(special)} {_rows(task)} lie on a {special.kind}, which a coupler curve "
+        f"meets in {MOST_MET} points at most: the linkages only come near them",
         cure,
         _exceptions(special),
     )
@@ -244,8 +240,8 @@ def _lost(found: PointLinkages) -> Advice:
     if found.family:
         return Advice(
             "W223",
-            f"{found.lost} of {found.classes:,} solutions were not found: families of infinitely "
-            "many, complex ones counted, take the place of some, and none of these is listed",
+            f"{found.lost} of {found.classes:,} solutions were not found: some are no single "
+            "linkages but families of infinitely many, and none of a family is listed",
             "leave out a point: good linkages are then chosen from infinitely many; or move one "
             "a little",
             f"{reached}; points that are symmetric, or of which two are one, leave families",

@@ -59,7 +59,7 @@ def _best(synthesis: FunctionSynthesis) -> list[str]:
     if not synthesis.usable:
         return wanted
     found = synthesis.usable[0]
-    price = [synthesis.price] if synthesis.price else []
+    price = [synthesis.price_note] if synthesis.price_note else []
     return [f"{found.id}, {with_article(found.type)}, {_miss(found, task)}.", *price, *wanted]
 
 

@@ -15,7 +15,7 @@ from burmester.fourbar.linkage import GRASHOF_SUMS, TYPE_OF_SIGNS
 from burmester.functions.generator import Generator
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["MOST_SIZE", "SPARE", "Kept"]
+__all__ = ["MOST_SIZE", "SPARE", "KeptRequirements"]
 
 MOST_SIZE: Final = 10.0  # ground links; no link is longer, and none shorter than its inverse
 LEAST_TRANSMISSION: Final = np.radians(1.0)  # is kept always: who locks sooner is of no use
@@ -24,7 +24,7 @@ SPARE_TYPE: Final = 1e-3  # of all links together; a linkage nearer to a change 
 PAIRS: Final = np.array([(i, j) for i in range(4) for j in range(4) if i != j])  # of links
 
 
-class Kept(NamedTuple):
+class KeptRequirements(NamedTuple):
     """What generators (k,) have to keep.
 
     transmission: (k,), radians, at least, over the range; ratio: (k,), of the longest link to the
