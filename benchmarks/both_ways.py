@@ -135,6 +135,9 @@ def main():
             answer = synthesize(task)
             seconds = time.process_time() - began
             found = answer.usable or answer.linkages[:4]
+            if not found:  # a crank alone traces an arc
+                print(f"{shape:16} {seconds:5.1f} no linkage: {answer.outcome.code}", flush=True)
+                continue
             far = strays(found, points, closed) / diameter
             nearest = min(range(len(found)), key=lambda k: found[k].error.worst)
             parts = []

@@ -140,6 +140,24 @@ def test_curves_that_points_lie_on_are_recognised():
     assert point_set(np.column_stack([np.cos(t), np.sin(t)])).kind == "circle"
 
 
+def test_eight_of_nine_points_on_an_ellipse_are_told_as_linkages_of_theirs_are_at_infinity():
+    t = np.array([0.1, 0.4, 0.9, 1.7, 2.2, 3.1, 4.0, 4.9, 5.6])
+    points = np.column_stack([3 * np.cos(t) + 7, np.sin(t) + np.cos(t)])
+    points[4] += [0.3, -0.2]
+    found = point_set(points)
+    assert found.kind == "conic"
+    assert np.flatnonzero(~found.on).tolist() == [4]
+    assert point_set(np.round(points, 4)) is None
+    rounded = point_set(np.round(points, 4), 5e-5)
+    assert np.flatnonzero(~rounded.on).tolist() == [4]
+    free = PoseTolerances(np.zeros((9, 2)), np.full(9, np.inf))
+    synthesis = synthesize(Task(Displacement(points, np.zeros(9)), tolerances=free))
+    assert [each.message[:20] for each in synthesis.warnings][0] == "8 of the 9 points li"
+    assert synthesis.points.found < synthesis.points.classes
+    points[6] += [0.1, 0.3]
+    assert point_set(points) is None
+
+
 @pytest.mark.parametrize(("poses", "points", "code"), [(3, 2, "R308"), (0, 6, "R350")])
 def test_fewer_rows_leave_infinitely_many_and_pivots_open(poses, points, code):
     """What is listed is driven through all rows; no pose says how certain its pivots are."""

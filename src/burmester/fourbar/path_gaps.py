@@ -14,6 +14,7 @@ from collections.abc import Callable
 from typing import Final, NamedTuple, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
@@ -21,6 +22,7 @@ __all__ = ["PathGaps", "are_drawing"]
 
 STEPS: Final = (4, 64, 960)  # steps of a sampled arc at least and at most, and of all arcs together
 ROUNDS, TRIED = 6, 5  # of narrowing the bracket of the greatest distance: to a half in each round
+MOST_NARROWED: Final = 400  # gaps of each linkage
 ALLOWED_STEPS: Final = 0.5  # steps of the points; a bulge of less may be that of the path itself
 # Diameters of the path.  A curve leaves it by no more where the points themselves say where it is.
 ALLOWED_DIAMETERS: Final = 0.1
@@ -94,26 +96,39 @@ class PathGaps(NamedTuple):
         return _Arcs(parameter, points, self.away(points))
 
     def bulges(self, curve: Callable[[FloatArray], ComplexArray], ends: FloatArray) -> FloatArray:
-        """The bulges (k, g) of arcs as in `sampled`; nan where a parameter does not exist."""
+        """The bulges (k, g) of arcs as in `sampled`; nan where a parameter does not exist.
+
+        Of more than MOST_NARROWED gaps only those are narrowed whose samples stray most.
+        """
         arcs = self.sampled(curve, ends)
         away = np.nan_to_num(arcs.away, nan=-1.0)
-        at = away.argmax(axis=-1)[..., None]
-        best = np.take_along_axis(away, at, axis=-1)
-        middle = np.take_along_axis(arcs.parameter, at, axis=-1)
-        low, high = ends.min(axis=-1, keepdims=True), ends.max(axis=-1, keepdims=True)
+        bulge = away.max(axis=-1)
+        most = min(MOST_NARROWED, bulge.shape[-1])
+        excess = bulge - ALLOWED_STEPS * self.step
+        gap = np.argpartition(excess, -most, axis=-1)[:, -most:]
+        own = np.arange(len(ends))[:, None], gap
+        at = away[own].argmax(axis=-1)[..., None]
+        middle = np.take_along_axis(arcs.parameter[own], at, axis=-1)
+        low, high = ends[own].min(axis=-1, keepdims=True), ends[own].max(axis=-1, keepdims=True)
         reach = (high - low) / (away.shape[-1] - 1)
         for _ in range(ROUNDS):
             tried = np.clip(middle + reach * np.linspace(-1, 1, TRIED), low, high)
             points = curve(tried.reshape(len(ends), -1)).reshape(tried.shape)
-            away = np.nan_to_num(self.away(points), nan=-1.0)
+            away = np.nan_to_num(self.away(points, gap), nan=-1.0)
             at = away.argmax(axis=-1)[..., None]
-            best = np.maximum(best, np.take_along_axis(away, at, axis=-1))
+            bulge[own] = np.maximum(bulge[own], away.max(axis=-1))
             middle, reach = np.take_along_axis(tried, at, axis=-1), reach / 2
-        return np.where(best[..., 0] < 0, np.nan, best[..., 0])
+        return np.where(bulge < 0, np.nan, bulge)
 
-    def away(self, points: ComplexArray) -> FloatArray:
-        """The distances (k, g, m) of points (k, g, m) from the chords of their gaps."""
-        begin, chord = self.begin[:, None], (self.end - self.begin)[:, None]
+    def away(self, points: ComplexArray, gap: NDArray[np.intp] | None = None) -> FloatArray:
+        """The distances (k, g, m) of points (k, g, m) from the chords of their gaps.
+
+        gap: (k, g), the numbers of the gaps; None: all of them, in their order.
+        """
+        begin, end = self.begin[..., None], self.end[..., None]
+        if gap is not None:
+            begin, end = self.begin[gap][..., None], self.end[gap][..., None]
+        chord = end - begin
         to = points - begin
         squared = np.maximum(np.abs(chord) ** 2, np.finfo(float).tiny)
         along = np.clip((chord.conj() * to).real / squared, 0.0, 1.0)

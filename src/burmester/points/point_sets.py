@@ -20,6 +20,7 @@ __all__ = ["MOST_MET", "PointSet", "line_or_circle", "point_set"]
 FLAT: Final = 1e-7  # of the points' radius of gyration; points as near to a curve are on it
 WITHIN_DIGITS: Final = 2.0  # half of the last digit: x and y may both be off by it, and the curve
 LEAST_CIRCLE, LEAST_CONIC = 4, 6  # points that are not on such a curve as a rule
+MANY_ON_CONIC: Final = 8  # points of nine; then 10 of 1442 linkages are at infinity, of nine 104
 MOST_MET: Final = 6  # points of a line, or a circle, that a coupler curve meets
 MOST_BESIDE: Final = 2  # points beside a line or a circle that holds the others
 FAR: Final = 20.0  # radii of gyration; a circle of a larger radius is told as no circle
@@ -38,19 +39,19 @@ class PointSet(NamedTuple):
 def point_set(points: FloatArray, digits: float = 0.0) -> PointSet | None:
     """The simplest curve that points (N, 2) lie on; None where they are in general position.
 
+    All of them, or of nine all but one on a conic.
     digits: how exactly x and y are known, half of the last digit; points as near are on the curve.
     """
-    if len(points) < LEAST_CIRCLE:
+    number = len(points)
+    if number < LEAST_CIRCLE:
         return None
     simple = _line(points, digits) or _circle(points, digits)
-    if simple is not None or len(points) < LEAST_CONIC:
+    if simple is not None or number < LEAST_CONIC:
         return simple
-    (x, y), _, size = _standard(points)
-    rows = np.column_stack([x * x, x * y, y * y, x, y, np.ones_like(x)])
-    value, slope = _nearest_curve(rows, x, y)
-    allowed = max(FLAT, WITHIN_DIGITS * digits / size)
-    is_conic = bool((np.abs(value) <= allowed * slope).all())
-    return PointSet("conic", np.ones(len(points), dtype=bool)) if is_conic else None
+    some = [np.ones(number, dtype=bool)]
+    if number > MANY_ON_CONIC:
+        some += list(~np.eye(number, dtype=bool))
+    return next((PointSet("conic", on) for on in some if _is_conic(points[on], digits)), None)
 
 
 def line_or_circle(points: FloatArray, digits: float = 0.0) -> PointSet | None:
@@ -102,7 +103,11 @@ def _circle(points: FloatArray, digits: float) -> PointSet | None:
     return PointSet("circle", near, middle + size * centre, size * radius)
 
 
-def _nearest_curve(rows: FloatArray, x: FloatArray, y: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """The values (N,) of the conic nearest to points, and the lengths (N,) of its gradient."""
+def _is_conic(points: FloatArray, digits: float) -> bool:
+    """Whether points (N, 2) are as near to the conic nearest to them as their digits say."""
+    (x, y), _, size = _standard(points)
+    rows = np.column_stack([x * x, x * y, y * y, x, y, np.ones_like(x)])
     a, b, c, d, e, _ = own = np.linalg.svd(rows, full_matrices=False)[2][-1]
-    return rows @ own, np.hypot(2 * a * x + b * y + d, b * x + 2 * c * y + e)
+    slope = np.hypot(2 * a * x + b * y + d, b * x + 2 * c * y + e)
+    allowed = max(FLAT, WITHIN_DIGITS * digits / size)
+    return bool((np.abs(rows @ own) <= allowed * slope).all())

@@ -60,8 +60,8 @@ __all__ = ["near_points", "with_tolerance"]
 # than ERROR_RATIO times as much as the nearest one; never by more than DEFAULT_TOLERANCE.
 SOUND_SHARE = 0.03
 GROWTH, MOST_TRIED = 1.5, 4  # from tolerance to tolerance under which linkages are judged; of them
-MOST_TOLD = 12  # linkages that are told
 MOST_JUDGED = 2000  # points; of more a sample says which linkages are judged at all of them
+MOST_TOLD, FEW_TOLD = 12, 8  # linkages that are told, and of MOST_JUDGED points
 ALIKE_ERROR, ALIKE_ANGLE = 0.01, math.radians(0.5)  # of the greatest error; radians; no difference
 SAME = 0.01  # spans of the path; linkages whose pivots and links differ by less are listed once
 ROUNDING = 1e-6  # relative; extents that differ by less are alike
@@ -127,15 +127,29 @@ def _judged(
     The angles of the task are those of the nearest linkage, to draw the body with; they are free.
     """
     poses = Displacement(task.poses.translation, found.places[0, :, 2])
-    task = replace(task, poses=poses)
+    task, known = replace(task, poses=poses), None
     if len(task.poses.angle) > MOST_JUDGED:
-        found = _by_sample(task, found, path, options)
+        found, known = _by_sample(task, found, path, options)
     if (stated := _stated(task, path)) is not None:
         given = replace(task, tolerances=_of_points(stated))
         return given, _told(_evaluated(given, found, options), given), []
-    given, judged, base = _by_nearest(task, found, path, options)
+    by_known = None if known is None else _by_one(known, task, found, options)
+    given, judged, base = by_known or _by_nearest(task, found, path, options)
     told = _told(judged, given)
     return given, told, [_assumed(given, told, base)]
+
+
+def _by_one(
+    number: int, task: Task, found: PathLinkages, options: SynthesisOptions
+) -> tuple[Task, list[FoundLinkage], FoundLinkage] | None:
+    """The task with a tolerance by the linkage of a number, all judged by it, and that linkage.
+
+    None where it does not work.
+    """
+    away = float(found.greatest_misses(task.poses.translation)[number])
+    given, judged = _within(away, task, found, options)
+    base = next((each for each in judged if each.usable and _number(each) == number), None)
+    return None if base is None else (given, judged, base)
 
 
 def _by_nearest(
@@ -256,19 +270,25 @@ def _evaluated(task: Task, found: PathLinkages, options: SynthesisOptions) -> li
 
 def _by_sample(
     task: Task, found: PathLinkages, path: TracedPath, options: SynthesisOptions
-) -> PathLinkages:
+) -> tuple[PathLinkages, int | None]:
     """Of linkages near very many points those that are worth judging at all, by a sample of them.
 
-    All of them where none is usable there.
+    All of them where none is usable there.  With the number of the one that sets the tolerance.
     """
     sample = PoseSample.of_task(task, MOST_JUDGED)
     there = found._replace(places=found.places[:, sample.index])
-    _, judged, _ = _judged(task.at(sample.index, sample.cells), there, path, options)
+    part = task.at(sample.index, sample.cells)
+    if (stated := _stated(part, path)) is not None:
+        given, base = replace(part, tolerances=_of_points(stated)), None
+        judged = _evaluated(given, there, options)
+    else:
+        given, judged, base = _by_nearest(part, there, path, options)
+    judged = _told(judged, given)
     if not any(each.usable for each in judged):
-        return found
-    # `_members` numbers the dyads of each by its place.
-    index = [(int(each.dyads[0].id[1:]) - 1) // 2 for each in judged]
-    return take(found, np.array(index, dtype=np.intp))
+        return found, None
+    index = [_number(each) for each in judged]
+    known = None if base is None or base not in judged else judged.index(base)
+    return take(found, np.array(index, dtype=np.intp)), known
 
 
 def _may_be_inside(task: Task, found: PathLinkages) -> NDArray[np.bool_]:
@@ -301,6 +321,11 @@ def _members(
     return evaluation.members(candidates)
 
 
+def _number(found: FoundLinkage) -> int:
+    """The place of a linkage among those that are judged: `_members` numbers its dyads by it."""
+    return (int(found.dyads[0].id[1:]) - 1) // 2
+
+
 def _told(judged: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     """What is listed of judged linkages: each once, and of those that are many the front."""
     different = _different(judged, SAME * span(task))
@@ -312,19 +337,20 @@ def _told(judged: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
 def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     """The usable linkages that no other one beats in distance, transmission and extent at once.
 
-    In their order, MOST_TOLD of them at most, those of the price list among these, and
+    In their order, MOST_TOLD or FEW_TOLD of them at most, those of the price list among these, and
     the one with the least root mean square.
     Where none is usable, the nearest, and those that lack least.
     """
     usable = [each for each in found if each.usable and each.quality is not None]
+    most = MOST_TOLD if len(task.poses.angle) < MOST_JUDGED else FEW_TOLD
     if not usable:
-        nearest = list(found)[: MOST_TOLD // 2]  # and those that lack least
+        nearest = list(found)[: most // 2]  # and those that lack least
         far = _nearest_too_far(found)
         others = sorted(
             found[len(nearest) :],
             key=lambda each: (each is not far, bool(each.defects), len(each.violations)),
         )
-        return [*nearest, *others[: MOST_TOLD - len(nearest)]]
+        return [*nearest, *others[: most - len(nearest)]]
     figures = np.array(
         [
             (each.combined_error, -each.driven.least_over_range, each.quality.extent)
@@ -341,7 +367,7 @@ def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     if (squares := min(usable, key=lambda each: each.error.rms)) not in priced:
         priced.append(squares)
     best = [e for k, e in enumerate(usable) if e not in priced and not beaten[k].any()]
-    told = [*priced, *best[: max(MOST_TOLD - len(priced), 0)]]
+    told = [*priced, *best[: max(most - len(priced), 0)]]
     return [each for each in usable if each in told]
 
 

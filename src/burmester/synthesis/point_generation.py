@@ -225,8 +225,8 @@ def _of_special_points(special: PointSet) -> Advice:
     curve = {"line": "a line", "circle": "a circle", "conic": "an ellipse or another conic"}
     return Advice(
         "W222",
-        f"the points lie on {curve[special.kind]}: fewer linkages than for points in general "
-        "position, and perhaps infinitely many beside those that are listed",
+        f"{_how_many(special)} points lie on {curve[special.kind]}: fewer linkages than for points "
+        "in general position, and perhaps infinitely many beside those that are listed",
         "move one point a little where others are wanted",
     )
 
