@@ -86,6 +86,18 @@ def test_each_task_of_a_stack_gets_the_answer_of_the_road_of_one_task(depth, cou
     assert {"four-bar", "noisy", "rough"} & set(plain), "nothing was computed as a stack"
 
 
+@pytest.mark.parametrize(("depth", "count"), STACKS)
+def test_tasks_that_no_stack_is_vouched_for_are_answered_alone_too(depth, count):
+    rows, names = mixed_tasks(count)
+    every = stacked_answers(TaskStack(rows), depth)
+    hard = [names.index(each) for each in ("translation", "one pose twice", "two poses only")]
+    for some in (hard, hard[:1]):
+        answers = stacked_answers(TaskStack(rows[some]), depth)
+        assert answers.outcome.tolist() == every.outcome[some].tolist()
+        own = every.dyads.kind[np.isin(every.dyads.task, some)]
+        assert sorted(answers.dyads.kind) == sorted(own)
+
+
 @pytest.mark.parametrize(("depth", "method"), [("pencil", "pencil"), ("dyads", "auto")])
 def test_the_road_of_one_task_has_the_dyads_of_a_synthesis(depth, method):
     rows, names = mixed_tasks(10)

@@ -49,7 +49,9 @@ def many_critical_points(
     far: (T,), how many of the points are at infinity (`points_at_infinity`); in their places, and
     for tasks of which not all the others are found, is nan.
     """
-    starts = range(0, max(1, len(far)), TASKS_AT_ONCE)
+    if not len(far):
+        return np.empty((0, COUNT, 4), dtype=complex), np.empty(0, dtype=bool)
+    starts = range(0, len(far), TASKS_AT_ONCE)
     parts = [slice(start, start + TASKS_AT_ONCE) for start in starts]
     found = [
         _critical_points(seen[part], None if weights is None else weights[part], far[part])

@@ -1,0 +1,1 @@
+"""What commands print and write, kept as fingerprints: a change of the inside changes none."""
