@@ -21,7 +21,9 @@ BLOCK = 64
 RELATIVE, ABSOLUTE, GREATEST = 1e-6, 1e-8, 1e15
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
 # What may be otherwise in two runs: the version, dates, and how long something took.
-MOVING = re.compile(r'burmester[ -]\d+\.\d+\.\d+\S*|\d{4}-\d\d-\d\d\S*|"seconds": ?[\d.e+-]+')
+MOVING = re.compile(
+    r'burmester[ -]\d+\.\d+\.\d+\S*|\d{4}-\d\d-\d\d\S*|"seconds": ?[\d.e+-]+|[\d.]+ m?s\b'
+)
 PAGE_DATA = re.compile(r'<script type="application/json"[^>]*>(.*?)</script>', re.DOTALL)
 ACROSS = 8  # pixels of a frame, shrunk
 
@@ -49,6 +51,10 @@ def as_text(name: str, content: bytes) -> str:
         return "\n".join(" ".join(f"{x:.6g}" for x in row) for row in rows.tolist())
     if ending == "gif":
         return _frames(content)
+    if ending == "step":  # rounding says which of its points are one, and so their order
+        points = re.findall(r"CARTESIAN_POINT\('',\(([^)]*)\)", content.decode())
+        rounded = {tuple(round(float(x), 5) + 0.0 for x in each.split(",")) for each in points}
+        return "\n".join(map(str, sorted(rounded)))
     if ending == "zip":
         with zipfile.ZipFile(io.BytesIO(content)) as parts:
             return "\n".join(as_text(each, parts.read(each)) for each in sorted(parts.namelist()))
