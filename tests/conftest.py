@@ -22,6 +22,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     test, and lets workers without work steal from the end of another's.  So each stretch has its
     share of quick tests, then its share of slow ones.
     """
+    items[:] = _together(items)
     slow = [item for item in items if item.get_closest_marker("slow")]
     quick = [item for item in items if not item.get_closest_marker("slow")]
     left = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
@@ -31,3 +32,14 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         ordered += quick[: length - last] + slow[:last]
         quick, slow, left = quick[length - last :], slow[last:], left - 1
     items[:] = ordered
+
+
+def _together(items: list[pytest.Item]) -> list[pytest.Item]:
+    """The items, those of one case one after the other in modules that are marked `together`."""
+    first: dict[object, int] = {}
+    keys = []
+    for place, item in enumerate(items):
+        case = getattr(item, "callspec", None)
+        shared = case is not None and item.get_closest_marker("together") is not None
+        keys.append(first.setdefault((item.path, case.id) if shared and case else place, place))
+    return [item for _, item in sorted(zip(keys, items, strict=True), key=lambda each: each[0])]

@@ -51,6 +51,7 @@ from tests.oracles.measured import as_csv, measured
 from tests.oracles.recordings import nexus, recording
 from tests.oracles.ten_poses import ROWS, TEN
 
+pytestmark = pytest.mark.together
 WIDTHS = (60, 80, 200)
 ROOT = Path(burmester.__file__).parent
 
