@@ -3,7 +3,7 @@ var studio_default=`/* The studio's page.  Colours and type are those of widget.
 
 body.bs { margin: 0; min-height: 100vh; }
 @media (prefers-color-scheme: dark) { html { background: #121418; } }
-.bs-failed { max-width: 40rem; margin: 3rem auto; padding: 0 1rem; }
+.bs .bs-failed { max-width: 40rem; margin: 3rem auto; padding: 0 1rem; }
 .bs h3, .bs h4 { margin: 0; font-weight: 650; }
 .bs h3 { font-size: 0.92rem; }
 .bs h4 { font-size: 0.84rem; color: var(--bm-muted); font-weight: 600; }

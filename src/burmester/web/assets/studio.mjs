@@ -59,18 +59,18 @@ get(kind)?.remove();this.shown.set(kind,banner);this.element.append(banner)}clos
 store}=this,{messages}=store,[first]=messages;this.close("limit");this.close("refused");if(!first||store.document.poses.length<2)return;const shown2=store.solved?.
 linkages.length?" What is shown was followed from the answer before.":"";if(first.tone==="cancelled")this.say("note",`Solving was stopped.${shown2}`,[],{actions:[
 this.again()]});else if(first.tone==="limit")this.say("limit",`Solving took too long and was stopped. Nothing of the task is lost.${shown2}`,messages,{actions:[
-this.again()]});else if(first.tone==="ended")this.say("ended",`What computes for this page ended before its time. Nothing of the task is lost.${shown2}`,messages,
-{actions:[this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("Solve again",()=>{this.close("note");this.
-close("limit");this.close("ended");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="of\
-fline")this.offline();else this.close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?
-"Not connected":this.summary();say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){
-const{solved,solvedFor,document:document2,messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not s\
-olved";if(!solved||solvedFor!==document2)return"";const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count}\
- linkage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothin\
-g is lost: the task is in this page, and can still be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-d\
-o":"save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the server has ended, start burmester studio with that file, or drop the file on\
- the new page.")]})}expired(){this.close("offline");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed in this t\
-ab, and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+this.again()]});else if(first.tone==="ended")this.say("ended","The process that computes for this page has ended. Nothing of the task is lost.",messages,{actions:[
+this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("Solve again",()=>{this.close("note");this.close("\
+limit");this.close("ended");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="offline")
+this.offline();else this.close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?"Not c\
+onnected":this.summary();say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){const{
+solved,solvedFor,document:document2,messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not solved";
+if(!solved||solvedFor!==document2)return"";const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count} lin\
+kage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothing is\
+ lost: the task is in this page, and can still be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"\
+save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the server has ended, start burmester studio with that file, or drop the file on the\
+ new page.")]})}expired(){this.close("offline");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed in this tab, \
+and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<

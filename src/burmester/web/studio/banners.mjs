@@ -60,7 +60,7 @@ export class Banners {
     const shown = store.solved?.linkages.length ? " What is shown was followed from the answer before." : "";
     if (first.tone === "cancelled") this.say("note", `Solving was stopped.${shown}`, [], { actions: [this.again()] });
     else if (first.tone === "limit") this.say("limit", `Solving took too long and was stopped. Nothing of the task is lost.${shown}`, messages, { actions: [this.again()] });
-    else if (first.tone === "ended") this.say("ended", `What computes for this page ended before its time. Nothing of the task is lost.${shown}`, messages, { actions: [this.again()] });
+    else if (first.tone === "ended") this.say("ended", "The process that computes for this page has ended. Nothing of the task is lost.", messages, { actions: [this.again()] });
     else this.say("refused", "The task cannot be solved as it is.", messages);
   }
 
