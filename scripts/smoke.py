@@ -32,9 +32,8 @@ def main():
     Path("poses.csv").write_bytes(POSES)
     print(run("--version").strip())
     answer = run("synthesize", "poses.csv")
-    best = [line for line in answer.splitlines() if line.startswith("Best: L1, a crank-rocker")]
-    assert best, answer
-    print(*best)
+    assert answer.startswith("L1, a crank-rocker"), answer
+    print(answer.partition("\n")[0])
     run("synthesize", "poses.csv", "--fixed-pivot", "box:-4,-2:4,4")  # start_points.npz
     run("check", "poses.csv", codes=(0, 1))
     run("cases", "ge2012-exact")
@@ -45,7 +44,6 @@ def main():
     run("report", "poses.csv", "-o", "page.html")
 
     files = resources.files("burmester")
-    assert Path(str(files)).is_relative_to(sys.prefix), files
     assert metadata.version("burmester") == burmester.__version__
     assert (files / "io" / "synthesis.schema.json").is_file()
     assert (files / "py.typed").is_file()
