@@ -18,7 +18,7 @@ MACROS = [("CYTHON_CCOMPLEX", "0")]
 HELP = (
     "burmester's kernels cannot be compiled: a C compiler and Python's headers are needed"
     " (on Debian: apt-get install build-essential python3-dev; on macOS: xcode-select --install;"
-    " on Windows: the build tools of Visual Studio), or else a wheel, which is there for Python 3.11"
+    " on Windows: the build tools of Visual Studio), or else a wheel: there is one for Python 3.11"
     " to 3.14 on Linux (glibc), macOS and Windows, and needs none"
 )
 
