@@ -116,6 +116,10 @@ def test_another_page_of_this_machine_is_told_apart(visitor):
         foreign = {"sec-fetch-site": "same-site"}
         assert visitor.http.get(path, headers=foreign).status_code == 403
         assert visitor.http.get(path, headers={"sec-fetch-site": "same-origin"}).status_code == 200
+    token = {"token": visitor.address().partition("token=")[2]}
+    for site, status in (("same-site", 403), ("same-origin", 200)):
+        answer = httpx.post(f"{visitor.base}/session", json=token, headers={"sec-fetch-site": site})
+        assert answer.status_code == status
 
 
 def test_nothing_without_the_token(visitor):

@@ -112,12 +112,11 @@ class Access:
         for origin in _values(headers, b"origin"):
             if origin.lower() != f"http://{hosts[0].lower()}":
                 raise _RefusedError(403, "another site may not ask here")
-        path = scope["path"]
-        shell = scope["type"] == "http" and path in OPEN
+        path = scope["path"] if scope["type"] == "http" else None
         sites = _values(headers, b"sec-fetch-site")
-        if not shell and any(each not in ("same-origin", "none") for each in sites):
+        if path not in SHELL and any(each not in ("same-origin", "none") for each in sites):
             raise _RefusedError(403, "another site may not ask here")
-        if not shell and not self._is_known(scope):
+        if path not in OPEN and not self._is_known(scope):
             raise _RefusedError(401, "this page has no key to this studio", self.help)
         if scope["type"] == "http" and scope["method"] not in ("GET", "HEAD"):
             _require_json(headers)
