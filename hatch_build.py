@@ -8,7 +8,7 @@ from pathlib import Path
 from Cython.Build import cythonize
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 from setuptools import Distribution, Extension
-from setuptools.errors import BaseError
+from setuptools.errors import BaseError, CCompilerError
 
 SOURCES = Path("src")
 # The same roundings on every machine: a product and a sum are not made one operation.
@@ -17,7 +17,9 @@ FLAGS = [] if os.name == "nt" else ["-O3", "-ffp-contract=off"]
 MACROS = [("CYTHON_CCOMPLEX", "0")]
 HELP = (
     "burmester's kernels cannot be compiled: a C compiler and Python's headers are needed"
-    " (on Debian: apt-get install build-essential python3-dev)"
+    " (on Debian: apt-get install build-essential python3-dev; on macOS: xcode-select --install;"
+    " on Windows: the build tools of Visual Studio), or else a wheel: there is one for Python 3.11"
+    " to 3.14 on Linux (glibc), macOS and Windows, and needs none"
 )
 
 
@@ -76,6 +78,6 @@ def compiled(sources, work):
     try:
         command.ensure_finalized()
         command.run()
-    except BaseError as error:
+    except (BaseError, CCompilerError) as error:
         raise SystemExit(f"{HELP}\n{error}") from None
     return {name: Path(command.get_ext_fullpath(name)) for name in sources}

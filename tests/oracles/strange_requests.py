@@ -1,6 +1,6 @@
 """Requests and messages as no page sends them, and what a studio may answer.
 
-Whatever comes: no fault of the server (500), no answer without the cookie or from another site, and
+Whatever comes: no fault of the server (500), no answer without the key or from another site, and
 no task taken whose poses are not numbers.
 """
 
@@ -96,29 +96,29 @@ def bodies():
 def requests(draw):
     """(method, path, headers, body), six in ten as the page would send them but for the body."""
     path = draw(st.sampled_from(sorted(ROUTES)))
-    method, kind, host, origin, cookie = ROUTES[path], "application/json", None, None, True
+    method, kind, host, origin, key = ROUTES[path], "application/json", None, None, True
     if draw(st.integers(0, 9)) >= 6:
         method = draw(st.sampled_from(["GET", "POST", "PUT", "DELETE", "HEAD", "OPTIONS", "PATCH"]))
         path = draw(st.sampled_from([path, path + "/", "/" + quote(draw(TEXTS), errors="replace")]))
         kind = draw(st.sampled_from(["application/json", "text/plain", "", "application/jsonx"]))
         host = draw(st.sampled_from([None, None, "evil.com", "127.0.0.1", ""]))
         origin = draw(st.sampled_from([None, None, "null", "http://evil.com"]))
-        cookie = draw(st.booleans())
+        key = draw(st.booleans())
     body = b"" if method in ("GET", "HEAD") else draw(bodies())
-    return method, path, kind, host, origin, cookie, body
+    return method, path, kind, host, origin, key, body
 
 
 def sent(visitor, request):
     """The status and the body of the answer."""
-    method, path, kind, host, origin, cookie, body = request
+    method, path, kind, host, origin, key, body = request
     connection = HTTPConnection("127.0.0.1", visitor.port, timeout=60)
     try:
         connection.putrequest(method, path, skip_host=True, skip_accept_encoding=True)
         connection.putheader("host", f"127.0.0.1:{visitor.port}" if host is None else host)
         if origin is not None:
             connection.putheader("origin", origin)
-        if cookie:
-            connection.putheader("cookie", visitor.cookie)
+        if key:
+            connection.putheader("authorization", f"Bearer {visitor.key}")
         if kind:
             connection.putheader("content-type", kind)
         connection.putheader("content-length", str(len(body)))
@@ -131,14 +131,14 @@ def sent(visitor, request):
 
 def fault(request, status, answer):
     """What is wrong with an answer; None if nothing is."""
-    method, path, kind, host, origin, cookie, body = request
+    method, path, kind, host, origin, key, body = request
     if status >= 500:
         return f"status {status}: {answer[:300]!r}"
     stranger = host is not None or origin is not None
     if stranger and status not in (400, 403):
         return f"status {status} for another site"
-    if not stranger and not cookie and path not in (*SHELL, "/session") and status != 401:
-        return f"status {status} without the cookie"
+    if not stranger and not key and path not in (*SHELL, "/session") and status != 401:
+        return f"status {status} without the key"
     if status >= 400:
         told = stranger or method == "HEAD" or json.loads(answer)["messages"][0]["message"]
         return None if told else "refused without a reason"

@@ -15,32 +15,46 @@ from pathlib import Path
 import httpx
 from websockets.sync.client import connect
 
+ADDRESS = re.compile(r"http://127\.0\.0\.1:(\d+)/#token=([\w-]{40,})\n")
 SECONDS = 60.0  # that anything may take on a busy machine
 
 
 class Visitor:
-    """Who opened the address: HTTP by `http`, which has the cookie, and websockets by `live`."""
+    """Who opened the address: HTTP by `http`, which has the key, and websockets by `live`.
 
-    def __init__(self, process, line, home):
+    terminal: where Enter gets another address, if the studio hears one.
+    """
+
+    def __init__(self, process, home, terminal=None):
         self.process, self.saved = process, Path(home) / "burmester" / "studio"
-        found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/#token=([\w-]{40,})\n", line)
+        self._terminal = terminal
+        line = process.stdout.readline().decode()
+        found = ADDRESS.fullmatch(line)
         assert found, line
         self.port, self.token = int(found[1]), found[2]
+        if terminal is not None:
+            process.stdout.readline()  # how another address is had
         self.base = f"http://127.0.0.1:{self.port}"
         self.http = httpx.Client(base_url=self.base, timeout=SECONDS)
         entered = self.http.post("/session", json={"token": self.token})
-        assert entered.status_code == 204, entered.text
-        # httpx keeps no cookie of an address with a port in its name apart from others.
-        self.cookie = entered.headers["set-cookie"].partition(";")[0]
-        self.http.headers["cookie"] = self.cookie
+        assert entered.status_code == 200, entered.text
+        self.key = entered.json()["key"]
+        self.http.headers["authorization"] = f"Bearer {self.key}"
+
+    def address(self):
+        """Another address, for another browser: as somebody gets it who presses Enter."""
+        os.write(self._terminal, b"\n")
+        line = self.process.stdout.readline().decode()
+        assert ADDRESS.fullmatch(line), line
+        return line.strip()
 
     @contextmanager
-    def live(self, **headers):
+    def live(self, key=None, **headers):
         """A tab."""
-        headers = {"cookie": self.cookie, **headers}
         with connect(
             f"ws://127.0.0.1:{self.port}/live",
             additional_headers=headers,
+            subprotocols=["burmester", key or self.key],
             max_size=None,
             open_timeout=SECONDS,
             compression=None,
@@ -101,7 +115,8 @@ class Tab:
     def ask(self, do, **more):
         """The answer to a message."""
         self.say(do, **more)
-        return self.until("solved", "followed", "placed", "curve", "refused", "limit", "cancelled")
+        ends = ("solved", "followed", "placed", "curve", "refused", "limit", "cancelled", "ended")
+        return self.until(*ends)
 
 
 def header_of(frame):
@@ -136,6 +151,31 @@ def children(parent):
     return out
 
 
+def gone(pids):
+    """Wait until processes have ended; those that have not."""
+    end = time.monotonic() + SECONDS
+    left = list(pids)
+    while left and time.monotonic() < end:
+        left = [pid for pid in left if Path(f"/proc/{pid}").exists() and not _zombie(pid)]
+        time.sleep(0.02)
+    return left
+
+
+def _zombie(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
+    except OSError:
+        return True
+
+
+def killed(visitor):
+    """End all workers, and wait until they have."""
+    workers = visitor.workers()
+    for pid in workers:
+        os.kill(pid, signal.SIGKILL)
+    assert gone(workers) == []
+
+
 def started(*arguments, home, **options):
     """The process of `burmester studio`, which opens no browser."""
     command = [sys.executable, "-m", "burmester", "studio", "--no-browser", *arguments]
@@ -145,11 +185,13 @@ def started(*arguments, home, **options):
 
 @contextmanager
 def served(*arguments, home, **options):
-    """A visitor of a studio that ends with the block."""
-    process = started(*arguments, home=home, **options)
+    """A visitor of a studio that ends with the block, and whose terminal is the visitor's."""
+    terminal, its = os.openpty()
+    process = started(*arguments, home=home, stdin=its, **options)
+    os.close(its)
     visitor = None
     try:
-        visitor = Visitor(process, process.stdout.readline().decode(), home)
+        visitor = Visitor(process, home, terminal)
         yield visitor
     finally:
         if visitor is not None:
@@ -157,3 +199,4 @@ def served(*arguments, home, **options):
         process.send_signal(signal.SIGTERM)
         process.wait(SECONDS)
         process.stdout.close()
+        os.close(terminal)

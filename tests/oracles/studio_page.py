@@ -57,7 +57,7 @@ def studio_page(browser, visitor, *, width=1400, height=900, **options):
     page.on("pageerror", lambda error: page.wrong.append(str(error)))
     page.on("request", lambda request: page.asked.append(request.url))
     try:
-        page.goto(f"{visitor.base}/#token={visitor.token}")
+        page.goto(visitor.address())
         page.wait_for_selector("html[data-ready]")
         solved(page)
         yield page

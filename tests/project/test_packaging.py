@@ -1,5 +1,6 @@
 """What is handed out: one version, and archives that hold the sources and nothing else."""
 
+import os
 import re
 import subprocess
 import sys
@@ -34,7 +35,7 @@ TOP = (
     "hatch_build.py", "pyproject.toml", "requirements.lock", "requirements-dev.lock",
 )  # fmt: skip
 COMPILED = (".so", ".pyd")
-FOLDERS = ("src", "tests", "scripts", "benchmarks", "docs", "examples", ".ci")
+FOLDERS = ("src", "tests", "scripts", "benchmarks", "docs", "examples", ".ci", ".github")
 
 
 def below(folder):
@@ -112,6 +113,55 @@ def test_citation_names_the_paper_as_the_program_does():
     mathematics = " ".join((ROOT / "docs/mathematics.md").read_text("utf-8").split())
     assert paper["title"] in mathematics
     assert paper["journal"] in mathematics
+
+
+WITHOUT = """
+import pathlib, tempfile, hatch_build
+kernel = pathlib.Path("src/burmester/numerics/soft_program_kernel.py")
+with tempfile.TemporaryDirectory() as folder:
+    hatch_build.compiled({"burmester.numerics.soft_program_kernel": kernel}, pathlib.Path(folder))
+"""
+
+
+@pytest.mark.parametrize("compiler", ["/nonexistent/cc", "false"])
+def test_without_a_compiler_the_kernels_say_what_is_needed(compiler):
+    """Of an installation from source; there is no slower way round."""
+    ran = subprocess.run(
+        [sys.executable, "-c", WITHOUT],
+        cwd=ROOT,
+        env=os.environ | {"CC": compiler},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert ran.returncode == 1
+    assert "a C compiler and Python's headers are needed" in ran.stderr
+    assert "or else a wheel" in ran.stderr
+    assert "Traceback" not in ran.stderr
+
+
+@pytest.mark.slow
+def test_what_a_release_is_tried_with_passes_here():
+    """It reads answers as they are printed now."""
+    command = [sys.executable, ROOT / "scripts" / "smoke.py"]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert ran.returncode == 0, ran.stderr
+
+
+def test_workflows_run_these_scripts_with_pinned_actions_on_every_python():
+    """The wheels are for the Pythons that are tested, from the oldest that is allowed."""
+    texts = [each.read_text("utf-8") for each in (ROOT / ".github/workflows").glob("*.yml")]
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    run = {each for text in texts for each in re.findall(r"run: (\S+)", text)}
+    assert {"scripts/check", "scripts/test", "scripts/release"} <= run
+    assert all(os.access(ROOT / each, os.X_OK) for each in run)
+    used = [each for text in texts for each in re.findall(r"uses: (\S+)", text)]
+    assert all(re.fullmatch(r"[\w-]+/[\w-]+@v\d+\.\d+\.\d+", each) for each in used)
+    (tested,) = (m for text in texts for m in re.findall(r"python: \[(.*)\]", text))
+    minors = re.findall(r'"3\.(\d+)"', tested)
+    wheels = project["tool"]["cibuildwheel"]["build"]
+    assert wheels == f"cp31[{minors[0][1]}-{minors[-1][1]}]-*"
+    assert project["project"]["requires-python"] == f">=3.{minors[0]}"
 
 
 SCRIPTS = [*filter(Path.is_file, sorted((ROOT / "scripts").iterdir())), ROOT / ".ci" / "run"]

@@ -3,9 +3,15 @@
 import asyncio
 import gzip
 import json
+import os
+import re
+import stat
 import subprocess
 import sys
+import time
 from contextlib import suppress
+from pathlib import Path
+from urllib.request import url2pathname
 
 import httpx
 import pytest
@@ -33,14 +39,14 @@ def hosts(port):
 
 
 def request(visitor, method, path, lines, body=b""):
-    head = [f"{method} {path} HTTP/1.1", *lines, f"cookie: {visitor.cookie}"]
+    head = [f"{method} {path} HTTP/1.1", *lines, f"authorization: Bearer {visitor.key}"]
     if method != "GET":
         head += ["content-type: application/json", f"content-length: {len(body)}"]
     return visitor.raw("\r\n".join(head).encode() + b"\r\n\r\n" + body)
 
 
 def test_every_route_refuses_foreign_hosts(visitor):
-    """W1, cookie and all: it is the host that is wrong."""
+    """W1, key and all: it is the host that is wrong."""
     ours = [f"127.0.0.1:{visitor.port}", f"localhost:{visitor.port}", f"[::1]:{visitor.port}"]
     for host in hosts(visitor.port):
         if host.strip() in ours:
@@ -105,11 +111,15 @@ def test_other_sites_get_no_websocket(visitor):
 
 
 def test_another_page_of_this_machine_is_told_apart(visitor):
-    """A cookie does not know ports: the browser says that the page is another one."""
+    """Even with the key: the browser says that the page is another one."""
     for path in DATA[:-1]:
         foreign = {"sec-fetch-site": "same-site"}
         assert visitor.http.get(path, headers=foreign).status_code == 403
         assert visitor.http.get(path, headers={"sec-fetch-site": "same-origin"}).status_code == 200
+    token = {"token": visitor.address().partition("token=")[2]}
+    for site, status in (("same-site", 403), ("same-origin", 200)):
+        answer = httpx.post(f"{visitor.base}/session", json=token, headers={"sec-fetch-site": site})
+        assert answer.status_code == status
 
 
 def test_nothing_without_the_token(visitor):
@@ -119,8 +129,8 @@ def test_nothing_without_the_token(visitor):
             shell = stranger.get(path)
             assert shell.status_code == 200
             assert "set-cookie" not in shell.headers
-        for cookie in ("", "burmester=1", f"burmester-{visitor.port}={visitor.token}"):
-            stranger.headers["cookie"] = cookie
+        for given in ("", "x", "Bearer", "Bearer x", visitor.key, f"Bearer {visitor.token}"):
+            stranger.headers["authorization"] = given
             for path in DATA[:-1]:
                 assert stranger.get(path).status_code == 401
             for path in POSTS[:-1]:
@@ -131,18 +141,51 @@ def test_nothing_without_the_token(visitor):
             assert answer.status_code == 401
             assert "set-cookie" not in answer.headers
             assert visitor.token not in answer.text
-    with pytest.raises(InvalidStatus) as refused, visitor.live(cookie="none"):
-        pass
-    assert refused.value.response.status_code == 401
+    for key in ("none", visitor.token, visitor.key[:-1], f"Bearer.{visitor.key}"):
+        with pytest.raises(InvalidStatus) as refused, visitor.live(key):
+            pass
+        assert refused.value.response.status_code == 401
 
 
-def test_the_cookie_is_for_this_page_alone(visitor):
-    answer = httpx.post(f"{visitor.base}/session", json={"token": visitor.token})
-    assert answer.status_code == 204
-    line = answer.headers["set-cookie"]
-    assert line.startswith(f"burmester-{visitor.port}=")
-    assert {"httponly", "samesite=strict"} <= {each.strip().lower() for each in line.split(";")}
-    assert visitor.token not in line
+def test_what_goes_to_other_servers_of_this_machine_opens_nothing(visitor):
+    """A browser sends cookies to every port, and addresses may be seen: no answer sets a cookie."""
+    token = visitor.address().partition("token=")[2]
+    answer = httpx.post(f"{visitor.base}/session", json={"token": token})
+    assert answer.json() == {"key": visitor.key}
+    for path in ("/", "/start", "/nothing"):
+        assert "set-cookie" not in visitor.http.get(path).headers
+    assert "set-cookie" not in answer.headers
+    for name in ("burmester", f"burmester-{visitor.port}", "key", "authorization"):
+        for value in (visitor.key, f"Bearer {visitor.key}"):
+            cookie = {"cookie": f"{name}={value}"}
+            for path in DATA[:-1]:
+                assert httpx.get(f"{visitor.base}{path}", headers=cookie).status_code == 401
+            with pytest.raises(InvalidStatus) as refused, visitor.live("none", **cookie):
+                pass
+            assert refused.value.response.status_code == 401
+    for path in DATA[:-1]:
+        assert httpx.get(f"{visitor.base}{path}?key={visitor.key}").status_code == 401
+
+
+def test_an_address_opens_once(visitor):
+    token = visitor.address().partition("token=")[2]
+    other = visitor.address().partition("token=")[2]
+    for k in range(3):
+        answer = httpx.post(f"{visitor.base}/session", json={"token": token})
+        assert answer.status_code == (401 if k else 200)
+    (message,) = answer.json()["messages"]
+    assert "opened already" in message["message"]
+    assert "press Enter in the terminal" in message["help"]
+    assert httpx.post(f"{visitor.base}/session", json={"token": other}).status_code == 200
+
+
+def test_an_address_opens_for_a_while_only():
+    door = Access(port=8000, token_s=0.0)
+    assert door.exchanged(door.token()) is None
+    door = Access(port=8000)
+    tokens = [door.token() for _ in range(2)]
+    assert door.exchanged(tokens[1]) == door.exchanged(tokens[0]) is not None
+    assert door.exchanged(tokens[0]) is None
 
 
 def test_every_answer_forbids_what_a_page_does_not_need(visitor):
@@ -184,7 +227,8 @@ def test_what_is_too_large_is_refused_at_once(visitor):
         visitor.http.post("/command", content=document + b" ", headers=HEADERS).status_code == 413
     )
 
-    head = "\r\n".join(["POST /command HTTP/1.1", *ours, f"cookie: {visitor.cookie}"])
+    bearer = f"authorization: Bearer {visitor.key}"
+    head = "\r\n".join(["POST /command HTTP/1.1", *ours, bearer])
     chunked = f"{head}\r\ncontent-type: application/json\r\ntransfer-encoding: chunked\r\n\r\n"
     chunk = b"10000\r\n" + b"x" * 65536 + b"\r\n"
     assert visitor.raw(chunked.encode(), *[chunk] * 1600)[0] in (0, 413)
@@ -197,7 +241,7 @@ def test_what_is_too_large_is_refused_at_once(visitor):
 
     for text in ("[" * 10_000 + "]" * 10_000, '{"document":' * 10_000 + "1" + "}" * 10_000):
         answer = visitor.http.post("/check", content=text, headers=HEADERS)
-        assert answer.status_code == 400
+        assert answer.status_code == 422
 
     with visitor.live() as tab:
         with suppress(ConnectionClosed):  # it may be closed before all is sent
@@ -246,3 +290,44 @@ def test_two_hosts_are_refused_whatever_the_server_lets_through():
         asyncio.run(door(scope, None, send))
         assert heard.pop(0)["status"] == 403
         heard.clear()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="modes of files as POSIX has them")
+def test_a_browser_is_led_by_a_file_that_this_user_alone_can_read(five, tmp_path):
+    """What a command is started with everybody sees: a token is not there."""
+    seen, browser = tmp_path / "seen", tmp_path / "browser"
+    browser.write_text(f'#!/bin/sh\nprintf "%s" "$*" > {seen}.part\nmv {seen}.part {seen}\n')
+    browser.chmod(0o755)
+    environment = {**os.environ, "BROWSER": f"{browser} %s", "XDG_STATE_HOME": str(tmp_path)}
+    process = subprocess.Popen(
+        [sys.executable, "-m", "burmester", "studio", five],
+        stdout=subprocess.PIPE,
+        env=environment,
+        umask=0,
+    )
+    try:
+        base, printed = process.stdout.readline().decode().strip().split("#token=")
+        end = time.monotonic() + SECONDS
+        while not seen.exists() and time.monotonic() < end:
+            time.sleep(0.02)
+        opened = seen.read_text()
+        assert "token" not in opened
+        file = Path(url2pathname(opened.removeprefix("file://")))
+        assert stat.S_IMODE(file.stat().st_mode) == 0o600
+        assert stat.S_IMODE(file.parent.stat().st_mode) == 0o700
+        page = file.read_text(encoding="utf-8")
+        token = re.search(rf"url={re.escape(base)}#token=([\w-]{{40,}})", page)[1]
+        assert token != printed
+        if os.geteuid() == 0:  # somebody else, by whom even an open folder is looked through
+            file.parent.chmod(0o755)
+            other = subprocess.run(["cat", str(file)], user=65534, capture_output=True, check=False)
+            assert (other.returncode, other.stdout) == (1, b"")
+        for status in (200, 401):
+            answer = httpx.post(f"{base}session", json={"token": token})
+            assert answer.status_code == status
+        assert "start it again" in answer.json()["messages"][0]["help"]  # nobody hears Enter
+    finally:
+        process.terminate()
+        process.wait(SECONDS)
+        process.stdout.close()
+    assert not file.parent.exists()

@@ -9,27 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from tests.oracles.studio import FIVE, SECONDS, Visitor, children, served, started
+from tests.oracles.studio import FIVE, SECONDS, Visitor, children, gone, killed, served, started
 
 posix = pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
 TASK = 'angle_unit = "deg"\nposes = [[0, 0, 0], [3, 1, 20], [5, 4, 50], [4, 8, 70], [1, 9, 95]]\n'
-
-
-def gone(pids):
-    """Wait until processes have ended; those that have not."""
-    end = time.monotonic() + SECONDS
-    left = list(pids)
-    while left and time.monotonic() < end:
-        left = [pid for pid in left if Path(f"/proc/{pid}").exists() and not zombie(pid)]
-        time.sleep(0.02)
-    return left
-
-
-def zombie(pid):
-    try:
-        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] == "Z"
-    except OSError:
-        return True
 
 
 @posix
@@ -39,7 +22,7 @@ def test_ctrl_c_ends_it_and_its_workers(tmp_path):
     process = started("-", home=tmp_path, stdin=pipe, stderr=pipe)
     process.stdin.write(FIVE.encode())
     process.stdin.close()
-    visitor = Visitor(process, process.stdout.readline().decode(), tmp_path)
+    visitor = Visitor(process, tmp_path)
     document = visitor.http.get("/start").json()["document"]
     assert [pose["x"] for pose in document["poses"]] == [0, 3, 5, 4, 1]
     with visitor.live() as tab:
@@ -65,7 +48,7 @@ def test_no_token_is_written_down_and_no_science_is_loaded(five, tmp_path):
     And the server's own process has no NumPy when it has answered everything.
     """
     process = started(five, home=tmp_path, stderr=subprocess.PIPE)
-    visitor = Visitor(process, process.stdout.readline().decode(), tmp_path)
+    visitor = Visitor(process, tmp_path)
     token = visitor.token
     visitor.raw(f"GET /#token={token} HTTP/1.1\r\n\r\n".encode())
     visitor.raw(b"rubbish\r\n\r\n")
@@ -103,16 +86,24 @@ def test_workers_end_where_the_server_is_killed(five, tmp_path):
 
 
 @posix
-def test_a_worker_that_is_killed_is_replaced(five, tmp_path):
+def test_a_worker_that_is_killed_is_told_and_replaced(five, tmp_path):
+    """At rest, and in the midst of a search."""
     with served(five, home=tmp_path) as visitor, visitor.live() as tab:
         document = visitor.http.get("/start").json()["document"]
         assert tab.ask("solve", document=document, options={})["kind"] == "solved"
-        for pid in visitor.workers():
-            os.kill(pid, signal.SIGKILL)
-        time.sleep(0.1)
-        heard = tab.ask("follow", document=document, options={}, shown=[])
-        assert heard["solve"] is True
+        killed(visitor)
+        heard = [tab.ask("follow", document=document, options={}, shown=[]) for _ in range(2)]
+        many = [{"x": k % 997, "y": k * k % 991, "angle": k % 83} for k in range(9000)]
+        tab.say("solve", document={**document, "poses": many}, options={})
+        tab.until("solving")
+        time.sleep(0.2)  # its worker has begun
+        killed(visitor)
+        told = [heard[0], tab.until("ended")]
+        assert [each["kind"] for each in told] == ["ended", "ended"]
+        assert all("signal 9" in each["messages"][0]["why"] for each in told)
+        assert heard[1]["solve"] is True
         assert tab.ask("solve", document=document, options={})["kind"] == "solved"
+        assert tab.ask("follow", document=document, options={}, shown=[])["kind"] == "followed"
         assert visitor.http.post("/check", json={"document": document}).status_code == 200
 
 
@@ -170,17 +161,16 @@ def test_the_server_imports_no_science():
 
 
 def test_who_comes_back_after_a_restart_finds_the_task(visitor, tmp_path):
-    """W15: the old cookie and the old token open nothing, and no pose is lost."""
+    """W15: the old key and the old token open nothing, and no pose is lost."""
     (tmp_path / "lid.toml").write_text(TASK)
     kept = {"document": {"poses": [{"x": -3.5, "y": 0, "angle": 0}]}, "options": {}, "name": "lid"}
     assert visitor.http.put("/autosave", json=kept).status_code == 204
     home = visitor.saved.parent.parent
     with served("lid.toml", home=home, cwd=tmp_path) as second:
         assert second.http.post("/session", json={"token": visitor.token}).status_code == 401
-        cookie = visitor.cookie.replace(str(visitor.port), str(second.port))
-        stale = second.http.get("/start", headers={"cookie": cookie})
+        stale = second.http.get("/start", headers={"authorization": f"Bearer {visitor.key}"})
         assert stale.status_code == 401
-        assert "address" in stale.json()["messages"][0]["message"]
+        assert "open the address" in stale.json()["messages"][0]["help"]
         start = second.http.get("/start").json()
         assert start["saved"]["document"] == kept["document"]
         assert start["name"] == "lid"

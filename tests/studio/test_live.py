@@ -430,8 +430,10 @@ def test_a_search_is_called_off(visitor, tab):
     tab.say("solve", document=endless(), options={})
     tab.until("solving")
     poses = [{"x": k**2, "y": 3 * k, "angle": 10 * k} for k in range(5)]
-    solved = tab.ask("solve", document={"angle_unit": "deg", "poses": poses}, options={})
-    assert solved["kind"] == "solved"
+    older = tab.n
+    tab.say("solve", document={"angle_unit": "deg", "poses": poses}, options={})
+    assert tab.until("superseded", n=older)["by"] == tab.n  # each message has one last answer
+    assert tab.until("solved")
     with visitor.live() as other:
         other.say("solve", document=endless(), options={})
         other.until("solving")

@@ -3,6 +3,7 @@
 import base64
 import json
 import os
+import time
 from contextlib import chdir
 from importlib.util import find_spec
 
@@ -187,7 +188,7 @@ def test_files_of_this_machine_are_not_served(visitor):
         "//etc/passwd",
     ):
         lines = f"GET {path} HTTP/1.1\r\nhost: 127.0.0.1:{visitor.port}\r\n"
-        status, answer = visitor.raw(f"{lines}cookie: {visitor.cookie}\r\n\r\n".encode())
+        status, answer = visitor.raw(f"{lines}authorization: Bearer {visitor.key}\r\n\r\n".encode())
         assert status in (404, 401)
         assert b"root:" not in answer
         assert b"[project]" not in answer
@@ -249,6 +250,34 @@ def test_wrong_numbers_are_named_with_their_place(visitor, text):
         (message,) = answer.json()["messages"]
         assert message["code"].startswith("E1")
         assert "task.json" in (message["where"] or ""), message
+
+
+@pytest.mark.parametrize("depth", [200, 500, 980, 100_000])
+def test_what_is_nested_too_deep_is_refused_on_every_route(visitor, depth):
+    """Also where a file is nested so that the page sends; and the tab is not closed."""
+    lists, objects = "[" * depth + "]" * depth, '{"a":' * depth + "1" + "}" * depth
+    documents = [lists, objects, f'{{"poses": {lists}}}', f'{{"poses": [[0, 0, 0]], "a": {lists}}}']
+    headers = {"content-type": "application/json"}
+    for document in documents:
+        for path in ("session", "read", "outline", "check", "task", "export", "result", "report",
+                     "improve", "command", "autosave"):  # fmt: skip
+            send = visitor.http.put if path == "autosave" else visitor.http.post
+            answer = send(f"/{path}", content=f'{{"document": {document}}}', headers=headers)
+            assert answer.status_code == 422, path
+            assert answer.json()["messages"][0]["code"] != "E900"
+        for name in ("a.json", "a.toml", "a.csv"):
+            text = f"poses = {document}" if name == "a.toml" else document
+            answer = visitor.http.post("/read", json={"name": name, "base64": coded(text)})
+            assert answer.status_code == 422, name
+            assert answer.json()["messages"][0]["code"] != "E900"
+    with visitor.live() as tab:
+        for do in ("solve", "follow", "place", "curve", "cognates", "cancel"):
+            for document in documents:
+                tab.socket.send(f'{{"n": 1, "do": "{do}", "document": {document}}}')
+                heard = tab.hear()
+                assert heard["kind"] == "refused"
+                assert heard["messages"][0]["code"] != "E900"
+        assert tab.ask("solve", document=few(5), options={})["kind"] == "solved"
 
 
 def few(count):
@@ -341,3 +370,27 @@ def test_two_tabs_do_not_take_each_other_s_place(visitor):
     kept = [json.loads(each.read_bytes()) for each in visitor.saved.glob("*.json")]
     names = [each["document"]["poses"][0].get("name") for each in kept if each["name"] == "same"]
     assert sorted(names) == ["one", "two"]
+
+
+def test_what_is_damaged_or_not_yet_written_is_passed_over(visitor, gripper, start):
+    """W15: a machine lost its power, or another tab writes in this moment."""
+    good = {**gripper, "name": "good"}
+    assert visitor.http.put("/autosave", json=good).status_code == 204
+    newest = time.time() + 1000
+    damaged = [b"", b"{", b"\0" * 300, b"[1]", b'{"document": 1}', b'{"document": {}}', b"[" * 9999]
+    files = {f"{k:016x}.json": data for k, data in enumerate(damaged)}
+    whole = json.dumps({**good, "name": "half written"}).encode()
+    files |= {f".burmester-{k:016x}-{k:016x}.json": whole for k in range(30)}
+    for name, data in files.items():
+        (visitor.saved / name).write_bytes(data)
+        newest += 1
+        os.utime(visitor.saved / name, (newest, newest))
+    try:
+        assert visitor.http.get("/start").json()["saved"]["name"] == "good"
+        # Nor do they push out what was kept, or are themselves taken away from who writes them.
+        assert visitor.http.put("/autosave", json={**good, "tab": "other"}).status_code == 204
+        assert visitor.http.get("/start").json()["saved"]["name"] == "good"
+        assert len(list(visitor.saved.glob(".burmester-*"))) == 30
+    finally:
+        for name in files:
+            (visitor.saved / name).unlink(missing_ok=True)

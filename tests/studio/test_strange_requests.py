@@ -27,7 +27,7 @@ def test_the_judge_of_answers_can_fail():
     good = ("POST", "/check", "application/json", None, None, True, b'{"document": {"poses": []}}')
     assert "taken" in strange.fault(good, 200, b"{}")
     assert "500" in strange.fault(good, 500, b"{}")
-    assert "without the cookie" in strange.fault((*good[:5], False, b""), 200, b"{}")
+    assert "without the key" in strange.fault((*good[:5], False, b""), 200, b"{}")
     assert "another site" in strange.fault((*good[:3], "evil.com", None, True, b""), 200, b"{}")
     assert strange.fault(good, 422, b'{"messages": [{"message": "a"}]}') is None
 

@@ -36,7 +36,7 @@ MOST_BYTES = 50_000_000  # of standard input
     "--i-know-that-others-can-connect",
     "exposed",
     is_flag=True,
-    help="Let other machines reach the page; without encryption, and with the token as only lock.",
+    help="Let other machines reach the page; unencrypted, and with the address as only lock.",
 )
 @click.option(
     "--time-limit",
@@ -52,7 +52,8 @@ def studio(
     """Open a page on which linkages follow as poses are dragged.
 
     TASK is a file as for `burmester synthesize`; by default the page opens on a lid.  The first
-    line printed is the address of the page.  Ctrl-C ends the studio.
+    line printed is the address of the page, which opens it once, within five minutes; Enter
+    prints another one.  Ctrl-C ends the studio.
     """
     from importlib.util import find_spec
 
@@ -69,8 +70,8 @@ def studio(
         raise InputError(
             "E100",
             f"at {host} other machines could connect to the studio",
-            why="whoever gets hold of the address, which holds a token, could read and change the "
-            "task; nothing on the way is encrypted",
+            why="whoever listens on the way, where nothing is encrypted, or opens the address "
+            "before you do, could read and change the task",
             help="leave --host out, or add --i-know-that-others-can-connect",
         )
     data = sys.stdin.buffer.read(MOST_BYTES) if task == "-" and sys.stdin is not None else b""

@@ -1,28 +1,31 @@
 """Who may ask, and what: the studio answers the person at this machine and nobody else.
 
 A page of another site that this person visits can make the browser ask any address: so every
-request has to name a host that is ours, an origin that is ours where it names one, and to bring the
-cookie that the token of the opened address was exchanged for.  The cookie's name holds the port,
-as cookies do not tell ports apart.
+request has to name a host that is ours, an origin that is ours where it names one, and to bring a
+key in its head.  The page gets it for the token of the opened address, which opens once and not for
+long, and keeps it where a browser tells ports apart: a cookie would go to every server here.
 """
 
 from __future__ import annotations
 
 import ipaddress
 import secrets
+import time
 from collections.abc import Iterable
 from typing import Any, Final, TypeAlias
 
 from burmester.studio.parcel import as_json
 
-__all__ = ["MOST_BYTES", "Access", "is_loopback", "refusal"]
+__all__ = ["MOST_BYTES", "PROTOCOL", "TOKEN_S", "Access", "is_loopback", "refusal"]
 
 Headers: TypeAlias = list[tuple[bytes, bytes]]
 
+TOKEN_S: Final = 300.0  # that an address opens the page
+PROTOCOL: Final = "burmester"  # of the websocket; a browser sends a key only as another of these
 MOST_BYTES: Final = 2_000_000  # of what the page sends at once
 PASSED_OVER: Final = 16_000_000  # bytes that are heard before they are refused
 SHELL: Final = ("/", "/studio.mjs", "/studio.css", "/widget.css", "/studio.svg")
-OPEN: Final = (*SHELL, "/session")  # without the cookie
+OPEN: Final = (*SHELL, "/session")  # without the key
 
 _HEADERS: Final = (
     (b"content-security-policy", b"default-src 'self'; frame-ancestors 'none'; base-uri 'none'; "
@@ -37,36 +40,51 @@ _HEADERS: Final = (
 
 
 class _RefusedError(Exception):
-    """A request that is not let in: status, and why."""
+    """A request that is not let in: status, why, and what to do."""
 
-    def __init__(self, status: int, why: str) -> None:
+    def __init__(self, status: int, why: str, help: str | None = None) -> None:
         super().__init__(why)
-        self.status, self.why = status, why
+        self.status, self.why, self.help = status, why, help
 
 
 class Access:
     """The application behind its door.
 
-    token: what the opened address holds, for who has no cookie yet.
+    token_s: seconds that a token opens.  help: how somebody who is not let in gets a token.
     """
 
-    def __init__(self, *, port: int, host: str = "127.0.0.1") -> None:
+    def __init__(
+        self,
+        *,
+        port: int,
+        host: str = "127.0.0.1",
+        token_s: float = TOKEN_S,
+        help: str | None = None,
+    ) -> None:
         self._application: Any = None
         self._port, self._host = port, host.lower()
         self._everywhere = not is_loopback(host)
-        self.token = secrets.token_urlsafe(32)
-        self._secret = secrets.token_urlsafe(32)
-        self._cookie = f"burmester-{port}"
+        self._token_s, self.help = token_s, help
+        self._tokens: dict[str, float] = {}  # that were not used, and when each ends
+        self._key = secrets.token_urlsafe(32)
 
     def within(self, application: Any) -> None:
         """Put the application behind the door."""
         self._application = application
 
+    def token(self) -> str:
+        """A token for one address: it opens once, and not for long."""
+        token, now = secrets.token_urlsafe(32), time.monotonic()
+        self._tokens = {each: end for each, end in self._tokens.items() if end > now}
+        self._tokens[token] = now + self._token_s
+        return token
+
     def exchanged(self, token: object) -> str | None:
-        """The cookie for a token; None where it is not the one."""
-        if not isinstance(token, str) or not _same(token, self.token):
-            return None
-        return f"{self._cookie}={self._secret}; HttpOnly; SameSite=Strict; Path=/"
+        """The key for a token, which opens nothing any more; None where there is no such token."""
+        for each in self._tokens:
+            if isinstance(token, str) and _same(token, each):
+                return self._key if self._tokens.pop(each) > time.monotonic() else None
+        return None
 
     async def __call__(self, scope: Any, receive: Any, send: Any) -> None:
         """Let a request in, or refuse it."""
@@ -82,7 +100,7 @@ class Access:
             self._require_allowed(scope)
             whole = receive if scope["type"] == "websocket" else await _whole(receive)
         except _RefusedError as error:
-            await _refuse(scope, sent, error.status, error.why)
+            await _refuse(scope, sent, error)
             return
         await self._application(scope, whole, sent)
 
@@ -94,13 +112,12 @@ class Access:
         for origin in _values(headers, b"origin"):
             if origin.lower() != f"http://{hosts[0].lower()}":
                 raise _RefusedError(403, "another site may not ask here")
-        path = scope["path"]
-        shell = scope["type"] == "http" and path in OPEN
+        path = scope["path"] if scope["type"] == "http" else None
         sites = _values(headers, b"sec-fetch-site")
-        if not shell and any(each not in ("same-origin", "none") for each in sites):
+        if path not in SHELL and any(each not in ("same-origin", "none") for each in sites):
             raise _RefusedError(403, "another site may not ask here")
-        if not shell and not self._is_known(headers):
-            raise _RefusedError(401, "open the address that the command printed")
+        if path not in OPEN and not self._is_known(scope):
+            raise _RefusedError(401, "this page has no key to this studio", self.help)
         if scope["type"] == "http" and scope["method"] not in ("GET", "HEAD"):
             _require_json(headers)
 
@@ -115,13 +132,11 @@ class Access:
         # Under a name of its own anybody could lead here (DNS rebinding); not so under an address.
         return name == self._host or _is_address(name)
 
-    def _is_known(self, headers: Headers) -> bool:
-        for line in _values(headers, b"cookie"):
-            for part in line.split(";"):
-                name, _, value = part.strip().partition("=")
-                if name == self._cookie and _same(value, self._secret):
-                    return True
-        return False
+    def _is_known(self, scope: Any) -> bool:
+        if scope["type"] == "websocket":
+            return any(_same(each, self._key) for each in scope["subprotocols"])
+        given = _values(scope["headers"], b"authorization")
+        return any(_same(each, f"Bearer {self._key}") for each in given)
 
 
 def is_loopback(host: str) -> bool:
@@ -177,20 +192,20 @@ def _too_large() -> _RefusedError:
     return _RefusedError(413, f"more than {MOST_BYTES / 1e6:.0f} MB at once")
 
 
-async def _refuse(scope: Any, send: Any, status: int, why: str) -> None:
+async def _refuse(scope: Any, send: Any, error: _RefusedError) -> None:
     kind = "http.response"
     if scope["type"] == "websocket":
         if "websocket.http.response" not in scope.get("extensions", {}):
             await send({"type": "websocket.close", "code": 1008})
             return
         kind = "websocket.http.response"
-    body = refusal(status, why)
+    body = refusal(error.status, error.why, error.help)
     headers = [
         (b"content-type", b"application/json"),
         (b"content-length", str(len(body)).encode()),
         (b"connection", b"close"),  # what may still come is not waited for
     ]
-    await send({"type": f"{kind}.start", "status": status, "headers": headers})
+    await send({"type": f"{kind}.start", "status": error.status, "headers": headers})
     await send({"type": f"{kind}.body", "body": body})
 
 

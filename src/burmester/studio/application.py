@@ -17,10 +17,10 @@ from starlette.websockets import WebSocket
 
 from burmester.errors import BurmesterError
 from burmester.studio import autosave
-from burmester.studio.access import refusal
+from burmester.studio.access import TOKEN_S, Access, refusal
 from burmester.studio.commands import commands
 from burmester.studio.house import House
-from burmester.studio.parcel import as_json
+from burmester.studio.parcel import as_json, from_json
 from burmester.studio.session import Session
 from burmester.studio.workers import WorkerEndedError
 
@@ -37,15 +37,18 @@ _STATIC = {
 }
 
 
-def application(house: House, exchanged: Callable[[object], str | None]) -> Starlette:
-    """The application; exchanged: the cookie for a token, None for a wrong one."""
+class _NotTakenError(Exception):
+    """A request whose body is not what is asked for: a status, and why."""
+
+
+def application(house: House, door: Access) -> Starlette:
+    """The application behind a door, which has the key for who brings a token."""
 
     async def session(request: Request) -> Response:
-        given = await _given(request)
-        cookie = exchanged(given.get("token")) if given is not None else None
-        if cookie is None:
-            return _refused(401, "this token is not the one that the command printed")
-        return Response(status_code=204, headers={"set-cookie": cookie})
+        if (key := door.exchanged((await _given(request)).get("token"))) is None:
+            why = f"this address was opened already, or more than {TOKEN_S / 60:g} minutes ago"
+            return _refused(401, why, door.help)
+        return Response(as_json({"key": key}), media_type="application/json")
 
     async def start(request: Request) -> Response:
         saved = await asyncio.to_thread(autosave.last)
@@ -57,15 +60,13 @@ def application(house: House, exchanged: Callable[[object], str | None]) -> Star
         return await _of_desk(house, {"do": "template"}, body)
 
     async def command(request: Request) -> Response:
-        given = await _given(request)
-        if given is None:
-            return _no_object()
-        return Response(as_json({"commands": commands(given)}), media_type="application/json")
+        told = commands(await _given(request))
+        return Response(as_json({"commands": told}), media_type="application/json")
 
     async def save(request: Request) -> Response:
         given = await _given(request)
-        if given is None or not isinstance(given.get("document"), dict):
-            return _no_object()
+        if not isinstance(given.get("document"), dict):
+            raise _no_object()
         try:
             await asyncio.to_thread(autosave.save, given)
         except (BurmesterError, OSError, ValueError) as error:
@@ -86,6 +87,7 @@ def application(house: House, exchanged: Callable[[object], str | None]) -> Star
         *(Route(f"/{do}", _desk(house, do, True), methods=["POST"]) for do in OF_RESULT),
     ]
     handlers: dict[Any, Any] = {404: _missing, 405: _missing, Exception: _failed}
+    handlers[_NotTakenError] = _not_taken
     made = Starlette(routes=[*routes, WebSocketRoute("/live", live)], exception_handlers=handlers)
     made.router.redirect_slashes = False
     return made
@@ -104,8 +106,6 @@ def _desk(house: House, do: str, of_result: bool) -> Callable[[Request], Awaitab
 
     async def done(request: Request) -> Response:
         given = await _given(request)
-        if given is None:
-            return _no_object()
         key = house.key_of(given) if of_result else None
         return await _of_desk(house, {"do": do}, await request.body(), key)
 
@@ -119,8 +119,9 @@ async def _of_desk(
         answer, data = await house.desk(head, body, key)
     except TimeoutError:
         return _refused(422, "that took too long", "try it with the command")
-    except WorkerEndedError:
-        return _refused(422, "the computation ended before its time", "try it once more")
+    except WorkerEndedError as error:
+        body = as_json({"messages": [error.data]})
+        return Response(body, 503, media_type="application/json")
     if answer["kind"] == "file":  # named by us, in letters, digits and hyphens
         headers = {"content-disposition": f'attachment; filename="{answer["name"]}"'}
         return Response(data, media_type="application/octet-stream", headers=headers)
@@ -130,17 +131,25 @@ async def _of_desk(
     return Response(data, status, media_type="application/json")
 
 
-async def _given(request: Request) -> dict[str, Any] | None:
-    """The object in the body of a request; None where it is none."""
+async def _given(request: Request) -> dict[str, Any]:
+    """The object in the body of a request."""
     try:
-        given = json.loads(await request.body())
-    except (ValueError, RecursionError):
-        return None
-    return given if isinstance(given, dict) else None
+        given = from_json(await request.body())
+    except ValueError:
+        given = None
+    except RecursionError:
+        raise _NotTakenError(422, "there are too many brackets inside each other") from None
+    if not isinstance(given, dict):
+        raise _no_object()
+    return given
 
 
-def _no_object() -> Response:
-    return _refused(400, "this is no object in JSON")
+def _no_object() -> _NotTakenError:
+    return _NotTakenError(400, "this is no object in JSON")
+
+
+async def _not_taken(request: Request, error: Exception) -> Response:
+    return _refused(*error.args)
 
 
 def _refused(status: int, why: str, help: str | None = None) -> Response:

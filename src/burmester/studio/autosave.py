@@ -6,7 +6,6 @@ A file a tab, in the folder for such things of this system; the oldest beyond a 
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import sys
 import time
@@ -15,7 +14,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from burmester.io.files import write
-from burmester.studio.parcel import as_json
+from burmester.studio.parcel import as_json, from_json
 
 __all__ = ["folder", "last", "save"]
 
@@ -49,17 +48,25 @@ def save(given: dict[str, Any]) -> None:
     # Names of tabs and tasks may be anything; a digest of them may not.
     digest = hashlib.sha256(f"{given.get('tab')}\n{name}".encode(errors="replace")).hexdigest()
     write(place / f"{digest[:16]}.json", as_json(kept), force=True)
-    files = sorted(place.glob("*.json"), key=lambda each: each.stat().st_mtime, reverse=True)
-    for each in files[MOST_FILES:]:
+    for each in _kept()[MOST_FILES:]:
         with suppress(OSError):
             each.unlink()
 
 
 def last() -> dict[str, Any] | None:
-    """What was kept last, if it can be read."""
-    try:
-        newest = max(folder().glob("*.json"), key=lambda each: each.stat().st_mtime)
-        kept = json.loads(newest.read_bytes())
-    except (OSError, ValueError, RecursionError):
-        return None
-    return kept if isinstance(kept, dict) and isinstance(kept.get("document"), dict) else None
+    """What was kept last; where that is damaged, what was kept before it."""
+    for file in _kept():
+        with suppress(OSError, ValueError, RecursionError, TypeError, LookupError):
+            kept: dict[str, Any] = from_json(file.read_bytes())
+            if isinstance(kept["document"]["poses"], list):
+                return kept
+    return None
+
+
+def _kept() -> list[Path]:
+    """The files, newest first; those that are still being written are none of them."""
+    files = {}
+    for each in folder().glob("[!.]*.json"):
+        with suppress(OSError):  # another tab has taken it away
+            files[each] = each.stat().st_mtime
+    return sorted(files, key=lambda each: files[each], reverse=True)

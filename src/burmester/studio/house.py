@@ -108,6 +108,9 @@ class House:
         assert self._opening is not None
         await asyncio.wait([self._formats, self._opening[1]], return_when=asyncio.FIRST_COMPLETED)
         formats = self._formats.result() if self._formats.done() else []
+        if not formats:  # the worker that was asked has ended
+            with suppress(TimeoutError, WorkerEndedError):
+                formats = json.loads((await self.desk({"do": "formats"}, b"{}"))[1])
         return {**self.start, "exports": formats}
 
     def is_opening(self, key: str) -> bool:

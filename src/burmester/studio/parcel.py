@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import json
 import struct
-from typing import Any, Protocol
+from typing import Any, Final, Protocol
 
-__all__ = ["LENGTHS", "Stream", "as_json", "lengths", "packed", "read_parcel"]
+__all__ = ["LENGTHS", "Stream", "as_json", "from_json", "lengths", "packed", "read_parcel"]
 
 _LENGTHS = struct.Struct("<II")
 LENGTHS = _LENGTHS.size
+MOST_DEPTH: Final = 100  # of what the page sends; Python's own limit may be reached anywhere
 
 
 class Stream(Protocol):
@@ -26,6 +27,19 @@ class Stream(Protocol):
 def as_json(data: object) -> bytes:
     """JSON that is plain ASCII, half characters and all: any decoder takes it."""
     return json.dumps(data, allow_nan=False, separators=(",", ":")).encode("ascii")
+
+
+def from_json(text: str | bytes) -> Any:
+    """What the page sent; raises ValueError where it is no JSON, and RecursionError if too deep."""
+    given = json.loads(text)
+    level = [given]
+    for _ in range(MOST_DEPTH):
+        nested = [each for each in level if isinstance(each, dict | list)]
+        inner = (each.values() if isinstance(each, dict) else each for each in nested)
+        level = [each for every in inner for each in every]
+    if level:
+        raise RecursionError
+    return given
 
 
 def packed(head: dict[str, Any], body: bytes = b"") -> bytes:

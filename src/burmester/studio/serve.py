@@ -9,10 +9,15 @@ import asyncio
 import os
 import signal
 import socket
+import sys
+import tempfile
+import threading
+import time
 import webbrowser
 from collections.abc import Callable
-from contextlib import nullcontext
+from contextlib import ExitStack, nullcontext, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from burmester import __version__
@@ -25,6 +30,17 @@ __all__ = ["Opening", "serve"]
 # The task of a studio that is given none.  The lid hinge and the chest lid are solved equally fast;
 # the hinge has eight poses, and its answers follow a hand in half the time.
 TEMPLATE = "lid-hinge"
+# How to get another address.
+ENTER = (
+    "press Enter in the terminal where burmester studio runs, and open the address that it prints"
+)
+AGAIN = "end burmester studio, start it again, and open the address that it prints"
+LEADING = """<!doctype html>
+<meta charset="utf-8">
+<meta http-equiv="refresh" content="0; url={address}">
+<title>burmester studio</title>
+<p><a href="{address}">Open the studio</a></p>
+"""
 
 
 @dataclass(frozen=True)
@@ -79,7 +95,7 @@ async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], No
     try:
         import uvicorn  # noqa: PLC0415
 
-        from burmester.studio.access import MOST_BYTES, Access  # noqa: PLC0415
+        from burmester.studio.access import MOST_BYTES, TOKEN_S, Access  # noqa: PLC0415
         from burmester.studio.application import application  # noqa: PLC0415
 
         await house.open({"path": opening.path, "template": TEMPLATE}, opening.data)
@@ -90,8 +106,9 @@ async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], No
             "limit_s": limit_s,
         }
         port = bound.getsockname()[1]
-        door = Access(port=port, host=host)
-        door.within(application(house, door.exchanged))
+        is_heard = opening.path != "-" and sys.stdin is not None and sys.stdin.isatty()
+        door = Access(port=port, host=host, help=ENTER if is_heard else AGAIN)
+        door.within(application(house, door))
         server = uvicorn.Server(
             uvicorn.Config(
                 door,
@@ -109,13 +126,52 @@ async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], No
         )
         shown = f"[{host}]" if ":" in host else host
         shown = {"0.0.0.0": "127.0.0.1", "[::]": "[::1]"}.get(shown, shown)
-        address = f"http://{shown}:{port}/#token={door.token}"
-        say(address)
-        if opening.browser:
-            house.later(asyncio.to_thread(webbrowser.open, address))
-        await _until_stopped(server, bound)
+
+        def address() -> str:
+            return f"http://{shown}:{port}/#token={door.token()}"
+
+        say(address())
+        if is_heard:
+            say(f"It opens once, within {TOKEN_S / 60:g} minutes.  Enter prints another address.")
+            if hasattr(signal, "SIGTTIN"):  # in the background it goes on, and hears no Enter
+                signal.signal(signal.SIGTTIN, signal.SIG_IGN)
+            heard = asyncio.get_running_loop(), lambda: say(address())
+            threading.Thread(target=_hear_enter, args=heard, daemon=True).start()
+        with ExitStack() as ending:
+            if opening.browser:
+                with suppress(OSError):  # where nothing can be written, the address is to be read
+                    file = _leading_to(address(), ending)
+                    house.later(asyncio.to_thread(webbrowser.open, file.as_uri()))
+            await _until_stopped(server, bound)
     finally:
         await house.workers.close()
+
+
+def _leading_to(address: str, ending: ExitStack) -> Path:
+    """A file that leads a browser to an address; it is there until `ending` closes.
+
+    Whoever is at work on this machine sees what a browser is told to open.  Only this user can read
+    the file.
+    """
+    folder = tempfile.TemporaryDirectory(prefix="burmester-", ignore_cleanup_errors=True)
+    file = Path(ending.enter_context(folder)) / "studio.html"
+    with open(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as page:
+        page.write(LEADING.format(address=address))
+    return file
+
+
+def _hear_enter(loop: asyncio.AbstractEventLoop, do: Callable[[], None]) -> None:
+    """Do something in the loop whenever somebody presses Enter in the terminal."""
+    with suppress(RuntimeError):  # the loop has ended
+        while True:
+            try:
+                # Not by sys.stdin, whose lock the end of Python would wait for.
+                if not os.read(0, 4096):
+                    return
+            except OSError:  # a program in the background hears nothing
+                time.sleep(1)
+            else:
+                loop.call_soon_threadsafe(do)
 
 
 async def _until_stopped(server: Any, bound: socket.socket) -> None:

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from burmester.studio.parcel import as_json
+from burmester.studio.access import PROTOCOL
+from burmester.studio.parcel import as_json, from_json
 from burmester.studio.workers import Parcel, Worker, WorkerEndedError
 
 if TYPE_CHECKING:
@@ -38,11 +39,11 @@ class Session:
         self._from = 0  # the number of the message that its answers are to
         self._newest: dict[str, tuple[int, str]] = {}  # of the hand: the newest of each kind
         self._hand: asyncio.Task[None] | None = None
-        self._solving: asyncio.Task[None] | None = None
+        self._solving: tuple[int, asyncio.Task[None]] | None = None
 
     async def run(self) -> None:
         """Serve the tab until it is closed."""
-        await self._socket.accept()
+        await self._socket.accept(subprotocol=PROTOCOL)
         try:
             while True:
                 message = await self._socket.receive()
@@ -52,7 +53,7 @@ class Session:
         except WebSocketDisconnect:
             return
         finally:
-            for task in (self._hand, self._solving):
+            for task in (self._hand, self._solving and self._solving[1]):
                 if task is not None:
                     task.cancel()
             if self._live is not None and self._live.holder is self:
@@ -61,7 +62,7 @@ class Session:
     async def _take(self, text: str | None) -> None:
         """Do what a message asks for; a wrong one is refused with a message of its own."""
         try:
-            given = json.loads(text) if text is not None else None
+            given = from_json(text) if text is not None else None
         except (ValueError, RecursionError):
             given = None
         n = given.get("n") if isinstance(given, dict) else None
@@ -77,14 +78,16 @@ class Session:
             if self._hand is None or self._hand.done():
                 self._hand = self._house.later(self._follow_hand())
         elif do in ("solve", "cancel"):
-            if self._solving is not None and not self._solving.done():
-                self._solving.cancel()
+            if self._solving is not None and not self._solving[1].done():
+                self._solving[1].cancel()
                 if do == "cancel":
                     await self._tell(n, "cancelled", message="called off")
+                else:
+                    await self._tell(self._solving[0], "superseded", by=n)
             if do == "solve":
                 key = self._house.key_of(given)
                 limit_s = self._house.limit_of(given)
-                self._solving = self._house.later(self._solve(n, key, text, limit_s))
+                self._solving = n, self._house.later(self._solve(n, key, text, limit_s))
         else:
             await self._refuse(n, "this is no message of the page")
 
@@ -96,8 +99,10 @@ class Session:
             try:
                 async with asyncio.timeout(HAND_S):
                     head, body = await self._by_hand(do, text)
-            except (TimeoutError, WorkerEndedError):
+            except TimeoutError:
                 head, body = {"kind": "refused"}, _solve_first("that took too long to follow")
+            except WorkerEndedError as error:
+                head, body = {"kind": "ended"}, as_json({"messages": [error.data]})
             if head["kind"] == "frame":
                 with _if_open():
                     await self._socket.send_bytes(body)
@@ -113,6 +118,9 @@ class Session:
                 if live is not None:
                     return await live.ask({"do": do, "from": self._from}, text.encode())
         if do == "follow":
+            if last is not None and not last.alive:
+                self._live = None
+                raise WorkerEndedError(last.code)
             return {"kind": "refused"}, _solve_first("there is nothing to follow yet")
         async with self._house.workers.lent() as worker:
             return await worker.ask({"do": do}, text.encode())
@@ -149,12 +157,15 @@ class Session:
         except TimeoutError:
             message = f"stopped after {limit_s:g} s, the limit"
             await self._tell(n, "limit", message=message)
-        except WorkerEndedError:
-            await self._refuse(n, "the computation ended before its time; try it once more")
+        except WorkerEndedError as error:
+            await self._tell(n, "ended", messages=[error.data])
 
     async def _standing(self, live: Worker, text: str) -> bytes | None:
         """Where the linkages of the page are at a task."""
-        head, before = await live.ask({"do": "stand"}, text.encode())
+        try:
+            head, before = await live.ask({"do": "stand"}, text.encode())
+        except WorkerEndedError:
+            return None
         return None if head["kind"] == "failed" else before
 
     async def _matched(self, worker: Worker, before: bytes | None, text: str) -> dict[str, Any]:

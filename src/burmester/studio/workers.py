@@ -29,7 +29,20 @@ ENVIRONMENT = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THR
 
 
 class WorkerEndedError(Exception):
-    """A worker that ended before it answered."""
+    """A worker that ended before it answered; code: with which it did."""
+
+    def __init__(self, code: int | None = None) -> None:
+        super().__init__("the process that computes ended before it answered")
+        self.code = code
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """What happened, as messages are told."""
+        why = f"its exit code is {self.code}"
+        if self.code is not None and self.code < 0:  # as POSIX has it
+            why = f"signal {-self.code} ended it; a system that is short of memory does that"
+        help = "try it once more; another process takes its place"
+        return {"code": "503", "message": str(self), "where": None, "why": why, "help": help}
 
 
 class Worker:
@@ -67,12 +80,17 @@ class Worker:
     @property
     def alive(self) -> bool:
         """Whether the process has not ended."""
-        return self._process.returncode is None
+        return self.code is None
 
     @property
     def idle(self) -> bool:
         """Whether it has answered everything."""
         return self._done or not self._loaded
+
+    @property
+    def code(self) -> int | None:
+        """The exit code of a process that has ended."""
+        return self._process.returncode
 
     async def ready(self) -> None:
         """Wait until it has loaded what it needs; raises WorkerEndedError."""
@@ -115,7 +133,7 @@ class Worker:
         while True:
             if (parcel := await self._parcels.get()) is None:
                 self._parcels.put_nowait(None)
-                raise WorkerEndedError
+                raise WorkerEndedError(await self._process.wait())
             if parcel[0]["last"]:
                 self._done = True
                 return parcel
@@ -219,7 +237,12 @@ class Workers:
                 continue
             turn = asyncio.get_running_loop().create_future()
             self._waiting.append(turn)
-            await turn
+            try:
+                await turn
+            except asyncio.CancelledError:
+                if not turn.cancelled():  # it was this one's turn: now it is the next one's
+                    self._wake()
+                raise
 
     def _choice(self, key: str | None) -> Worker | None:
         """The idle worker that is to be had; None where another is to be started first."""
@@ -242,6 +265,9 @@ class Workers:
         self._starting += 1
         try:
             worker = await Worker.start(*words)
+        except BaseException:
+            self._wake()  # there is room for one more
+            raise
         finally:
             self._starting -= 1
         if self._closed:
@@ -305,10 +331,10 @@ class Turns:
             try:
                 await mine
             except BaseException:
-                if entry in self._queue:
-                    self._queue.remove(entry)
-                else:
+                if not mine.cancelled():  # it was this one's turn: now it is the next one's
                     self._next()
+                elif entry in self._queue:
+                    self._queue.remove(entry)
                 raise
         try:
             yield
@@ -316,10 +342,12 @@ class Turns:
             self._next()
 
     def _next(self) -> None:
-        if self._queue:
+        while self._queue:
             mine, _ = self._queue.popleft()
+            if mine.cancelled():  # called off a moment ago, which its owner does not know yet
+                continue
             mine.set_result(None)
             for before, (_, told) in enumerate(self._queue, start=1):
                 told(before)
-        else:
-            self._free += 1
+            return
+        self._free += 1

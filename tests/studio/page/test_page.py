@@ -2,12 +2,15 @@
 
 import json
 import signal
+import threading
+from contextlib import contextmanager
+from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import pytest
 
 from burmester.io import templates
 from tests.oracles.browser import idle
-from tests.oracles.studio import served
+from tests.oracles.studio import killed, served
 from tests.oracles.studio_page import (
     drag,
     drawn,
@@ -210,12 +213,104 @@ def test_w15_when_the_server_ends_nothing_is_lost_and_a_banner_says_how_to_go_on
         assert task["poses"][0]["x"] == 1.5
         with served("--port", str(first.port), home=tmp_path) as second:
             page.locator("[data-banner=expired]").wait_for()
-            page.evaluate(f"location.hash = 'token={second.token}'")
+            other = page.context.new_page()
+            other.goto(second.address())  # in another tab: this one goes on, too
+            page.bring_to_front()
             page.wait_for_function("() => !document.querySelector('[data-banner=expired]')")
+            page.evaluate("to => location.hash = to", second.address().partition("#")[2])
+            page.wait_for_function("() => location.hash === ''")
             idle(page, 300)
             solved(page)
             assert pose(page, 8) == moved
-            assert page.evaluate("location.hash") == ""
+
+
+def told(page, address):
+    """What a page says that is not let in."""
+    page.goto(address)
+    return page.locator(".bs-failed[role=alert]").inner_text()
+
+
+def test_an_address_opens_one_browser_which_keeps_its_key_to_itself(browser, visitor):
+    """It is loaded again and in other tabs; no other server of this machine is sent anything."""
+    address = visitor.address()
+    with studio_page(browser, visitor) as page:
+        page.goto(address)
+        page.wait_for_selector("html[data-ready]")
+        assert page.url == f"{visitor.base}/"
+        page.reload()
+        page.wait_for_selector("html[data-ready]")
+        for again in (address, visitor.base):
+            tab = page.context.new_page()
+            tab.goto(again)
+            tab.wait_for_selector("html[data-ready]")
+            assert tab.url == f"{visitor.base}/"
+        assert page.context.cookies() == []
+        with listener() as (port, heard):
+            tab.goto(f"http://127.0.0.1:{port}/")
+            assert tab.evaluate("[document.cookie, localStorage.length]") == ["", 0]
+        assert heard
+        assert all(visitor.key not in each for each in heard)
+    other = browser.new_context()
+    page = other.new_page()
+    for each in (address, visitor.base):
+        assert "press Enter in the terminal" in told(page, each)
+    page.goto(visitor.address())
+    page.wait_for_selector("html[data-ready]")
+    other.close()
+
+
+@contextmanager
+def listener():
+    """A server of somebody else on this machine: its port, and the heads of what it is asked."""
+    heard = []
+
+    class Listener(BaseHTTPRequestHandler):
+        def do_GET(self):
+            heard.append(f"{self.path} {self.headers}")
+            self.send_response(200)
+            self.end_headers()
+
+        def log_message(self, *words):
+            pass
+
+    with HTTPServer(("127.0.0.1", 0), Listener) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield server.server_address[1], heard
+        server.shutdown()
+
+
+def test_a_browser_that_keeps_nothing_is_let_in_until_it_loads_again(browser, visitor):
+    context = browser.new_context()
+    page = context.new_page()
+    page.add_init_script(
+        "Object.defineProperty(window, 'localStorage', { get() { throw new Error('none') } })"
+    )
+    page.goto(visitor.address())
+    page.wait_for_selector("html[data-ready]")
+    page.locator("[data-linkage]").first.wait_for()
+    assert "press Enter in the terminal" in told(page, visitor.base)
+    context.close()
+
+
+def test_when_workers_are_killed_the_page_says_so_and_goes_on(browser, tmp_path):
+    """At rest, noticed by a drag; and in the midst of a search."""
+    with served(home=tmp_path) as visitor, studio_page(browser, visitor) as page:
+        banner, before = page.locator("[data-banner=ended]"), pose(page, 8)
+        killed(visitor)
+        drag(page, '.bs-origin[data-pose="8"]', 14, -9)
+        banner.wait_for()
+        assert "Nothing of the task is lost" in banner.inner_text()
+        assert "signal 9 ended it" in banner.inner_text()
+        solved(page)
+        assert pose(page, 8) != before
+        assert page.locator("[data-linkage]").count() > 0
+        banner.locator(".bs-close").click()
+        drag(page, '.bs-origin[data-pose="8"]', 5, -3)
+        page.wait_for_function("() => [...unanswered.values()].includes('solve')")
+        killed(visitor)
+        banner.locator("[data-do=solve-again]").click()
+        solved(page)
+        assert banner.count() == 0
 
 
 def test_a_search_that_takes_too_long_is_told_and_nothing_is_lost(browser, tmp_path):

@@ -3,7 +3,7 @@ var studio_default=`/* The studio's page.  Colours and type are those of widget.
 
 body.bs { margin: 0; min-height: 100vh; }
 @media (prefers-color-scheme: dark) { html { background: #121418; } }
-.bs-failed { max-width: 40rem; margin: 3rem auto; padding: 0 1rem; }
+.bs .bs-failed { max-width: 40rem; margin: 3rem auto; padding: 0 1rem; }
 .bs h3, .bs h4 { margin: 0; font-weight: 650; }
 .bs h3 { font-size: 0.92rem; }
 .bs h4 { font-size: 0.84rem; color: var(--bm-muted); font-weight: 600; }
@@ -1168,36 +1168,37 @@ resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document
 options){this.setState("solving","");return}const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.solving={n,document:document2,
 options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;if(!this.placeWanted){
 this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;const n=this.
-connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind==="followed")this.
-takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.solving?.n||kind===
-"cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,
-isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);
-const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.
-flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.
-document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(
-n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.
-placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.
-say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===
-this.document,isAnother=this.solvedTask!==this.task;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.
-before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;
-if(message.kind==="solved"){const answer={...message,document:document2};if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){
-this.forget("There is no answer to this task yet")}if(message.kind==="refused"){this.say(message.messages)}else if(message.kind!=="solved"){const[said]=[message.
-message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.
-poses.length<FEWEST}forget(message=NO_ANSWER.outcome.message){if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.
-solved.space,quadrics:[]}};this.install({n:null,result,document:this.document,seconds:null});if(this.placed)this.place([])}install({n,result,document:document2,
-seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
-if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
-linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.task,seconds,
-basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.
-linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved",
-"chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,
-messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)
-this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=null;this.setState("resting","");this.basis=null;this.
-solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;this.setState("offline","")}setState(state,progress=""){if(state===
-this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){
-if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(
-id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.
-selection?.kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var MOST3=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
+connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind==="ended")this.
+say(message.messages.map(each=>({tone:kind,...each})));if(kind==="followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===
+this.placing?.n)this.takePlaced(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
+const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
+if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
+!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
+this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
+n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)
+this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){
+this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)
+this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document,isAnother=this.solvedTask!==this.task;if(message.kind===
+"progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind===
+"progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
+if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){this.forget("There is no answer to this task yet")}if(message.kind===
+"refused"){this.say(message.messages)}else if(!["solved","ended"].includes(message.kind)){const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said===
+"string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.poses.length<FEWEST}forget(message=NO_ANSWER.outcome.message){
+if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.solved.space,quadrics:[]}};this.install({n:null,result,document:this.
+document,seconds:null});if(this.placed)this.place([])}install({n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(
+told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{
+id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==
+this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.task,seconds,basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.
+flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
+pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){
+this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){
+const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=
+this.placing=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;
+this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit(
+"state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dr\
+agging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===
+this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.index===this.selection?.index)return;this.selection=
+selection;this.emit("selection")}};var MOST3=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
 const choice=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
 "option",{value},text))));this.types=choice("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"stat\
 us"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\

@@ -45,11 +45,11 @@ return h("input",{class:"bs-text",type:"text",autocomplete:"off",spellcheck:"fal
 function tick(text,commit,attributes={}){const box=h("input",{type:"checkbox",...attributes,onchange:event=>commit(event.target.checked)});return{box,element:h(
 "label",{class:"bs-tick"},box," ",text)}}function choice(label,pairs,commit,attributes={}){return h("select",{class:"bs-choice","aria-label":label,...attributes,
 onchange:event=>commit(event.target.value)},pairs.map(([value,text])=>h("option",{value},text)))}var button=(text,onclick,attributes={})=>h("button",{type:"butt\
-on",class:"bm-button",onclick,...attributes},text);var ROLES={refused:"alert",offline:"alert",limit:"alert",expired:"alert"};var LONGEST_HELP=240;var NO_FILE="task.json";function sentenceOf({code,message,where,why,
-help}){return h("li",{},code?h("span",{class:"bm-code"},code):null," ",h("span",{},message),where&&!where.startsWith(NO_FILE)?h("pre",{class:"bs-where"},where):
-null,why?h("p",{class:"bs-why"},`Why: ${why}.`):null,help?helpOf(help):null)}function helpOf(help){if(help.length<=LONGEST_HELP)return h("p",{class:"bs-help"},`\
-What to do: ${help}.`);const end=help.slice(0,LONGEST_HELP).lastIndexOf("; "),cut=end>0?end:help.slice(0,LONGEST_HELP).lastIndexOf(" ");return h("div",{class:"b\
-s-help"},h("p",{},`What to do: ${help.slice(0,cut)}${end>0?".":" …"}`),h("details",{},h("summary",{},"More"),h("p",{},`${help.slice(cut).replace(/^[; ]+/,"")}\
+on",class:"bm-button",onclick,...attributes},text);var ROLES={refused:"alert",offline:"alert",limit:"alert",ended:"alert",expired:"alert"};var LONGEST_HELP=240;var NO_FILE="task.json";function sentenceOf({code,message,
+where,why,help}){return h("li",{},code?h("span",{class:"bm-code"},code):null," ",h("span",{},message),where&&!where.startsWith(NO_FILE)?h("pre",{class:"bs-where"},
+where):null,why?h("p",{class:"bs-why"},`Why: ${why}.`):null,help?helpOf(help):null)}function helpOf(help){if(help.length<=LONGEST_HELP)return h("p",{class:"bs-h\
+elp"},`What to do: ${help}.`);const end=help.slice(0,LONGEST_HELP).lastIndexOf("; "),cut=end>0?end:help.slice(0,LONGEST_HELP).lastIndexOf(" ");return h("div",{class:"\
+bs-help"},h("p",{},`What to do: ${help.slice(0,cut)}${end>0?".":" …"}`),h("details",{},h("summary",{},"More"),h("p",{},`${help.slice(cut).replace(/^[; ]+/,"")}\
 .`)))}var Banners=class{constructor(store){this.store=store;this.shown=new Map;this.element=h("div",{class:"bs-banners"});this.status=h("p",{class:"bs-status"});
 this.live=h("p",{class:"bs-unseen",role:"status"});store.on("messages",()=>this.messages());store.on("state solved messages",()=>this.state())}say(kind,title,messages=[],{
 undo=false,actions=[]}={}){const close=button("✕",()=>this.close(kind),{"aria-label":"Close",class:"bs-close"});const all=[...actions,...undo?[button("Undo",()=>(this.
@@ -59,17 +59,18 @@ get(kind)?.remove();this.shown.set(kind,banner);this.element.append(banner)}clos
 store}=this,{messages}=store,[first]=messages;this.close("limit");this.close("refused");if(!first||store.document.poses.length<2)return;const shown2=store.solved?.
 linkages.length?" What is shown was followed from the answer before.":"";if(first.tone==="cancelled")this.say("note",`Solving was stopped.${shown2}`,[],{actions:[
 this.again()]});else if(first.tone==="limit")this.say("limit",`Solving took too long and was stopped. Nothing of the task is lost.${shown2}`,messages,{actions:[
+this.again()]});else if(first.tone==="ended")this.say("ended","The process that computes for this page has ended. Nothing of the task is lost.",messages,{actions:[
 this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("Solve again",()=>{this.close("note");this.close("\
-limit");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="offline")this.offline();else this.
-close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?"Not connected":this.summary();
-say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){const{solved,solvedFor,document:document2,
-messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not solved";if(!solved||solvedFor!==document2)return"";
-const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:
-"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothing is lost: the task is in this page, and can st\
-ill be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"save-json"}),h("span",{class:"bs-hint"},"Th\
-e page tries again by itself. If the server has ended, start burmester studio with that file, or drop the file on the new page.")]})}expired(){this.close("offli\
-ne");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed in this tab, and go on here.",[],{actions:[button("Save \
-the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+limit");this.close("ended");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="offline")
+this.offline();else this.close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?"Not c\
+onnected":this.summary();say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){const{
+solved,solvedFor,document:document2,messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not solved";
+if(!solved||solvedFor!==document2)return"";const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count} lin\
+kage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothing is\
+ lost: the task is in this page, and can still be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"\
+save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the server has ended, start burmester studio with that file, or drop the file on the\
+ new page.")]})}expired(){this.close("offline");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed in this tab, \
+and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -477,21 +478,23 @@ region);if(!corners)return"";const pose=body.length>2?some.find(k=>overlap2(seen
 touches it at pose ${poseName(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap2(seen(body,place),corners)))return"The \
 body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(
 place,dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id}\
- comes nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){super(messages.
-map(each=>each.message).join(" ")||`the server answered ${status}`);this.status=status;this.messages=messages}};async function messagesOf(response){try{return(await response.
-json()).messages??[]}catch{return[]}}var Connection=class{constructor(decode){this.decode=decode;this.listeners={message:[],open:[],closed:[]};this.asked=new Map;
-this.n=0;this.tries=0;this.socket=null}on(name,fn){this.listeners[name].push(fn)}emit(name,value){for(const fn of this.listeners[name])fn(value)}get isOpen(){return this.
-socket?.readyState===1}async session(){const token=decodeURIComponent(location.hash.slice(1)).replace(/^token=/,"");if(!token)return;await this.post("/session",
-{token});history.replaceState(null,"",location.pathname)}async get(path2){return(await this.request(path2,{})).json()}post(path2,body,method="POST"){return this.
-request(path2,{method,headers:{"Content-Type":"application/json"},body:JSON.stringify(body)})}async request(path2,options){const response=await fetch(path2,{credentials:"\
-same-origin",...options});if(!response.ok)throw new Refused(response.status,await messagesOf(response));return response}open(){clearTimeout(this.timer);this.socket?.
-close();const socket=new WebSocket(`${location.protocol==="https:"?"wss":"ws"}://${location.host}/live`);socket.binaryType="arraybuffer";this.socket=socket;socket.
-onopen=()=>{this.tries=0;this.emit("open")};socket.onmessage=({data})=>{if(socket===this.socket)this.take(typeof data==="string"?JSON.parse(data):this.decode(data))};
-socket.onclose=()=>{if(socket!==this.socket)return;for(const{reject}of this.asked.values())reject(new Error("the connection ended"));this.asked.clear();this.emit(
-"closed",this.tries);this.timer=setTimeout(()=>this.open(),AGAIN[Math.min(this.tries,AGAIN.length-1)]);this.tries+=1}}take(message){const waiting=this.asked.get(
-message.n);if(waiting&&!UNFINISHED.has(message.kind)){this.asked.delete(message.n);waiting.resolve(message)}this.emit("message",message)}send(message){if(!this.
-isOpen)return null;this.n+=1;this.socket.send(JSON.stringify({n:this.n,...message}));return this.n}ask(message){return new Promise((resolve,reject)=>{const n=this.
-send(message);if(n===null)reject(new Error("the connection is closed"));else this.asked.set(n,{resolve,reject})})}};var LENGTHS2=[["hole","holes"],["pin","pins"],["width","links are wide"],["thickness","plates are thick"],["gap","gap between plates"]];var NUMBERS=[["pose","dr\
+ comes nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var KEY2="burmester.studio.key";var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){
+super(messages.map(each=>each.message).join(" ")||`the server answered ${status}`);this.status=status;this.messages=messages}};async function messagesOf(response){
+try{return(await response.json()).messages??[]}catch{return[]}}var Connection=class{constructor(decode){this.decode=decode;this.listeners={message:[],open:[],closed:[]};
+this.asked=new Map;this.n=0;this.tries=0;this.socket=null}on(name,fn){this.listeners[name].push(fn)}emit(name,value){for(const fn of this.listeners[name])fn(value)}get isOpen(){
+return this.socket?.readyState===1}get key(){try{return localStorage.getItem(KEY2)??this.own}catch{return this.own}}async session(){const token=decodeURIComponent(
+location.hash.slice(1)).replace(/^token=/,"");if(!token)return;history.replaceState(null,"",location.pathname);try{this.own=(await(await this.post("/session",{token})).
+json()).key}catch(error){if(!(error instanceof Refused)||!this.key)throw error;return}try{localStorage.setItem(KEY2,this.own)}catch{}}async get(path2){return(await this.
+request(path2,{})).json()}post(path2,body,method="POST"){return this.request(path2,{method,headers:{"Content-Type":"application/json"},body:JSON.stringify(body)})}async request(path2,options){
+const headers={...options.headers,Authorization:`Bearer ${this.key}`};const response=await fetch(path2,{credentials:"omit",...options,headers});if(!response.ok)
+throw new Refused(response.status,await messagesOf(response));return response}open(){clearTimeout(this.timer);this.socket?.close();const socket=new WebSocket(`${location.
+protocol==="https:"?"wss":"ws"}://${location.host}/live`,["burmester",this.key]);socket.binaryType="arraybuffer";this.socket=socket;socket.onopen=()=>{this.tries=
+0;this.emit("open")};socket.onmessage=({data})=>{if(socket===this.socket)this.take(typeof data==="string"?JSON.parse(data):this.decode(data))};socket.onclose=()=>{
+if(socket!==this.socket)return;for(const{reject}of this.asked.values())reject(new Error("the connection ended"));this.asked.clear();this.emit("closed",this.tries);
+this.timer=setTimeout(()=>this.open(),AGAIN[Math.min(this.tries,AGAIN.length-1)]);this.tries+=1}}take(message){const waiting=this.asked.get(message.n);if(waiting&&
+!UNFINISHED.has(message.kind)){this.asked.delete(message.n);waiting.resolve(message)}this.emit("message",message)}send(message){if(!this.isOpen)return null;this.
+n+=1;this.socket.send(JSON.stringify({n:this.n,...message}));return this.n}ask(message){return new Promise((resolve,reject)=>{const n=this.send(message);if(n===
+null)reject(new Error("the connection is closed"));else this.asked.set(n,{resolve,reject})})}};var LENGTHS2=[["hole","holes"],["pin","pins"],["width","links are wide"],["thickness","plates are thick"],["gap","gap between plates"]];var NUMBERS=[["pose","dr\
 awn at pose","1",{least:1,whole:true}],["density","density, kg/m³","2700",{above:0}],["seconds","film, seconds","4",{above:0}],["frames_per_second","pictures a\
  second","25",{above:0}],["width_px","pixels wide","800",{least:1,whole:true}]];var AXES=["y","x","z","-x","-y","-z"];var UNITS=["mm","cm","m","in","ft"];var SIGMA=[
 ["position","position","length"],["angle_deg","angle","angle"]];var section=(name,title,...content)=>h("details",{class:"bs-section","data-section":name},h("sum\
@@ -1397,35 +1400,36 @@ solving.options===options){this.setState("solving","");return}const n=this.conne
 {n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;
 if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;
 const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind===
-"followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.
-solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)return;
-const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(this.
-pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=document2;
-this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,...[
-...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({n,kind,messages=[],solve=false,whole=false}){const{
-document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){
-const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind===
-"refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,
-isNow=document2===this.document,isAnother=this.solvedTask!==this.task;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.
-before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;
-this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){
-this.forget("There is no answer to this task yet")}if(message.kind==="refused"){this.say(message.messages)}else if(message.kind!=="solved"){const[said]=[message.
-message].flat();this.say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.
-poses.length<FEWEST}forget(message=NO_ANSWER.outcome.message){if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.
-solved.space,quadrics:[]}};this.install({n:null,result,document:this.document,seconds:null});if(this.placed)this.place([])}install({n,result,document:document2,
-seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));
-if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.
-linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.task,seconds,
-basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.
-linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved",
-"chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,
-messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)
-this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=null;this.setState("resting","");this.basis=null;this.
-solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;this.setState("offline","")}setState(state,progress=""){if(state===
-this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){
-if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(
-id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.
-selection?.kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var MOST4=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
+"ended")this.say(message.messages.map(each=>({tone:kind,...each})));if(kind==="followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(
+message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
+const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
+if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
+!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
+this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
+n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)
+this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){
+this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)
+this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document,isAnother=this.solvedTask!==this.task;if(message.kind===
+"progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind===
+"progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
+if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){this.forget("There is no answer to this task yet")}if(message.kind===
+"refused"){this.say(message.messages)}else if(!["solved","ended"].includes(message.kind)){const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said===
+"string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.poses.length<FEWEST}forget(message=NO_ANSWER.outcome.message){
+if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.solved.space,quadrics:[]}};this.install({n:null,result,document:this.
+document,seconds:null});if(this.placed)this.place([])}install({n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(
+told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{
+id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==
+this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.task,seconds,basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.
+flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
+pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){
+this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){
+const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=
+this.placing=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;
+this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit(
+"state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dr\
+agging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===
+this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.index===this.selection?.index)return;this.selection=
+selection;this.emit("selection")}};var MOST4=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
 const choice2=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
 "option",{value},text))));this.types=choice2("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"sta\
 tus"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\
@@ -1778,13 +1782,14 @@ name===name)};scene.on("tool",show);store.on("document",show);let waiting;store.
 stop),line2)}function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(store)?.led??[]).map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&
 isNear(store,point2)));store.on("solved",()=>{const refit=waits&&scene.isFitted;waits=false;if(refit)scene.fit()});return()=>{waits=true;scene.fit()}}function isNear({
 solved,document:{poses}},[x,y]){return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<3*(solved?.scene??Infinity))}function listenToTokens(connection,banners){addEventListener(
-"hashchange",async()=>{if(!location.hash)return;await connection.session();banners.close("expired");connection.open()});let asked=false;connection.on("closed",async()=>{
-if(asked)return;asked=true;try{await connection.get("/start")}catch(error){if(error instanceof Refused&&error.status===401)banners.expired()}asked=false})}async function main(){
-const root=document.getElementById("studio"),connection=new Connection(decodeFrame);try{await connection.session();const start=await connection.get("/start"),kept=keptHere();
-const store=new Store({connection,document:start.document,options:start.options,name:start.name,...kept});const parts=layOut(root,store,start);if(start.saved&&!kept)
-offerSaved(store,parts,start.saved);listenToTokens(connection,parts.banners);document.documentElement.dataset.ready="true";connection.open()}catch(error){root.replaceChildren(
-h("p",{class:"bs-failed",role:"alert"},error instanceof Refused&&error.status===401?"This page needs the address that burmester studio printed, with the token i\
-n it. Open that address, or start burmester studio again.":`The page could not start: ${error.message}. Is burmester studio still running? Start it again and op\
-en the address that it prints.`));if(!(error instanceof Refused))throw error}}function offerSaved(store,{banners,files},saved){const when=typeof saved.when==="n\
-umber"?new Date(1e3*saved.when).toLocaleString():saved.when;banners.say("saved",`Your task of last time, ${saved.name}${when?` (${when})`:""}, was kept.`,[],{actions:[
-button("Go on with it",()=>{banners.close("saved");store.replace(saved);files.opened()},{"data-do":"restore"})]})}main();
+"hashchange",async()=>{if(!location.hash)return;await connection.session();connection.open()});let asked=false;connection.on("open",()=>banners.close("expired"));
+connection.on("closed",async()=>{if(asked)return;asked=true;try{await connection.get("/start")}catch(error){if(error instanceof Refused&&error.status===401)banners.
+expired()}asked=false})}async function main(){const root=document.getElementById("studio"),connection=new Connection(decodeFrame);try{await connection.session();
+const start=await connection.get("/start"),kept=keptHere();const store=new Store({connection,document:start.document,options:start.options,name:start.name,...kept});
+const parts=layOut(root,store,start);if(start.saved&&!kept)offerSaved(store,parts,start.saved);listenToTokens(connection,parts.banners);document.documentElement.
+dataset.ready="true";connection.open()}catch(error){addEventListener("hashchange",()=>location.reload());const[told]=error instanceof Refused&&error.status===401?
+error.messages:[];root.replaceChildren(h("p",{class:"bs-failed",role:"alert"},told?`The studio is not shown here: ${told.message}. What to do: ${told.help}.`:`T\
+he page could not start: ${error.message}. Is burmester studio still running? Start it again and open the address that it prints.`));if(!(error instanceof Refused))
+throw error}}function offerSaved(store,{banners,files},saved){const when=typeof saved.when==="number"?new Date(1e3*saved.when).toLocaleString():saved.when;banners.
+say("saved",`Your task of last time, ${saved.name}${when?` (${when})`:""}, was kept.`,[],{actions:[button("Go on with it",()=>{banners.close("saved");store.replace(
+saved);files.opened()},{"data-do":"restore"})]})}main();

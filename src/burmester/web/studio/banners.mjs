@@ -3,7 +3,7 @@
 import { h, put, say } from "../widget/dom.mjs";
 import { button } from "./fields.mjs";
 
-const ROLES = { refused: "alert", offline: "alert", limit: "alert", expired: "alert" };
+const ROLES = { refused: "alert", offline: "alert", limit: "alert", ended: "alert", expired: "alert" };
 
 const LONGEST_HELP = 240; // characters; of a longer one the rest is folded
 const NO_FILE = "task.json"; // what the server calls the task of this page, which is in no file
@@ -60,6 +60,7 @@ export class Banners {
     const shown = store.solved?.linkages.length ? " What is shown was followed from the answer before." : "";
     if (first.tone === "cancelled") this.say("note", `Solving was stopped.${shown}`, [], { actions: [this.again()] });
     else if (first.tone === "limit") this.say("limit", `Solving took too long and was stopped. Nothing of the task is lost.${shown}`, messages, { actions: [this.again()] });
+    else if (first.tone === "ended") this.say("ended", "The process that computes for this page has ended. Nothing of the task is lost.", messages, { actions: [this.again()] });
     else this.say("refused", "The task cannot be solved as it is.", messages);
   }
 
@@ -67,6 +68,7 @@ export class Banners {
     return button("Solve again", () => {
       this.close("note");
       this.close("limit");
+      this.close("ended");
       this.store.solve();
     }, { "data-do": "solve-again" });
   }

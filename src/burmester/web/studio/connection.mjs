@@ -1,6 +1,7 @@
-// The server: a session for this page, questions over HTTP, and one websocket that is opened again.
+// The server: a key for this page, questions over HTTP, and one websocket that is opened again.
 
 const AGAIN = [250, 500, 1000, 2000, 4000]; // milliseconds before it is tried again
+const KEY = "burmester.studio.key"; // in storage, which browsers keep apart for every port, unlike cookies
 const UNFINISHED = new Set(["solving", "progress", "waiting"]); // kinds of messages that more follow
 
 /** What the server refused: its messages, and the status. */
@@ -44,12 +45,31 @@ export class Connection {
     return this.socket?.readyState === 1;
   }
 
-  /** Exchange the token in the address for a cookie, and take it out of the address. */
+  /** What opens the server: the key that this browser got last from it, in whichever tab. */
+  get key() {
+    try {
+      return localStorage.getItem(KEY) ?? this.own;
+    } catch {
+      return this.own; // a browser that keeps nothing: the key of this page, until it is loaded again
+    }
+  }
+
+  /** Exchange the token in the address for a key, and take it out of the address. */
   async session() {
     const token = decodeURIComponent(location.hash.slice(1)).replace(/^token=/, "");
     if (!token) return;
-    await this.post("/session", { token });
     history.replaceState(null, "", location.pathname);
+    try {
+      this.own = (await (await this.post("/session", { token })).json()).key;
+    } catch (error) {
+      if (!(error instanceof Refused) || !this.key) throw error;
+      return; // the address was opened before, maybe in this browser: then the key of that time is good
+    }
+    try {
+      localStorage.setItem(KEY, this.own);
+    } catch {
+      // this page alone has it
+    }
   }
 
   async get(path) {
@@ -63,7 +83,8 @@ export class Connection {
 
   /** Raises Refused with the server's messages; a TypeError where there is no server. */
   async request(path, options) {
-    const response = await fetch(path, { credentials: "same-origin", ...options });
+    const headers = { ...options.headers, Authorization: `Bearer ${this.key}` };
+    const response = await fetch(path, { credentials: "omit", ...options, headers });
     if (!response.ok) throw new Refused(response.status, await messagesOf(response));
     return response;
   }
@@ -72,7 +93,7 @@ export class Connection {
   open() {
     clearTimeout(this.timer);
     this.socket?.close();
-    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live`);
+    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/live`, ["burmester", this.key]);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
     socket.onopen = () => {

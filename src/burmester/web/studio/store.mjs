@@ -240,6 +240,7 @@ export class Store {
 
   take(message) {
     const { n, kind } = message;
+    if (kind === "ended") this.say(message.messages.map((each) => ({ tone: kind, ...each })));
     if (kind === "followed") this.takeFollowed(message);
     else if (this.flying.has(n)) this.followRefused(message);
     else if (n === this.placing?.n) this.takePlaced(message);
@@ -308,7 +309,7 @@ export class Store {
     }
     if (message.kind === "refused") {
       this.say(message.messages);
-    } else if (message.kind !== "solved") {
+    } else if (!["solved", "ended"].includes(message.kind)) {
       const [said] = [message.message].flat();
       this.say([{ tone: message.kind, ...(typeof said === "string" ? { message: said } : said) }]);
     }

@@ -114,10 +114,10 @@ function listenToTokens(connection, banners) {
   addEventListener("hashchange", async () => {
     if (!location.hash) return;
     await connection.session();
-    banners.close("expired");
     connection.open();
   });
   let asked = false;
+  connection.on("open", () => banners.close("expired")); // the new address was opened, in this tab or in another one
   connection.on("closed", async () => {
     if (asked) return;
     asked = true;
@@ -142,8 +142,10 @@ async function main() {
     document.documentElement.dataset.ready = "true";
     connection.open();
   } catch (error) {
-    root.replaceChildren(h("p", { class: "bs-failed", role: "alert" }, error instanceof Refused && error.status === 401
-      ? "This page needs the address that burmester studio printed, with the token in it. Open that address, or start burmester studio again."
+    addEventListener("hashchange", () => location.reload()); // another address, opened in this tab
+    const [told] = error instanceof Refused && error.status === 401 ? error.messages : [];
+    root.replaceChildren(h("p", { class: "bs-failed", role: "alert" }, told
+      ? `The studio is not shown here: ${told.message}. What to do: ${told.help}.`
       : `The page could not start: ${error.message}. Is burmester studio still running? Start it again and open the address that it prints.`));
     if (!(error instanceof Refused)) throw error;
   }
