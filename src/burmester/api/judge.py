@@ -121,7 +121,7 @@ def judge(
         E112 (numbers too large), E125 and E153 (no linkage), E154 (two dyads that make none), E155
         (lengths that can be assembled nowhere), E158 (pivots alone at points), E159 (better ones at
         points that the crank times), E195 to E197 (what does not go with six-bars), of files
-        E101, E109, E150 to E152 and E156, and what `Task` raises.
+        E101, E109, E150, E151 and E156, and what `Task` raises.
 
     Examples
     --------

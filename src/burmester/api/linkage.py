@@ -23,17 +23,32 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["ReadLinkage", "ResultLinkage"]
+__all__ = ["ResultLinkage"]
 
 
-class _Handover:
-    """What can be done with a linkage, wherever it comes from."""
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ResultLinkage(FoundLinkage):
+    """A `FoundLinkage` that knows its task, so that it can be drawn and handed over.
 
-    __slots__ = ()
+    Examples
+    --------
+    >>> import burmester
+    >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
+    >>> best
+    L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
+    """
+
+    task: Task = field(kw_only=True)
+
+    @classmethod
+    def of(cls, found: FoundLinkage, task: Task) -> Self:
+        """A linkage with the task that it belongs to."""
+        return cls(**{each.name: getattr(found, each.name) for each in fields(found)}, task=task)
 
     def saved(self) -> SavedLinkage:
         """The linkage as it is handed to other programs, its driver first."""
-        raise NotImplementedError
+        return SavedLinkage.of(self, self.task)
 
     def export(
         self,
@@ -139,62 +154,6 @@ class _Handover:
             "text/html": self._repr_html_(),
             "image/svg+xml": self._drawing(),
         }
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ResultLinkage(_Handover, FoundLinkage):
-    """A `FoundLinkage` that knows its task, so that it can be drawn and handed over.
-
-    Examples
-    --------
-    >>> import burmester
-    >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
-    >>> best
-    L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
-    """
-
-    task: Task = field(kw_only=True)
-
-    @classmethod
-    def of(cls, found: FoundLinkage, task: Task) -> Self:
-        """A linkage with the task that it belongs to."""
-        return cls(**{each.name: getattr(found, each.name) for each in fields(found)}, task=task)
-
-    def saved(self) -> SavedLinkage:
-        """The linkage as it is handed to other programs, its driver first."""
-        ids = [dyad.id for dyad in self.dyads_driver_first]
-        return SavedLinkage(
-            self.id,
-            self.driver_first,
-            (ids[0], ids[1]),
-            self.usable,
-            self.preferred_driver,
-            self.type,
-            self.task,
-            self.error,
-            self.driven.least_over_range,
-            self.other_types,
-            self.quality,
-        )
-
-    def __repr__(self) -> str:
-        return as_line(self.saved())
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ReadLinkage(_Handover, SavedLinkage):
-    """A `SavedLinkage` that can be drawn and handed over again."""
-
-    @classmethod
-    def of(cls, saved: SavedLinkage) -> Self:
-        """The same linkage."""
-        return cls(**{each.name: getattr(saved, each.name) for each in fields(saved)})
-
-    def saved(self) -> SavedLinkage:
-        """The linkage itself."""
-        return self
 
     def __repr__(self) -> str:
         return as_line(self.saved())
