@@ -6,7 +6,7 @@ import numpy as np
 
 # What concerns the search alone, which reading a result does not repeat; and how the file of its
 # poses was read, which a result does not say.
-OF_THE_SEARCH = {"fits", "points", "causes", "search"}
+OF_THE_SEARCH = {"fits", "points", "causes", "search", "time_limit"}
 OF_THE_POSES = {"notes", "read_as"}
 PERIODS = {"input_phase": 2 * np.pi, "output_phase": 2 * np.pi, "direction": np.pi}
 RELATIVE = 1e-5

@@ -131,10 +131,11 @@ def export(
             six_bar = read.choose_six_bar(linkage)
             chosen = read.choose(linkage) if six_bar is None else six_bar
             warnings = read.synthesis.warnings
-        paths = run(chosen, name, output, Options(**options), force)
     for each in warnings:
         if each.code == JUDGED_OTHERWISE:  # the others were said when the result was made
-            show("warning", each, console(stderr=True))
+            show("warning", each, console())
+    with working("writing the file"):
+        paths = run(chosen, name, output, Options(**options), force)
     for path in paths:
         click.echo(
             f"wrote {printable(str(path))}: {chosen.id}, {chosen.type}; read back and verified"

@@ -35,6 +35,7 @@ from burmester.synthesis.result import JUDGED, Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.rails import Rail
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -69,7 +70,7 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "schema": SCHEMA,
         "outcome": {**message_data(outcome), **_causes(synthesis)},
         "method": synthesis.method,
-        "options": asdict(synthesis.options),
+        "options": _options(synthesis.options),
         "task": task_data(task),
         "motion": None if motion is None else motion_data(motion),
         "dyads": [dyad_data(dyad, synthesis.task.poses) for dyad in synthesis.dyads],
@@ -96,6 +97,12 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "six_bars": None if synthesis.six_bars is None else _six_bars(synthesis.six_bars),
         **{key: synthesis.search[key] for key in SEARCH_KEYS if key in synthesis.search},
     }
+
+
+def _options(options: SynthesisOptions) -> dict[str, Any]:
+    """How the task was solved; how long that might take is no part of the answer."""
+    data = asdict(options) | {"stock_lengths": list(options.stock_lengths)}
+    return {name: each for name, each in data.items() if name != "time_limit"}
 
 
 def _prices(synthesis: Synthesis) -> dict[str, Any]:
