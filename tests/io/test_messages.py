@@ -1872,7 +1872,8 @@ def help_of(case, run):
     if callable(case.run):
         return raised(case.run).help
     if case.run.startswith(("new", "export")):
-        return parts(run(case.run, 10_000).err.rstrip("\n"))["help"]
+        done = run(case.run, 10_000)
+        return parts((done.err if case.exit > 1 else said(case, done)).rstrip("\n"))["help"]
     if case.code in ONLY_JSON:
         return classify_motion(read_task("poses.csv")).kind.help
     data = json.loads(run(f"{case.run} --json").out)
@@ -1908,6 +1909,7 @@ def test_following_the_help_to_the_letter_works(name, run, broken, hurried):
     if not line.startswith(("synthesize", "judge")) or "--help" in line:
         done = run(line)
         assert (done.exit, done.err) == (0, "")
+        assert f"[{case.code}]" not in done.out
         return
     done = run(f"{line} --json")
     assert done.exit in (0, 1), done.err
