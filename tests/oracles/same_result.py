@@ -8,7 +8,7 @@ import numpy as np
 # poses was read, which a result does not say.
 OF_THE_SEARCH = {"fits", "points", "causes", "search", "time_limit"}
 OF_THE_POSES = {"notes", "read_as"}
-PERIODS = {"input_phase": 2 * np.pi, "output_phase": 2 * np.pi, "direction": np.pi}
+PERIODS = {"input_phase": 2 * np.pi, "output_phase": 2 * np.pi}
 RELATIVE = 1e-5
 ABSOLUTE = 1e-6  # of a size
 
@@ -46,6 +46,10 @@ def parts_of(thing):
     names = [each for each in dir(thing) if not each.startswith("_")]
     values = {f".{each}": value_of(thing, each) for each in names}
     left_out = {f".{each}" for each in OF_THE_SEARCH | OF_THE_POSES}
+    if {".major", ".minor", ".direction"} <= values.keys():  # an ellipse, round or not
+        turn = np.exp(1j * values.pop(".direction"))
+        axes = np.array([[turn.real, -turn.imag], [turn.imag, turn.real]])
+        values[".shape"] = axes @ np.diag([values[".major"], values[".minor"]]) @ axes.T
     return {k: each for k, each in values.items() if k not in left_out and not callable(each)}
 
 

@@ -267,7 +267,7 @@ def unlike(message: str, why: str | None = None) -> InputError:
 def _synthesis(tree: dict[str, Any], task: Task, refused: dict[str, InputError]) -> Synthesis:
     """All that a file says of a task, with what its dimensions give; refused: see `SavedResult`."""
     motion = None
-    if task.path is None and not task.angles_are_free and task.poses.shape[0] > 1:
+    if task.path is None and task.poses.shape[0] > 1:
         motion = classify_motion(task)
     problem = SynthesisProblem.of(task, motion, _options(tree))
     outcome, warnings = outcome_of(tree), warnings_of(tree)
