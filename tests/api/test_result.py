@@ -88,6 +88,42 @@ def test_what_makes_no_sense_is_refused_in_words(given, code, words):
     assert refused.value.help
 
 
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (np.array([[1 + 2j, 3.0]] * 5), "np.column_stack([z.real, z.imag, angle])"),
+        (np.ones(5) * 1j, "np.column_stack([z.real, z.imag, angle])"),
+        (np.ones((5, 2)), "np.column_stack([x, y, angle])"),
+        (np.ones((5, 4)), "np.column_stack([x, y, np.arctan2(sin, cos)])"),
+    ],
+)
+def test_other_shapes_are_refused_with_the_columns_to_give(given, words):
+    with pytest.raises(InputError) as refused:
+        burmester.synthesize(given, angle_unit="rad")
+    assert refused.value.code == "E125"
+    assert words in refused.value.help
+
+
+def test_matrices_are_poses(five):
+    x, y, angle = np.array(ROWS).T
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    zero, one = np.zeros(5), np.ones(5)
+    matrices = np.array([[c, -s, x], [s, c, y], [zero, zero, one]]).transpose(2, 0, 1)
+    result = burmester.synthesize(matrices, length_unit="mm")
+    for mine, other in zip(five, result, strict=True):
+        assert mine.usable == other.usable
+        assert mine.linkage.first.fixed_pivot == pytest.approx(other.linkage.first.fixed_pivot)
+    assert burmester.judge(matrices.tolist(), result.best, length_unit="mm").best is not None
+    for wrong in (2 * matrices, matrices[:, ::-1], np.swapaxes(matrices, 1, 2)):
+        with pytest.raises(InputError) as refused:
+            burmester.synthesize(wrong)
+        assert refused.value.code == "E125"
+        assert "matrix 1 is no displacement" in refused.value.message
+    with pytest.raises(InputError) as refused:
+        burmester.synthesize(matrices, angle_unit="deg")
+    assert refused.value.code == "E110"
+
+
 def test_a_task_keeps_its_own_numbers():
     rows, weights, exact = np.array(ROWS), np.ones(5), np.zeros(5, dtype=bool)
     poses = Displacement(rows[:, :2], np.radians(rows[:, 2]))

@@ -95,7 +95,7 @@ def judge(
 
     Parameters
     ----------
-    poses : Task, Displacement or (N, 3) array_like
+    poses : Task, Displacement, (N, 3) or (N, 3, 3) array_like
         The motion, with limits and requirements if it is a `Task`; see `synthesize`.
     linkage : Linkage, WattLinkage, a linkage or six-bar of a result, two dyads, or a file
         A dyad is an RR, PR or RP, or its two pivots ((X, Y) in F, (x, y) in M) alone: then the
