@@ -35,6 +35,7 @@ from burmester.sixbar.watt import WattLinkage
 from burmester.synthesis.given_linkage import GivenDyad
 from burmester.values import shown
 from burmester.verdicts.found_linkage import with_driver_first
+from burmester.wording import in_unit
 
 __all__ = ["read_linkage"]
 
@@ -123,7 +124,7 @@ def _require_unit(stated: object, unit: str | None) -> None:
     if unit and isinstance(stated, str) and stated and stated != unit:
         raise InputError(
             "E156",
-            f"the linkage is in {printable(stated)[:40]}, and the poses are in {unit}",
+            f"the linkage is{in_unit(printable(stated)[:40])}, and the poses are{in_unit(unit)}",
             help=f"give both in one unit, such as {unit}",
         )
 
