@@ -17,7 +17,7 @@ from burmester.export.drawings import dxf, svg
 from burmester.export.drawings.sheet import laid_lengthwise
 from burmester.export.parts.distances import distance
 from burmester.export.parts.plates import assembly_of
-from tests.oracles.handed_over import NAMES, joints, saved, scale_of, written
+from tests.oracles.handed_over import NAMES, dxf_unit, joints, saved, scale_of, written
 
 
 def hole_distances(chosen):
@@ -53,8 +53,9 @@ def test_dxf_measures_the_links(name, tmp_path):
     document = ezdxf.readfile(path)
     found = entities(path)
     assert {each.dxf.layer for each in found} == {"DIMENSIONS"}
-    straight = [each.get_measurement() for each in found if each.dimtype == 0]
-    round_ones = [each.get_measurement() for each in found if each.dimtype == 3]
+    _, unit = dxf_unit(chosen)
+    straight = [unit * each.get_measurement() for each in found if each.dimtype == 0]
+    round_ones = [unit * each.get_measurement() for each in found if each.dimtype == 3]
     made = assembly_of(chosen, Options())
     wanted = hole_distances(chosen)
     if made.plate("ground-2") is not None:  # its holes are in two plates
@@ -68,14 +69,15 @@ def test_dxf_measures_the_links(name, tmp_path):
     holes = sum(len(plate.holes) + len(plate.slots) for plate in made.plates)
     assert len(round_ones) == holes
     np.testing.assert_allclose(round_ones, made.dimensions.hole, atol=1e-6)
-    # What is shown is what is measured, rounded; in inches, too, where the task has them.
+    # What is shown is what is measured, rounded; inches of the shop's list by their names, too.
     for entity in found:
         number, half = shown(document, entity)
         assert number == pytest.approx(entity.get_measurement(), abs=half)
-        inches = re.search(
-            r"\[(.*)\]", document.blocks.get(entity.dxf.geometry).query("MTEXT")[0].text
-        )
-        assert (inches is not None) == (chosen.unit in ("in", "ft"))
+        text = document.blocks.get(entity.dxf.geometry).query("MTEXT")[0].text
+        if (named := re.search(r"\[(?:(\d+) )?(?:(\d+)/(\d+) )?in\]", text)) is not None:
+            whole, part, of = (int(each or 0) for each in named.groups())
+            assert whole + part / (of or 1) == pytest.approx(entity.get_measurement())
+        assert unit == 25.4 or "[" not in text
 
 
 @pytest.mark.parametrize("to", ["dxf", "svg"])

@@ -39,7 +39,8 @@ def not_a_number(
     row: from 1; unit: of the column, if it names one.
     """
     code, fault, why = "E103", "a value that is not a finite number", None
-    help = f"give a number{in_unit(unit and UNITS.get(unit, unit))}, such as -12.5 or 3e-4, or delete the row"
+    of = in_unit(unit and UNITS.get(unit, unit))
+    help = f"give a number{of}, such as -12.5 or 3e-4, or delete the row"
     if NUMBER.fullmatch(plain):
         why = f"{shown(cell)} is beyond 1.8e308, the largest representable number"
     elif not cell:
