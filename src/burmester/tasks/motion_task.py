@@ -364,10 +364,10 @@ class Task:
         )
 
 
-def _shape_of(rows: object) -> tuple[int, ...]:
+def _shape_of(rows: ArrayLike) -> tuple[int, ...]:
     """The shape of rows; () where they have none."""
     try:
-        return np.shape(rows)  # type: ignore[arg-type]
+        return np.shape(rows)
     except ValueError:
         return ()
 

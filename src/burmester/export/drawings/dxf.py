@@ -243,8 +243,8 @@ def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
     unit = _unit_of(assembly)
     require_equal("the unit of the drawing", document.header["$INSUNITS"], CODES[unit], 0)
     _scale(document, MILLIMETRES[unit])
-    outlines = np.concatenate([_rows(each) for each in document.modelspace().query("LWPOLYLINE")])
-    tolerance = error_within(DIGITS, float(np.abs(outlines).max()))
+    every = np.concatenate([_rows(each) for each in document.modelspace().query("LWPOLYLINE")])
+    tolerance = error_within(DIGITS, float(np.abs(every).max()))
     # The assembly holds a hole or a slot's middle line where the dyads have their pivots.
     block = document.blocks.get("ASSEMBLY")
     assert block is not None

@@ -226,8 +226,8 @@ def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
     wide, _, _ = (root.get("width") or "").partition("mm")
     box = [float(part) for part in (root.get("viewBox") or "").split()]
     require_equal("millimetres per unit of the drawing", float(wide) / box[2], 1, 1e-12)
-    outlines = np.concatenate([path for each in groups.values() for path in _paths(each)])
-    tolerance = error_within(DIGITS, float(np.abs(outlines).max()))
+    drawn = np.concatenate([path for each in groups.values() for path in _paths(each)])
+    tolerance = error_within(DIGITS, float(np.abs(drawn).max()))
     for joint in joints_of(reference, assembly, options.pose):
         if joint.point is not None:
             holes = [each for name in joint.plates for each in _holes(groups[f"placed-{name}"])]
