@@ -5,9 +5,12 @@
 
 The second line hands linkages of all kinds over in every format: random ones of every pair, some of
 them far from the origin, in-line slider-cranks that were synthesized from printed poses, six-bars
-and function generators.  Solids and films are made of every 25th.  The first line counts linkages that plates cannot hold (E162, E163), drawings that did not pass their own check
-(E160), text of dimension lines that touches the plate, other text or a line, and sizes of holes,
-links and sheets that are in stock.  The exit code is 1 if a drawing failed or text touches a plate.
+and function generators.  Solids and films are made of every 25th.
+
+The first line counts linkages that plates cannot hold (E162, E163), drawings that did not pass
+their own check (E160), text of dimension lines that touches the plate, other text or a line, and
+sizes of holes, links and sheets that are in stock.  The exit code is 1 if a drawing failed or text
+touches a plate.
 """
 
 import argparse
@@ -148,7 +151,7 @@ def linkage_of(kind, rng):
     if (chosen := random_linkage(rng)) is None:
         return None
     chosen = far_away(chosen, rng) if kind == "far away" else chosen
-    return replace(chosen, usable=bool(burmester.judge(chosen.task, chosen).usable))
+    return burmester.judge(chosen.task, chosen)[0].saved()
 
 
 KINDS = ("any", "far away", "in line", "any", "six-bar", "far away", "any", "function")
