@@ -11,12 +11,14 @@ import numpy as np
 import pytest
 from benchmarks import drawings as campaign
 
+import burmester
 from burmester.errors import BurmesterError
 from burmester.export import Options
 from burmester.export.drawings import dxf, svg
 from burmester.export.drawings.sheet import laid_lengthwise
 from burmester.export.parts.distances import distance
 from burmester.export.parts.plates import assembly_of
+from tests.oracles.common_tasks import in_line
 from tests.oracles.handed_over import NAMES, dxf_unit, joints, saved, scale_of, written
 
 
@@ -195,3 +197,51 @@ def test_random_linkages_are_drawn():
     assert not any("E160" in key for key in found)
     assert found["on a plate"] == found["on text"] == 0
     assert found["on a line"] <= 0.1 * found["texts"]
+
+
+@pytest.mark.parametrize("to", ["dxf", "svg"])
+@pytest.mark.parametrize(("digits", "start"), [(6, 10), (4, 10), (3, 0)])
+def test_drawings_of_synthesized_sliders_pass_their_check(to, digits, start, tmp_path):
+    """Corners of their plates are nearly on a line, by the printed digits, as far as the end."""
+    rows = in_line(start + np.arange(7) * 45, digits)
+    result = burmester.synthesize(rows, angle_unit="deg", length_unit="mm")
+    for found in result.usable:
+        path = found.export(tmp_path / f"{found.id}.{to}")
+        assert path.stat().st_size > 0
+
+
+@pytest.mark.parametrize("to", ["dxf", "svg"])
+def test_what_is_off_by_a_few_of_its_digits_is_refused(to, tmp_path):
+    """The bound follows from the digits that the format carries, not from a fixed length."""
+    chosen, path = written("crank-rocker, mm", to, tmp_path)
+    check = {"dxf": dxf.check, "svg": svg.check}[to]
+    text = path.read_text()
+    before, after = {"svg": (' r="', '"'), "dxf": ("\n 40\n", "\n")}[to]
+    (hole,) = (
+        set(re.findall(r'class="hole"[^>]* r="([\d.]+)"', text))
+        if to == "svg"
+        else {str(each.dxf.radius) for each in ezdxf.readfile(path).modelspace().query("CIRCLE")}
+    )
+    for off, refused in ((1e-8, True), (1e-14, False)):
+        number = repr(float(hole) * (1 + off))
+        changed = text.replace(f"{before}{hole}{after}", f"{before}{number}{after}")
+        assert changed != text
+        path.write_text(changed)
+        if refused:
+            with pytest.raises(BurmesterError) as caught:
+                check(chosen, path, Options())
+            assert caught.value.code == "E160"
+        else:
+            check(chosen, path, Options())
+
+
+def test_a_drawing_of_a_task_in_inches_is_in_inches(tmp_path):
+    _, path = written("double-rocker, in", "dxf", tmp_path)
+    document = ezdxf.readfile(path)
+    assert document.header["$INSUNITS"] == 1
+    told = " ".join(each.dxf.text for each in document.modelspace().query("TEXT"))
+    assert "Lengths are in inches." in told
+    assert not re.search(r"\bin in\b|\bmm\b|e-1\d", told)
+    low, high = document.header["$EXTMIN"], document.header["$EXTMAX"]
+    x = [at[0] for each in document.modelspace().query("LWPOLYLINE") for at in each.get_points()]
+    assert low[0] < min(x) < max(x) < high[0]
