@@ -106,6 +106,7 @@ def test_a_result_that_cannot_be_used_is_refused(change, tmp_path):
         (lambda data: data["linkages"][0]["dyads"][1].update(radius=4.6639), "L1 misses a pose by"),
         (lambda data: data["linkages"][0]["dyads"][1].update(radius=9.0), "L1 is not usable ("),
         (lambda data: data["task"]["poses"][2].update(x=-0.9), "L1 "),
+        (lambda data: data["linkages"][10]["dyads"][0].update(fixed_pivot=[3, 1]), "of L11 misses"),
         (lambda data: data["linkages"][0].update(usable=False), "L1 is usable, and the file says"),
         (lambda data: data["linkages"][0]["position_error"].update(max=0.1), "L1 misses a pose by"),
         (lambda data: data["outcome"].update(code="R301"), "R301"),

@@ -35,6 +35,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA, SEARCH_KEYS
 from burmester.printable import printable
 from burmester.refinement.tolerance_boxes import counted_error
+from burmester.sixbar.found import FoundSixBar
 from burmester.synthesis.given_linkage import OpenLink, require_linkage
 from burmester.synthesis.judgement import judged_again
 from burmester.synthesis.result import Outcome, Synthesis
@@ -54,7 +55,6 @@ if TYPE_CHECKING:
     from burmester.families.family import Family
     from burmester.functions.found_generator import FoundGenerator
     from burmester.io.saved_six_bars import SavedSixBar
-    from burmester.sixbar.found import FoundSixBar
 
 __all__ = [
     "JUDGED_OTHERWISE",
@@ -182,7 +182,7 @@ class SavedResult(NamedTuple):
         return SavedSixBar(found, self.synthesis.task)
 
 
-_Named = TypeVar("_Named", "FoundLinkage", "FoundSixBar", "FoundGenerator")
+_Named = TypeVar("_Named", FoundLinkage, FoundSixBar, "FoundGenerator")
 
 
 def named(
@@ -470,15 +470,41 @@ def _differences(
         reasons = [each.message for each in found.defects]
         reasons += [each.message for each in found.violations]
         return [f"{found.id} is not usable ({reasons[0]}), and the file says that it is"]
+    if not found.usable:  # its places depend on rounding, its dyads do not
+        return [] if isinstance(found, FoundSixBar) else _dyad_differences(found, given, problem)
     errors, own = given.get("position_error"), float(found.error.position.max())
-    said = errors.get("max") if isinstance(errors, dict) else None
-    said = said if isinstance(said, int | float) else math.inf
-    if abs(said - own) > SAME_ERROR * problem.length + SAME_SHARE * min(said, own):
-        most = [
-            length_of(each, task) if math.isfinite(each) else "any length" for each in (own, said)
-        ]
-        return [f"{found.id} misses a pose by {most[0]}, and the file says {most[1]}"]
+    said = _number(errors.get("max") if isinstance(errors, dict) else None)
+    if _alike(said, own, problem):
+        return []
+    return [
+        f"{found.id} misses a pose by {_told(own, task)}, and the file says {_told(said, task)}"
+    ]
+
+
+def _dyad_differences(
+    found: FoundLinkage, given: dict[str, Any], problem: SynthesisProblem
+) -> list[str]:
+    """The first dyad of a linkage whose dimensions miss the poses otherwise than the file says."""
+    said = {each["id"]: _number(each.get("max_error")) for each in given["dyads"]}
+    for each in found.dyads:
+        if not _alike(said[each.id], each.max_error, problem):
+            own, other = (_told(e, problem.given) for e in (each.max_error, said[each.id]))
+            return [f"{each.id} of {found.id} misses a pose by {own}, and the file says {other}"]
     return []
+
+
+def _number(given: Any) -> float:
+    """A number of the file, infinite where there is none."""
+    return float(given) if isinstance(given, int | float) else math.inf
+
+
+def _alike(one: float, other: float, problem: SynthesisProblem) -> bool:
+    """Whether two errors are the same up to rounding."""
+    return abs(one - other) <= SAME_ERROR * problem.length + SAME_SHARE * min(one, other)
+
+
+def _told(error: float, task: Task) -> str:
+    return length_of(error, task) if math.isfinite(error) else "nothing"
 
 
 def _claims(outcome: Outcome, works: bool) -> list[str]:
