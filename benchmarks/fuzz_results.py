@@ -145,7 +145,7 @@ def sound(given, folder):
             continue
         path.write_text(text_of(found))
         try:
-            counts["linkages"] += len(read_result(path).linkages)
+            counts["linkages"] += len(read_result(path).synthesis.linkages)
             counts["taken"] += 1
         except Exception as error:
             bad += 1

@@ -120,7 +120,7 @@ def test_what_was_made_in_a_hurry_can_be_saved_read_and_exported(clock, tmp_path
     path = result.save(tmp_path / "hurried.json")
     assert message in [each["message"] for each in json.loads(path.read_text())["warnings"]]
     again = read_result(str(path))
-    assert [each.id for each in again.linkages] == [each.id for each in result]
+    assert [each.id for each in again.synthesis.linkages] == [each.id for each in result]
     assert result.export(tmp_path / "hurried.svg").stat().st_size
 
 

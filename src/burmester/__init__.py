@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from burmester.api.judge import judge as judge
     from burmester.api.linkage import ResultLinkage as ResultLinkage
     from burmester.api.result import Result as Result
-    from burmester.api.result import read_result as read_result
+    from burmester.api.saved import read_result as read_result
     from burmester.api.six_bars import SixBarResult as SixBarResult
     from burmester.api.six_bars import synthesize_six_bars as synthesize_six_bars
     from burmester.api.synthesize import synthesize as synthesize
@@ -115,7 +115,7 @@ _ROOMS = {
     "diagnose": "diagnosis.checks",
     "follow": "following.follow",
     "judge": "api.judge",
-    "read_result": "api.result",
+    "read_result": "api.saved",
     "read_task": "io.reading.poses",
     "synthesize": "api.synthesize",
     "synthesize_function": "api.function",

@@ -5,8 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-__all__ = ["LEAST_RUN", "count", "figure", "in_runs", "listed", "shortened", "with_article"]
+__all__ = [
+    "LEAST_RUN",
+    "count",
+    "figure",
+    "in_runs",
+    "in_unit",
+    "listed",
+    "shortened",
+    "spans",
+    "with_article",
+]
 
+UNIT_NAMES = {"in": "inches", "ft": "feet"}  # others go by their symbols
 LEAST_RUN = 3  # successive numbers; from it on they are told as a range
 
 
@@ -26,6 +37,11 @@ def listed(names: Sequence[str], last: str = "and") -> str:
     return f"{', '.join(most)} {last} {end}" if most else end
 
 
+def in_unit(unit: str | None) -> str:
+    """The unit of lengths after a noun: " in mm", " in inches"; nothing where there is none."""
+    return f" in {UNIT_NAMES.get(unit, unit)}" if unit else ""
+
+
 def figure(value: float) -> str:
     """A figure with two digits, or its whole part if that has more: "0.00011", "4.5", "153"."""
     if not math.isfinite(value):
@@ -33,6 +49,11 @@ def figure(value: float) -> str:
     if 99.5 <= abs(value) < 1e6:
         return f"{value:.0f}"
     return f"{value:.2g}".replace("e+0", "e").replace("e+", "e")
+
+
+def spans(extent: float) -> str:
+    """A length in spans of the motion: "1 span", "1.6 spans"."""
+    return f"{figure(extent)} span{'' if figure(extent) == '1' else 's'}"
 
 
 def in_runs(names: Sequence[str], most: int, last: str = "and") -> str:

@@ -20,6 +20,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.tasks.motion_task import Task
 from tests.oracles.bodies import BODY, REGIONS, bodied, carried, same_ring
 from tests.oracles.five_poses import ROWS
+from tests.oracles.same_result import differences
 from tests.oracles.witness import places
 
 CASES = ("ge2012-approximate", "motiongen-mixed5", "motiongen-prpr", "motiongen-rrpr")
@@ -85,6 +86,42 @@ def test_what_makes_no_sense_is_refused_in_words(given, code, words):
     assert refused.value.code == code
     assert words in str(refused.value)
     assert refused.value.help
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        (np.array([[1 + 2j, 3.0]] * 5), "np.column_stack([z.real, z.imag, angle])"),
+        (np.ones(5) * 1j, "np.column_stack([z.real, z.imag, angle])"),
+        (np.ones((5, 2)), "np.column_stack([x, y, angle])"),
+        (np.ones((5, 4)), "np.column_stack([x, y, np.arctan2(sin, cos)])"),
+    ],
+)
+def test_other_shapes_are_refused_with_the_columns_to_give(given, words):
+    with pytest.raises(InputError) as refused:
+        burmester.synthesize(given, angle_unit="rad")
+    assert refused.value.code == "E125"
+    assert words in refused.value.help
+
+
+def test_matrices_are_poses(five):
+    x, y, angle = np.array(ROWS).T
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    zero, one = np.zeros(5), np.ones(5)
+    matrices = np.array([[c, -s, x], [s, c, y], [zero, zero, one]]).transpose(2, 0, 1)
+    result = burmester.synthesize(matrices, length_unit="mm")
+    for mine, other in zip(five, result, strict=True):
+        assert mine.usable == other.usable
+        assert mine.linkage.first.fixed_pivot == pytest.approx(other.linkage.first.fixed_pivot)
+    assert burmester.judge(matrices.tolist(), result.best, length_unit="mm").best is not None
+    for wrong in (2 * matrices, matrices[:, ::-1], np.swapaxes(matrices, 1, 2)):
+        with pytest.raises(InputError) as refused:
+            burmester.synthesize(wrong)
+        assert refused.value.code == "E125"
+        assert "matrix 1 is no displacement" in refused.value.message
+    with pytest.raises(InputError) as refused:
+        burmester.synthesize(matrices, angle_unit="deg")
+    assert refused.value.code == "E110"
 
 
 def test_a_task_keeps_its_own_numbers():
@@ -207,6 +244,38 @@ def test_what_is_saved_is_read_back_and_handed_over(results, tmp_path):
             result.save(path)
         assert refused.value.code == "E140"
         result.save(path, force=True)
+
+
+def all_kinds(results, folder):
+    """Results of every kind: of many poses and few, rounded, proved, six-bars, functions, paths."""
+    rows = [(0, 0, 0), (1, 0.3, 8), (2.1, 0.5, 17), (3, 0.9, 25), (4.2, 1.1, 36)]
+    shoulder = burmester.read_task("case:motiongen-shoulder")
+    yield from results
+    yield burmester.synthesize(rows[:3], angle_unit="deg")
+    yield burmester.synthesize(shoulder, rounding_step=0.5, manufacturing_tolerance=0.05)
+    yield burmester.synthesize(shoulder, certify=True, length_per_radian=30.0)
+    (folder / "path.csv").write_text(
+        "\n".join(["x,y,crank_deg", *(f"{x},{y},{9 * t}" for x, y, t in rows)])
+    )
+    yield burmester.synthesize(burmester.read_task(folder / "path.csv"))
+    yield burmester.synthesize_six_bars(rows, angle_unit="deg", chains=300)
+    settings = {"input_deg": 60, "output_deg": 60}
+    yield burmester.synthesize_function("log10(x)", (1, 2), pairs=5, **settings)
+
+
+def test_what_is_read_has_every_attribute_of_what_was_saved(results, tmp_path):
+    for result in all_kinds(results, tmp_path):
+        path = result.save(tmp_path / "result.json", force=True)
+        read = burmester.read_result(path)
+        assert type(read) is type(result)
+        assert dir(read) == dir(result)
+        assert differences(result, read, getattr(result, "length", 1.0)) == []
+        assert repr(read) == repr(result)
+        again = burmester.read_result(read.save(tmp_path / "again.json"))
+        (tmp_path / "again.json").unlink()
+        assert differences(result, again, getattr(result, "length", 1.0)) == []
+        if hasattr(result, "report"):
+            assert read.report(tmp_path / "page.html", force=True).stat().st_size > 10_000
 
 
 def test_the_command_writes_the_same_result(tmp_path):

@@ -106,7 +106,7 @@ def test_how_far_pivots_move_is_told(run):
 def test_a_judgement_is_read_exported_and_judged_again(run, tmp_path, improve):
     file, again = tmp_path / "judged.json", tmp_path / "again.json"
     assert run("judge", LID, *TYPED, *improve, "-o", file)[0] == 0
-    assert read_result(file).linkages[0].id == "L1"
+    assert read_result(file).choose().id == "L1"
     for name in ("lid.dxf", "lid.json"):
         code, out, _err = run("export", file, "-o", tmp_path / name)
         assert (code, "read back and verified" in out) == (0, True)
@@ -120,14 +120,14 @@ def test_a_judgement_is_read_exported_and_judged_again(run, tmp_path, improve):
         assert run("report", file, "-o", tmp_path / "lid.html")[0] == 0
 
 
-def test_a_judgement_that_was_changed_is_refused(run, free, tmp_path):
+def test_a_judgement_that_was_changed_is_told(run, free, tmp_path):
     file = tmp_path / "judged.json"
     run("judge", LID, *TWISTED, "-o", file)
     data = json.loads(file.read_text())
     data["outcome"]["code"] = "R330"
     file.write_text(json.dumps(data))
-    code, _out, err = run("export", file, "-o", tmp_path / "lid.dxf")
-    assert (code, err.startswith("error[E152]")) == (2, True)
+    code, out, _err = run("export", file, "-o", tmp_path / "lid.dxf")
+    assert (code, out.startswith("warning[W244]")) == (0, True)
     room = ("--fixed-pivot", "box:5,-100:90,-10")
     assert run("judge", free, *TYPED, *room, "-o", file, "--force")[0] == 1
     data = json.loads(file.read_text())
@@ -135,7 +135,9 @@ def test_a_judgement_that_was_changed_is_refused(run, free, tmp_path):
     data["linkages"][0] |= {"usable": True, "driver": "first", "unmet": []}
     data["outcome"]["code"] = "R330"
     file.write_text(json.dumps(data))
-    assert run("export", file, "-o", tmp_path / "lid.dxf")[2].startswith("error[E152]")
+    code, out, err = run("export", file, "-o", tmp_path / "lid.csv")
+    assert (code, out.startswith("warning[W244]: judged anew, L1 is not usable (")) == (0, True)
+    assert "L1 is not usable: `burmester synthesize` says why" in err
 
 
 def test_limits_and_requirements_are_options_too(run, free):

@@ -11,13 +11,15 @@ import numpy as np
 import pytest
 from benchmarks import drawings as campaign
 
+import burmester
 from burmester.errors import BurmesterError
 from burmester.export import Options
 from burmester.export.drawings import dxf, svg
 from burmester.export.drawings.sheet import laid_lengthwise
 from burmester.export.parts.distances import distance
 from burmester.export.parts.plates import assembly_of
-from tests.oracles.handed_over import NAMES, joints, saved, scale_of, written
+from tests.oracles.common_tasks import in_line
+from tests.oracles.handed_over import NAMES, dxf_unit, joints, saved, scale_of, written
 
 
 def hole_distances(chosen):
@@ -53,8 +55,9 @@ def test_dxf_measures_the_links(name, tmp_path):
     document = ezdxf.readfile(path)
     found = entities(path)
     assert {each.dxf.layer for each in found} == {"DIMENSIONS"}
-    straight = [each.get_measurement() for each in found if each.dimtype == 0]
-    round_ones = [each.get_measurement() for each in found if each.dimtype == 3]
+    _, unit = dxf_unit(chosen)
+    straight = [unit * each.get_measurement() for each in found if each.dimtype == 0]
+    round_ones = [unit * each.get_measurement() for each in found if each.dimtype == 3]
     made = assembly_of(chosen, Options())
     wanted = hole_distances(chosen)
     if made.plate("ground-2") is not None:  # its holes are in two plates
@@ -68,14 +71,15 @@ def test_dxf_measures_the_links(name, tmp_path):
     holes = sum(len(plate.holes) + len(plate.slots) for plate in made.plates)
     assert len(round_ones) == holes
     np.testing.assert_allclose(round_ones, made.dimensions.hole, atol=1e-6)
-    # What is shown is what is measured, rounded; in inches, too, where the task has them.
+    # What is shown is what is measured, rounded; inches of the shop's list by their names, too.
     for entity in found:
         number, half = shown(document, entity)
         assert number == pytest.approx(entity.get_measurement(), abs=half)
-        inches = re.search(
-            r"\[(.*)\]", document.blocks.get(entity.dxf.geometry).query("MTEXT")[0].text
-        )
-        assert (inches is not None) == (chosen.unit in ("in", "ft"))
+        text = document.blocks.get(entity.dxf.geometry).query("MTEXT")[0].text
+        if (named := re.search(r"\[(?:(\d+) )?(?:(\d+)/(\d+) )?in\]", text)) is not None:
+            whole, part, of = (int(each or 0) for each in named.groups())
+            assert whole + part / (of or 1) == pytest.approx(entity.get_measurement())
+        assert unit == 25.4 or "[" not in text
 
 
 @pytest.mark.parametrize("to", ["dxf", "svg"])
@@ -193,3 +197,51 @@ def test_random_linkages_are_drawn():
     assert not any("E160" in key for key in found)
     assert found["on a plate"] == found["on text"] == 0
     assert found["on a line"] <= 0.1 * found["texts"]
+
+
+@pytest.mark.parametrize("to", ["dxf", "svg"])
+@pytest.mark.parametrize(("digits", "start"), [(6, 10), (4, 10), (3, 0)])
+def test_drawings_of_synthesized_sliders_pass_their_check(to, digits, start, tmp_path):
+    """Corners of their plates are nearly on a line, by the printed digits, as far as the end."""
+    rows = in_line(start + np.arange(7) * 45, digits)
+    result = burmester.synthesize(rows, angle_unit="deg", length_unit="mm")
+    for found in result.usable:
+        path = found.export(tmp_path / f"{found.id}.{to}")
+        assert path.stat().st_size > 0
+
+
+@pytest.mark.parametrize("to", ["dxf", "svg"])
+def test_what_is_off_by_a_few_of_its_digits_is_refused(to, tmp_path):
+    """The bound follows from the digits that the format carries, not from a fixed length."""
+    chosen, path = written("crank-rocker, mm", to, tmp_path)
+    check = {"dxf": dxf.check, "svg": svg.check}[to]
+    text = path.read_text()
+    before, after = {"svg": (' r="', '"'), "dxf": ("\n 40\n", "\n")}[to]
+    (hole,) = (
+        set(re.findall(r'class="hole"[^>]* r="([\d.]+)"', text))
+        if to == "svg"
+        else {str(each.dxf.radius) for each in ezdxf.readfile(path).modelspace().query("CIRCLE")}
+    )
+    for off, refused in ((1e-8, True), (1e-14, False)):
+        number = repr(float(hole) * (1 + off))
+        changed = text.replace(f"{before}{hole}{after}", f"{before}{number}{after}")
+        assert changed != text
+        path.write_text(changed)
+        if refused:
+            with pytest.raises(BurmesterError) as caught:
+                check(chosen, path, Options())
+            assert caught.value.code == "E160"
+        else:
+            check(chosen, path, Options())
+
+
+def test_a_drawing_of_a_task_in_inches_is_in_inches(tmp_path):
+    _, path = written("double-rocker, in", "dxf", tmp_path)
+    document = ezdxf.readfile(path)
+    assert document.header["$INSUNITS"] == 1
+    told = " ".join(each.dxf.text for each in document.modelspace().query("TEXT"))
+    assert "Lengths are in inches." in told
+    assert not re.search(r"\bin in\b|\bmm\b|e-1\d", told)
+    low, high = document.header["$EXTMIN"], document.header["$EXTMAX"]
+    x = [at[0] for each in document.modelspace().query("LWPOLYLINE") for at in each.get_points()]
+    assert low[0] < min(x) < max(x) < high[0]

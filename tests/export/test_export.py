@@ -32,6 +32,7 @@ from tests.oracles.handed_over import (
     GIVEN,
     NAMES,
     complex_places,
+    dxf_unit,
     joints,
     rp,
     saved,
@@ -269,8 +270,10 @@ def test_dxf(name, tmp_path):
     assert not auditor.errors
     assert not auditor.fixes
     assert document.dxfversion == "AC1024"
-    assert document.units == ezdxf.units.MM
-    scale = scale_of(chosen)
+    code, unit = dxf_unit(chosen)
+    assert document.units == document.header["$INSUNITS"] == code
+    assert document.header["$MEASUREMENT"] == int(unit == 1)
+    scale = scale_of(chosen) / unit
     at = joints(chosen, 2, scale)
     block = document.blocks.get("ASSEMBLY")
     holes = [tuple(each.dxf.center) for each in block.query("CIRCLE")]

@@ -44,7 +44,7 @@ def of_dxf(path):
     """Rings by layer, hatch lines, texts, and the layers of all that is cut."""
     document = ezdxf.readfile(path)
     assert not document.audit().errors
-    space = document.modelspace()
+    space, unit = document.modelspace(), {4: 1.0, 1: 25.4}[document.header["$INSUNITS"]]
 
     def on(kind, layer):
         return [each for each in space.query(kind) if each.dxf.layer == layer]
@@ -55,12 +55,12 @@ def of_dxf(path):
     }
     assert all((each[:, 2] == 0).all() for rows in rings.values() for each in rows)
     lines = [
-        (complex(*each.dxf.start.vec2), complex(*each.dxf.end.vec2))
+        (unit * complex(*each.dxf.start.vec2), unit * complex(*each.dxf.end.vec2))
         for each in on("LINE", "KEEP_OUT")
     ]
     texts = [each.dxf.text for each in on("TEXT", "KEEP_OUT")]
     assert not any(re.search(r"%%|\\[UM]\+|\^(?! )", each) for each in texts)  # no codes of DXF
-    kept = [[each[:, :2] for each in rings[layer]] for layer in ("BODY", "KEEP_OUT")]
+    kept = [[unit * each[:, :2] for each in rings[layer]] for layer in ("BODY", "KEEP_OUT")]
     return *kept, lines, texts
 
 

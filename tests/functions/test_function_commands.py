@@ -262,3 +262,11 @@ def test_a_table_of_pairs_with_other_columns_is_refused(tmp_path, head, code):
     with pytest.raises(InputError) as caught:
         run_batch(tmp_path / "tasks.csv", tmp_path / "out", workers=1)
     assert caught.value.code == code
+
+
+def test_pairs_without_any_phase_are_no_fault(run):
+    """Where no output phase fits the input phase, there is nothing to decompose."""
+    words = "--function x**2 --x 1:2 --input 30.5276 --output 65.3747 --pairs 4"
+    done = run("synthesize", *words.split(" "), "--input-phase", "118.42297963372516")
+    assert done.return_value == 1
+    assert "R361" in done.output

@@ -167,13 +167,21 @@ def test_a_changed_result_is_judged_again(run):
     data = json.loads(Path("a.json").read_text())
     data["linkages"][0]["links"]["coupler"] *= 3
     Path("a.json").write_text(json.dumps(data))
-    (found,) = read_function_result(Path("a.json").read_bytes(), "a.json").linkages
+    read = read_function_result(Path("a.json").read_bytes(), "a.json").synthesis
+    (found,) = read.generators
     assert not found.usable
+    (told,) = [each for each in read.warnings if each.code == "W244"]
+    assert told.message.startswith("judged anew, L1 is not usable")
     for change in ({"links": {}}, {"side": 0}, {"input_phase_deg": "a"}, {"id": 3}):
         broken = {**data, "linkages": [{**data["linkages"][0], **change}]}
         with pytest.raises(InputError) as caught:
             read_function_result(json.dumps(broken).encode(), "a.json")
         assert caught.value.code == "E150"
+    beside = {**data, "linkages": [data["linkages"][0], {"id": "L2"}]}
+    read = read_function_result(json.dumps(beside).encode(), "a.json")
+    assert [each.id for each in read.synthesis.generators] == ["L1"]
+    with pytest.raises(InputError, match="lacks a dimension"):
+        read.choose("L2")
 
 
 def test_every_task_says_itself_in_its_result(run):

@@ -85,7 +85,7 @@ def test_a_result_keeps_its_path_and_its_cognates():
     task = read(TIMED.replace("x_mm,y_mm", "x,y"))
     found = synthesize(task)
     line = json_line(synthesis_data(found))
-    saved = read_result("-", data=line.encode())  # everything is judged again
+    saved = read_result("-", data=line.encode()).synthesis  # everything is judged again
     assert np.allclose(saved.task.path.crank_angles, CABRERA_TURNS)
     assert task_data(saved.task)["path"] == {"closed": False, "crank_deg": [*range(0, 360, 20)]}
     best = json.loads(line)["linkages"][0]

@@ -67,6 +67,14 @@ def common_task(seed):
             return task
 
 
+def in_line(turns, digits, crank=30.0, rod=90.0):
+    """Rows of the pin of an in-line slider-crank's rod, at turns of its crank, as printed."""
+    turns = np.asarray(turns, dtype=float)
+    y = crank * np.sin(np.radians(turns))
+    rows = crank * np.cos(np.radians(turns)), y, -np.degrees(np.arcsin(y / rod))
+    return np.column_stack(rows).round(digits).tolist()
+
+
 def _drawn(rng, name):
     fixed, moving, (least, most), limited, ratio = FAMILIES[name]
     size = rng.uniform(0.7, 1.4)

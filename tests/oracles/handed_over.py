@@ -96,6 +96,11 @@ def scale_of(chosen):
     return MILLIMETRES[chosen.unit or "mm"]
 
 
+def dxf_unit(chosen):
+    """The unit of a linkage's DXF, by ezdxf's code, and millimetres in it."""
+    return (1, 25.4) if chosen.unit in ("in", "ft") else (4, 1.0)
+
+
 def span_of(chosen, scale=1.0):
     every = [z for k in range(6) for z in joints(chosen, k, scale).values()]
     return float(np.hypot(np.ptp(np.real(every)), np.ptp(np.imag(every))))

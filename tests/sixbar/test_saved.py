@@ -35,29 +35,19 @@ def read(tree):
 def test_what_is_read_is_what_was_written(answer, tree):
     jsonschema.Draft202012Validator(SCHEMA).validate(tree)
     result = read(tree)
-    assert len(result.six_bars) == len(answer.six_bars.found) > 0
-    for saved, found in zip(result.six_bars, answer.six_bars.found, strict=True):
+    every = result.synthesis.six_bars.found
+    assert len(every) == len(answer.six_bars.found) > 0
+    for saved, found in zip(every, answer.six_bars.found, strict=True):
         assert saved.id == found.id
-        assert saved.found.drive == pytest.approx(found.drive, abs=1e-9)
-        assert saved.found.transmission == pytest.approx(found.transmission, abs=1e-9)
-        places, wanted = (each.body(found.drive) for each in (saved.found, found))
+        assert saved.driver == found.driver
+        assert saved.drive == pytest.approx(found.drive, abs=1e-9)
+        assert saved.transmission == pytest.approx(found.transmission, abs=1e-9)
+        places, wanted = (each.body(found.drive) for each in (saved, found))
         assert np.abs(places.translation - wanted.translation).max() < 1e-9
     assert result.choose_six_bar("s2").id == "S2"
     with pytest.raises(InputError, match="S99") as refused:
         result.choose_six_bar("S99")
     assert refused.value.code == "E151"
-
-
-def moved_joint(tree):
-    tree["coupler"]["D"][0] *= 1.01
-
-
-def other_way(tree):
-    tree["drive_deg"] = tree["drive_deg"][::-1]
-
-
-def missing_drive(tree):
-    tree["drive_deg"] = [*tree["drive_deg"], 0.0][:5][1:]
 
 
 def no_length(tree):
@@ -68,20 +58,55 @@ def word(tree):
     tree["body"]["E"] = ["x", 0]
 
 
-def other_id(tree):
-    tree["id"] = "L1"
+def no_link(tree):
+    tree["coupler"]["E"] = [0, 0]
 
 
-@pytest.mark.parametrize(
-    "fault", [moved_joint, other_way, missing_drive, no_length, word, other_id]
-)
-def test_a_six_bar_that_does_not_do_it_is_refused(tree, fault):
+def nowhere(tree):
+    tree["lengths"]["GH"] = 1e9
+
+
+@pytest.mark.parametrize("fault", [no_length, word, no_link, nowhere])
+def test_one_that_cannot_be_used_is_left_out(tree, fault):
     wrong = copy.deepcopy(tree)
     fault(wrong["six_bars"]["found"][0])
+    if len(wrong["six_bars"]["found"]) > 1:
+        result = read(wrong)
+        assert [each.id for each in result.synthesis.six_bars.found][:1] == ["S2"]
+        assert "S1 cannot be used" in result.synthesis.warnings[-1].message
+        with pytest.raises(InputError) as refused:
+            result.choose_six_bar("S1")
+        assert refused.value.code == "E150"
+    del wrong["six_bars"]["found"][1:]
     with pytest.raises(InputError) as refused:
         read(wrong)
     assert refused.value.code == "E150"
     assert "$.six_bars.found[0]" in refused.value.message
+
+
+def moved_joint(tree):
+    tree["coupler"]["D"][0] *= 1.3
+    tree["lengths"] = {key: tree["lengths"][key] for key in ("AC", "GH")}
+
+
+def worse(tree):
+    tree["position_error"]["max"] = 0.1
+
+
+@pytest.mark.parametrize("change", [moved_joint, worse])
+def test_what_a_file_says_otherwise_is_told(tree, change):
+    changed = copy.deepcopy(tree)
+    change(changed["six_bars"]["found"][0])
+    (told,) = [each for each in read(changed).synthesis.warnings if each.code == "W244"]
+    assert told.message.startswith("judged anew, S1 ")
+
+
+@pytest.mark.parametrize("key", ["drive_deg", "extent", "reserve_deg", "joints", "shortcomings"])
+def test_what_follows_from_the_dimensions_is_not_read(tree, key):
+    changed = copy.deepcopy(tree)
+    changed["six_bars"]["found"][0][key] = "x"
+    one, other = (synthesis_data(read(each).synthesis) for each in (tree, changed))
+    assert one == other
 
 
 def test_where_a_four_bar_is_needed_six_bars_are_told(tree):

@@ -112,7 +112,7 @@ def test_a_near_miss_keeps_all_but_the_limit_that_it_names(tmp_path):
     assert [each.size for each in synthesis.causes] == sorted(e.size for e in synthesis.causes)
     written = tmp_path / "none.json"
     written.write_text(json.dumps(synthesis_data(synthesis)))
-    assert len(read_result(written).linkages) == len(synthesis.linkages)
+    assert len(read_result(written).synthesis.linkages) == len(synthesis.linkages)
 
 
 def test_two_limits_that_only_together_stop_all_are_told_together(run):

@@ -95,7 +95,7 @@ def judge(
 
     Parameters
     ----------
-    poses : Task, Displacement or (N, 3) array_like
+    poses : Task, Displacement, (N, 3) or (N, 3, 3) array_like
         The motion, with limits and requirements if it is a `Task`; see `synthesize`.
     linkage : Linkage, WattLinkage, a linkage or six-bar of a result, two dyads, or a file
         A dyad is an RR, PR or RP, or its two pivots ((X, Y) in F, (x, y) in M) alone: then the
@@ -121,7 +121,7 @@ def judge(
         E112 (numbers too large), E125 and E153 (no linkage), E154 (two dyads that make none), E155
         (lengths that can be assembled nowhere), E158 (pivots alone at points), E159 (better ones at
         points that the crank times), E195 to E197 (what does not go with six-bars), of files
-        E101, E109, E150 to E152 and E156, and what `Task` raises.
+        E101, E109, E150, E151 and E156, and what `Task` raises.
 
     Examples
     --------

@@ -9,12 +9,21 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, Self, final
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from burmester.api.moving_picture import MovingPicture
 from burmester.api.python_words import in_python_words
 from burmester.api.table import as_line, dimensions_as_html
 from burmester.errors import InputError
+from burmester.fourbar.circuits import circuit_of
+from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.linkage import Positions
+from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
+from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
+from burmester.values import real_numbers
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.still import still
 from burmester.wording import with_article
@@ -23,17 +32,32 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["ReadLinkage", "ResultLinkage"]
+__all__ = ["ResultLinkage"]
 
 
-class _Handover:
-    """What can be done with a linkage, wherever it comes from."""
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ResultLinkage(FoundLinkage):
+    """A `FoundLinkage` that knows its task, so that it can be drawn and handed over.
 
-    __slots__ = ()
+    Examples
+    --------
+    >>> import burmester
+    >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
+    >>> best
+    L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
+    """
+
+    task: Task = field(kw_only=True)
+
+    @classmethod
+    def of(cls, found: FoundLinkage, task: Task) -> Self:
+        """A linkage with the task that it belongs to."""
+        return cls(**{each.name: getattr(found, each.name) for each in fields(found)}, task=task)
 
     def saved(self) -> SavedLinkage:
         """The linkage as it is handed to other programs, its driver first."""
-        raise NotImplementedError
+        return SavedLinkage.of(self, self.task)
 
     def export(
         self,
@@ -82,6 +106,73 @@ class _Handover:
         with in_python_words():
             (written,) = export(self.saved(), to, path, Options(**dimensions), force)
         return written
+
+    def at(self, driver: ArrayLike) -> Positions:
+        """Where body and joints are for the driver's angle, or for an array of angles.
+
+        Parameters
+        ----------
+        driver : float or array_like
+            Angles of the driving link in degrees in F, or lengths along its line where a slider
+            drives: the range is `driven.input_range`.  The linkage stays on the branch of the
+            poses.
+
+        Returns
+        -------
+        Positions
+            The driver's values, the poses of the body, and its joints: "driver_fixed",
+            "driver_moving", "follower_fixed" and "follower_moving", as far as there are pins.  Not
+            a number where the driver cannot go.
+
+        Raises
+        ------
+        InputError
+            E125 (no real numbers) and E163 (a linkage that goes from no pose to another).
+
+        Examples
+        --------
+        >>> import burmester
+        >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
+        >>> here = best.at(best.motion(3).driver)
+        >>> here.body.translation.shape, here.joints["follower_moving"].shape
+        ((3, 2), (3, 2))
+        """
+        from burmester.export.coupler_motion import CouplerMotion  # noqa: PLC0415
+
+        given = real_numbers(driver, (...,), "the driver")
+        motion = CouplerMotion.of(self.saved(), 3)
+        middle = circuit_of(self.driver_first, motion.places[1], as_given=True)
+        own = motion.circuit
+        inputs = np.radians(given) if own.turns else given
+        places = own.reached_at(np.ravel(inputs), int(middle.branch))
+        shaped = Displacement(
+            places.translation.reshape(*given.shape, 2), places.angle.reshape(given.shape)
+        )
+        return self._positions(given, shaped)
+
+    def motion(self, count: int = 100) -> Positions:
+        """So many places of body and joints from the first pose to the last, at even steps.
+
+        See `at`.  Raises InputError E163 where it goes from no pose to another.
+        """
+        from burmester.export.coupler_motion import CouplerMotion  # noqa: PLC0415
+
+        motion = CouplerMotion.of(self.saved(), count)
+        turns = motion.circuit.turns
+        driver = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
+        return self._positions(driver, motion.places)
+
+    def _positions(self, driver: FloatArray, places: Displacement) -> Positions:
+        """The joints at places (*,) of the body."""
+        joints = dict[str, FloatArray]()
+        dyads = self.driver_first.first, self.driver_first.second
+        for name, dyad in zip(("driver", "follower"), dyads, strict=True):
+            if isinstance(dyad, RR | RP):
+                shape = places.translation.shape
+                joints[f"{name}_fixed"] = np.broadcast_to(dyad.fixed_pivot, shape)
+            if isinstance(dyad, RR | PR):
+                joints[f"{name}_moving"] = places.act(dyad.moving_pivot)
+        return Positions(driver, places, joints)
 
     def plot(self, ax: Axes | None = None) -> Figure:
         """The linkage at its poses, with the curve of the body's origin, by Matplotlib.
@@ -139,62 +230,6 @@ class _Handover:
             "text/html": self._repr_html_(),
             "image/svg+xml": self._drawing(),
         }
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ResultLinkage(_Handover, FoundLinkage):
-    """A `FoundLinkage` that knows its task, so that it can be drawn and handed over.
-
-    Examples
-    --------
-    >>> import burmester
-    >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
-    >>> best
-    L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
-    """
-
-    task: Task = field(kw_only=True)
-
-    @classmethod
-    def of(cls, found: FoundLinkage, task: Task) -> Self:
-        """A linkage with the task that it belongs to."""
-        return cls(**{each.name: getattr(found, each.name) for each in fields(found)}, task=task)
-
-    def saved(self) -> SavedLinkage:
-        """The linkage as it is handed to other programs, its driver first."""
-        ids = [dyad.id for dyad in self.dyads_driver_first]
-        return SavedLinkage(
-            self.id,
-            self.driver_first,
-            (ids[0], ids[1]),
-            self.usable,
-            self.preferred_driver,
-            self.type,
-            self.task,
-            self.error,
-            self.driven.least_over_range,
-            self.other_types,
-            self.quality,
-        )
-
-    def __repr__(self) -> str:
-        return as_line(self.saved())
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ReadLinkage(_Handover, SavedLinkage):
-    """A `SavedLinkage` that can be drawn and handed over again."""
-
-    @classmethod
-    def of(cls, saved: SavedLinkage) -> Self:
-        """The same linkage."""
-        return cls(**{each.name: getattr(saved, each.name) for each in fields(saved)})
-
-    def saved(self) -> SavedLinkage:
-        """The linkage itself."""
-        return self
 
     def __repr__(self) -> str:
         return as_line(self.saved())

@@ -7,60 +7,74 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Generic, Self, SupportsIndex, TypeVar, final, overload
+from typing import TYPE_CHECKING, Any, Self, SupportsIndex, final, overload
 
-from burmester.api.linkage import ReadLinkage, ResultLinkage
+from burmester.api.linkage import ResultLinkage
 from burmester.api.moving_picture import MovingPicture
 from burmester.api.python_words import in_python_words
 from burmester.api.table import as_html, as_text
 from burmester.describe.sentences import best_sentences
 from burmester.errors import InputError
-from burmester.io import files, saved
+from burmester.io import files
 from burmester.io.result import json_line, synthesis_data
-from burmester.synthesis.result import Outcome, Synthesis
-from burmester.tasks.motion_task import Task
+from burmester.synthesis.result import Synthesis
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["ReadResult", "Result", "read_result"]
+__all__ = ["Result"]
 
 LINES = 12  # of a `repr`, at most
 SENTENCES = 5  # of these, above the table; `outcome` and `warnings` have them all
 
-AnyLinkage = TypeVar("AnyLinkage", ResultLinkage, ReadLinkage)
 
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Result(Synthesis):
+    """A `Synthesis` that can be looked at, saved and handed over.
 
-class _RankedLinkages(Generic[AnyLinkage]):
-    """What can be done with linkages by rank, wherever they come from."""
+    Iterate over its linkages, ask for one by its id (`result["L2"]`) or by rank (`result[0]`).
+    Beside what is listed here it has all of `Synthesis`: task, outcome, dyads, warnings, fits,
+    certificate, motion, method, options.
 
-    __slots__ = ()
+    Examples
+    --------
+    >>> import burmester
+    >>> result = burmester.synthesize(burmester.read_task("case:motiongen-shoulder"))
+    >>> len(result), len(result.usable), result["L2"].type
+    (6, 3, 'crank-rocker')
+    """
 
-    def _parts(self) -> tuple[Outcome, tuple[AnyLinkage, ...]]:
-        """The outcome, and the linkages by rank."""
-        raise NotImplementedError
+    linkages: tuple[ResultLinkage, ...] = ()
 
-    def __iter__(self) -> Iterator[AnyLinkage]:
-        return iter(self._parts()[1])
+    @classmethod
+    def of(cls, synthesis: Synthesis) -> Self:
+        """A synthesis whose linkages know their task."""
+        values = {each.name: getattr(synthesis, each.name) for each in fields(Synthesis)}
+        linkages = tuple(ResultLinkage.of(each, synthesis.task) for each in synthesis.linkages)
+        return cls(**{**values, "linkages": linkages})
+
+    def __iter__(self) -> Iterator[ResultLinkage]:
+        return iter(self.linkages)
 
     def __len__(self) -> int:
-        return len(self._parts()[1])
+        return len(self.linkages)
 
     def __bool__(self) -> bool:
         return True
 
     @overload
-    def __getitem__(self, which: SupportsIndex | str) -> AnyLinkage: ...
+    def __getitem__(self, which: SupportsIndex | str) -> ResultLinkage: ...
 
     @overload
-    def __getitem__(self, which: slice) -> tuple[AnyLinkage, ...]: ...
+    def __getitem__(self, which: slice) -> tuple[ResultLinkage, ...]: ...
 
     def __getitem__(
         self, which: SupportsIndex | str | slice
-    ) -> AnyLinkage | tuple[AnyLinkage, ...]:
+    ) -> ResultLinkage | tuple[ResultLinkage, ...]:
         """A linkage by its id ("L2") or by its place in the ranking (from 0); raises E151."""
-        outcome, linkages = self._parts()
+        outcome, linkages = self.outcome, self.linkages
         if isinstance(which, slice):
             return linkages[which]
         known = [each.id for each in linkages]
@@ -79,12 +93,12 @@ class _RankedLinkages(Generic[AnyLinkage]):
         )
 
     @property
-    def usable(self) -> tuple[AnyLinkage, ...]:
+    def usable(self) -> tuple[ResultLinkage, ...]:
         """The linkages that work, the best one first."""
-        return tuple(each for each in self._parts()[1] if each.usable)
+        return tuple(each for each in self.linkages if each.usable)
 
     @property
-    def best(self) -> AnyLinkage | None:
+    def best(self) -> ResultLinkage | None:
         """The best linkage that works; None where none does."""
         return next(iter(self.usable), None)
 
@@ -114,13 +128,13 @@ class _RankedLinkages(Generic[AnyLinkage]):
 
     def _text(self, answer: Sequence[str] = (), warnings: Sequence[str] = ()) -> str:
         """The result in `LINES` lines at most: the answer, what came of the task, warnings."""
-        outcome, linkages = self._parts()
+        outcome, linkages = self.outcome, self.linkages
         lines = [*answer, outcome.message, *warnings][:SENTENCES]
         lines += as_text([each.saved() for each in linkages], LINES - len(lines) - 1)
         return "\n".join(lines)
 
     def _html(self, answer: Sequence[str] = (), warnings: Sequence[str] = ()) -> str:
-        outcome, linkages = self._parts()
+        outcome, linkages = self.outcome, self.linkages
         said: list[str] = [outcome.message, *warnings]
         sentences: list[str] = [*answer, *(f"{each}." for each in said)]
         first: str = "".join(f"<p>{escape(each)}</p>" for each in sentences)
@@ -131,42 +145,9 @@ class _RankedLinkages(Generic[AnyLinkage]):
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
         """In a notebook: text, HTML without scripts, and the first linkage as a drawing."""
-        linkages = self._parts()[1]
+        linkages = self.linkages
         drawing = {"image/svg+xml": linkages[0]._drawing()} if linkages else {}
         return {"text/plain": repr(self), "text/html": self._repr_html_(), **drawing}
-
-    def _repr_html_(self) -> str:
-        return self._html()
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Result(_RankedLinkages[ResultLinkage], Synthesis):
-    """A `Synthesis` that can be looked at, saved and handed over.
-
-    Iterate over its linkages, ask for one by its id (`result["L2"]`) or by rank (`result[0]`).
-    Beside what is listed here it has all of `Synthesis`: task, outcome, dyads, warnings, fits,
-    certificate, motion, method, options.
-
-    Examples
-    --------
-    >>> import burmester
-    >>> result = burmester.synthesize(burmester.read_task("case:motiongen-shoulder"))
-    >>> len(result), len(result.usable), result["L2"].type
-    (6, 3, 'crank-rocker')
-    """
-
-    linkages: tuple[ResultLinkage, ...] = ()
-
-    @classmethod
-    def of(cls, synthesis: Synthesis) -> Self:
-        """A synthesis whose linkages know their task."""
-        values = {each.name: getattr(synthesis, each.name) for each in fields(Synthesis)}
-        linkages = tuple(ResultLinkage.of(each, synthesis.task) for each in synthesis.linkages)
-        return cls(**{**values, "linkages": linkages})
-
-    def _parts(self) -> tuple[Outcome, tuple[ResultLinkage, ...]]:
-        return self.outcome, self.linkages
 
     def to_json(self) -> str:
         """All of it as one JSON object, as `burmester synthesize --json` prints it."""
@@ -202,54 +183,3 @@ class Result(_RankedLinkages[ResultLinkage], Synthesis):
 
     def _repr_html_(self) -> str:
         return self._html(best_sentences(self), [each.message for each in self.warnings])
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ReadResult(_RankedLinkages[ReadLinkage]):
-    """A result that was saved: where, its task, its outcome, and its linkages by rank."""
-
-    label: str
-    task: Task
-    outcome: Outcome
-    linkages: tuple[ReadLinkage, ...]
-
-    def _parts(self) -> tuple[Outcome, tuple[ReadLinkage, ...]]:
-        return self.outcome, self.linkages
-
-    def __repr__(self) -> str:
-        return self._text()
-
-
-def read_result(source: str | os.PathLike[str]) -> ReadResult:
-    """What `Result.save` or `burmester synthesize -o` wrote.
-
-    Parameters
-    ----------
-    source : str or path
-        The file, "-" for standard input.
-
-    Returns
-    -------
-    ReadResult
-        Nothing in it is taken on trust: errors, types, drivers and verdicts are computed again from
-        the dyads and the poses, and a file that says something else is refused.
-
-    Raises
-    ------
-    InputError
-        E101 (not readable), E109 (not JSON), E150 (not of a synthesis, or a part of it is not what
-        stands there), E152 (parts that contradict each other).
-
-    Examples
-    --------
-    >>> import burmester, tempfile
-    >>> result = burmester.synthesize(burmester.read_task("case:motiongen-shoulder"))
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     again = burmester.read_result(result.save(f"{folder}/shoulder.json"))
-    >>> [linkage.id for linkage in again.usable]
-    ['L1', 'L2', 'L3']
-    """
-    read = saved.read_result(source)
-    linkages = tuple(map(ReadLinkage.of, read.linkages))
-    return ReadResult(read.label, read.task, read.outcome, linkages)

@@ -185,7 +185,7 @@ def synthesize_six_bars(
 
     Parameters
     ----------
-    poses : Task, Displacement or (N, 3) array_like
+    poses : Task, Displacement, (N, 3) or (N, 3, 3) array_like
         The motion.  Rows are x, y and angle of the body's frame M, seen in F.  Regions of pivots,
         lengths of cranks, the least transmission angle, the link ratio, a driver that turns fully
         and the order of the poses are parts of a `Task`.

@@ -40,7 +40,7 @@ def synthesize(
 
     Parameters
     ----------
-    poses : Task, Displacement or (N, 3) array_like
+    poses : Task, Displacement, (N, 3) or (N, 3, 3) array_like
         The motion.  Rows are x, y and angle of the body's frame M, seen in F.  Limits,
         requirements, weights and exact poses are parts of a `Task`.
     method : {"auto", "complete", "exact", "pencil"}

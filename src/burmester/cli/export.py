@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from burmester.cli.output import EXIT_FOUND
+from burmester.cli.output import EXIT_FOUND, console
 
 if TYPE_CHECKING:
     from burmester.io.saved import SavedLinkage
@@ -112,9 +112,10 @@ def export(
     from burmester.export import Options, require_format
     from burmester.export import export as run
     from burmester.io.files import require_writable
-    from burmester.io.function_result import is_function_result
+    from burmester.io.function_result import is_function_result, read_function_result
+    from burmester.io.message import show
     from burmester.io.reading.file_content import read_source
-    from burmester.io.saved import read_result
+    from burmester.io.saved import JUDGED_OTHERWISE, read_result
     from burmester.printable import printable
 
     name = require_format(output, to)
@@ -123,11 +124,17 @@ def export(
     with working("reading the result"):
         data = read_source(result)
         if is_function_result(data):
-            chosen = export_choice(data, result, linkage)
+            functions = read_function_result(data, result)
+            chosen, warnings = export_choice(functions, linkage), functions.synthesis.warnings
         else:
             read = read_result(result, data)
             six_bar = read.choose_six_bar(linkage)
             chosen = read.choose(linkage) if six_bar is None else six_bar
+            warnings = read.synthesis.warnings
+    for each in warnings:
+        if each.code == JUDGED_OTHERWISE:  # the others were said when the result was made
+            show("warning", each, console())
+    with working("writing the file"):
         paths = run(chosen, name, output, Options(**options), force)
     for path in paths:
         click.echo(

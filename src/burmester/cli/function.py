@@ -14,6 +14,7 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 if TYPE_CHECKING:
     from burmester.functions.function_task import FunctionTask
+    from burmester.io.function_result import FunctionResult
     from burmester.io.saved import SavedLinkage
     from burmester.synthesis.function_generation import FunctionSynthesis
 
@@ -286,19 +287,16 @@ def check_function(task: FunctionTask, poses: str | None, *, as_json: bool) -> i
     return EXIT_NOTHING if findings else EXIT_FOUND
 
 
-def export_choice(data: bytes, path: str, id: str | None) -> SavedLinkage:
+def export_choice(result: FunctionResult, id: str | None) -> SavedLinkage:
     """A linkage of a function's result as exports take it: the coupler is the body."""
     from dataclasses import replace
 
-    from burmester.io.function_result import read_function_result
-    from burmester.io.result import json_line, synthesis_data
-    from burmester.io.saved import read_result
+    from burmester.io.saved import SavedLinkage
     from burmester.synthesis.function_generation import coupler_synthesis
 
-    result = read_function_result(data, path)
     chosen = result.choose(id)
-    judged = coupler_synthesis(result.task, chosen)
-    saved = read_result(path, json_line(synthesis_data(judged)).encode()).choose()
+    judged = coupler_synthesis(result.synthesis.task, chosen)
+    saved = SavedLinkage.of(judged.linkages[0], judged.task)
     return replace(saved, id=chosen.id, usable=chosen.usable)
 
 

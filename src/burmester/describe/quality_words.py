@@ -10,7 +10,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.quality import Quality
-from burmester.wording import figure, listed
+from burmester.wording import figure, listed, spans
 
 __all__ = ["COLUMNS", "facts", "in_short", "quality_note"]
 
@@ -44,10 +44,10 @@ def facts(found: FoundLinkage, task: Task) -> dict[str, str]:
     """The figures for a page, by name, each with its unit; {} where nothing is known."""
     if found.quality is None:
         return {}
-    extent, sensitivity = in_short(found.quality)
+    _, sensitivity = in_short(found.quality)
     turn, reserve, advantage = _driver(found, found.quality, task)
     return {
-        "extent": f"{extent} spans",
+        "extent": spans(float(found.quality.extent)),
         "sensitivity": sensitivity,
         "driver's way": turn + reserve,
         "mechanical advantage": advantage,

@@ -27,7 +27,7 @@ from burmester.verdicts.ranking import (
 from burmester.verdicts.tolerance_words import most_used
 from burmester.verdicts.tracing import Tracing
 from burmester.verdicts.uncertainty import pose_sigma
-from burmester.wording import figure, listed, with_article
+from burmester.wording import figure, in_unit, listed, spans, with_article
 
 __all__ = [
     "alternatives",
@@ -119,7 +119,7 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
     for text, (each, quality) in told.items():
         if each is not best:
             yield (
-                f"{text}: {each.id}, {figure(float(quality.extent))} spans of the motion, errors "
+                f"{text}: {each.id}, {spans(float(quality.extent))} of the motion, errors "
                 f"up to {figure(float(quality.sensitivity))} times as large at a pose, "
                 f"transmission angle {notation.least_angle(float(quality.transmission))} or more."
             )
@@ -366,8 +366,8 @@ def _order(synthesis: Synthesis) -> str:
 def footnotes(synthesis: Synthesis) -> str:
     """What the columns of the tables are, and the order of their rows."""
     task = synthesis.task
-    unit = task.length_unit or "the unit of the poses"
-    text = f"Lengths in {unit}; F is the ground, M the body."
+    unit = in_unit(task.length_unit or "the unit of the poses")
+    text = f"Lengths{unit}; F is the ground, M the body."
     if synthesis.linkages:
         counts = notation.length_of(math.radians(synthesis.length_per_radian), task)
         counted = "" if task.angles_are_free else f" 1° counts as {counts}."

@@ -65,7 +65,7 @@ class Format:
 FORMATS: Final[Mapping[str, Format]] = {
     "dxf": Format(
         "drawings.dxf",
-        "drawing of the plates for cutting, and of the assembly (mm)",
+        "drawing of the plates for cutting, and of the assembly (mm, or inches)",
         ".dxf",
         "export",
         ("ezdxf",),

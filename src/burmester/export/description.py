@@ -16,9 +16,10 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.io.saved import SavedLinkage
 from burmester.io.saved_six_bars import SavedSixBar
+from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import characteristic_length
-from burmester.wording import with_article
+from burmester.wording import in_unit, with_article
 
 __all__ = ["description", "dimension_notes", "length_decimals", "reference_of"]
 
@@ -45,14 +46,15 @@ def description(
         _of_six_bar(chosen) if isinstance(chosen, SavedSixBar) else _of_four_bar(chosen, named)
     )
     if unit is None:
-        sentences.append(f"Lengths are in {own}." if own else "The task names no unit of length.")
+        lengths = f"Lengths are{in_unit(own)}." if own else "The task names no unit of length."
+        sentences.append(lengths)
         return sentences
     if own == unit or chosen.unit != own:
-        sentences.append(f"Lengths are in {unit}.")
+        sentences.append(f"Lengths are{in_unit(unit)}.")
     else:
-        sentences.append(f"Lengths are in {unit}; the task's are in {own}.")
+        sentences.append(f"Lengths are{in_unit(unit)}; the task's are{in_unit(own)}.")
     if chosen.unit != own:
-        of = "names no unit of length" if chosen.unit is None else f"is in {chosen.unit}"
+        of = "names no unit of length" if chosen.unit is None else f"is{in_unit(chosen.unit)}"
         sentences.append(
             f"The task {of}: one of its units is taken for 1 {own}"
             + (
@@ -68,11 +70,14 @@ def _of_four_bar(chosen: SavedLinkage, named: str) -> list[str]:
     """named: the unit of lengths, after a blank, or nothing."""
     number = chosen.error.places.shape[0]
     worst = float(chosen.error.position.max())
+    passes = f"comes within {worst:.3g}{named} of every pose"
+    if worst < ROUNDING * characteristic_length(chosen.task):
+        passes = "passes every pose exactly, up to rounding"
     sentences = [
         f"Linkage {chosen.id}, {with_article(chosen.type)}, for {number} poses.",
         f"Its driver is {chosen.ids[0]} ({type(chosen.linkage.first).__name__}), and "
         f"{chosen.ids[1]} ({type(chosen.linkage.second).__name__}) follows.",
-        f"The coupler comes within {worst:.3g}{named} of every pose.",
+        f"The coupler {passes}.",
     ]
     if not chosen.usable:
         sentences.append("It is not usable as it is: it cannot go from pose to pose in one motion.")
@@ -89,16 +94,18 @@ def _of_six_bar(chosen: SavedSixBar) -> list[str]:
     ]
 
 
-def length_decimals(chosen: SavedLinkage | SavedSixBar, options: Options) -> int:
-    """With how many decimals lengths in millimetres keep the linkage's error."""
+def length_decimals(chosen: SavedLinkage | SavedSixBar, options: Options, unit: str = "mm") -> int:
+    """With how many decimals lengths in a unit keep the linkage's error."""
     if isinstance(chosen, SavedSixBar):
-        return figures_of(FINEST * SixBarReference.of(chosen, options).span)
-    return _printed_decimals(chosen, options)[1].lengths
+        return figures_of(FINEST * SixBarReference.of(chosen, options, unit).span)
+    return _printed_decimals(chosen, options, unit)[1].lengths
 
 
-def _printed_decimals(chosen: SavedLinkage, options: Options) -> tuple[Linkage, Decimals]:
-    """The linkage in millimetres, and with how many decimals its dimensions keep its error."""
-    own = Reference.of(chosen, options)
+def _printed_decimals(
+    chosen: SavedLinkage, options: Options, unit: str
+) -> tuple[Linkage, Decimals]:
+    """The linkage in a unit, and with how many decimals its dimensions keep its error."""
+    own = Reference.of(chosen, options, unit)
     size = characteristic_length(chosen.task) * own.scale
     linkage = Linkage(
         *(_scaled(each, own.scale) for each in (chosen.linkage.first, chosen.linkage.second))
@@ -109,13 +116,15 @@ def _printed_decimals(chosen: SavedLinkage, options: Options) -> tuple[Linkage, 
     return linkage, decimals_of_linkage(linkage, own.poses, error, length, size, free_angles=free)
 
 
-def dimension_notes(chosen: SavedLinkage | SavedSixBar, options: Options) -> list[str]:
-    """The dimensions in millimetres, a line for each link, and what a builder gets of them."""
+def dimension_notes(
+    chosen: SavedLinkage | SavedSixBar, options: Options, unit: str = "mm"
+) -> list[str]:
+    """The dimensions in a unit, a line for each link, and what a builder gets of them."""
     if isinstance(chosen, SavedSixBar):
-        found = SixBarReference.of(chosen, options).found
+        found = SixBarReference.of(chosen, options, unit).found
         links = six_bar_words.joint_rows(found) + six_bar_words.length_rows(found)
         return [f"{name}: {' '.join(each for each in own if each)}." for name, *own in links]
-    linkage, decimals = _printed_decimals(chosen, options)
+    linkage, decimals = _printed_decimals(chosen, options, unit)
     rows = dimensions_of((linkage.first, linkage.second), chosen.ids, decimals)
     notes = []
     for name in chosen.ids:
@@ -125,7 +134,8 @@ def dimension_notes(chosen: SavedLinkage | SavedSixBar, options: Options) -> lis
     if math.isfinite(position):
         turned = math.degrees(angle)
         notes.append(
-            f"Built to these digits, it comes within {position:.2g} mm and {turned:.2g}° of them."
+            f"Built to these digits, it comes within {position:.2g} {unit} and {turned:.2g}° "
+            "of them."
         )
     return notes
 

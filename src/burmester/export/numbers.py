@@ -9,8 +9,9 @@ from xml.etree.ElementTree import Element
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["decimals_within", "number", "numbers_in", "rounded", "xy"]
+__all__ = ["decimals_within", "error_within", "number", "numbers_in", "rounded", "xy"]
 
+OF_LAST_DIGIT: Final = 100.0  # units of the last digit that differences of a few numbers lose
 MOST_DECIMALS: Final = 25  # decimals of a rounded number, at most
 
 
@@ -24,6 +25,14 @@ def decimals_within(error: float) -> int:
     if not error > 0:
         return MOST_DECIMALS
     return min(max(math.ceil(-math.log10(2 * error)), 0), MOST_DECIMALS)
+
+
+def error_within(digits: int, largest: float) -> float:
+    """How far off may be what is computed from numbers of a file.
+
+    digits: with which the file carries them; largest: of these numbers.
+    """
+    return OF_LAST_DIGIT * 10.0 ** (1 - digits) * largest
 
 
 def rounded(value: float, decimals: int) -> str:

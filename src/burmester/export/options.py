@@ -11,6 +11,7 @@ from typing import final
 from burmester.errors import InputError
 from burmester.io.saved import SavedLinkage
 from burmester.io.saved_six_bars import SavedSixBar
+from burmester.wording import in_unit
 
 __all__ = ["MILLIMETRES", "Options", "stated_unit", "unit_of"]
 
@@ -79,7 +80,7 @@ def unit_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> str:
     if own in MILLIMETRES and stated is not None and own != stated:
         raise InputError(
             "E162",
-            f"the lengths of this linkage are in {own}, not in {stated}",
+            f"the lengths of this linkage are{in_unit(own)}, not{in_unit(stated)}",
             why="the poses state that unit",
             help="leave --length-unit out",
         )
@@ -87,7 +88,7 @@ def unit_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> str:
         raise InputError(
             "E162",
             f"how long one {own} is has to be known for this format",
-            why=f"the lengths of this linkage are in {own}, and the units are {known}",
+            why=f"the lengths of this linkage are{in_unit(own)}, and the units are {known}",
             help=f"say what one {own} counts as: --length-unit mm",
         )
     return own if own in MILLIMETRES else stated or "mm"

@@ -11,7 +11,7 @@ from burmester.errors import InputError
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
-from burmester.wording import count
+from burmester.wording import count, in_unit
 
 __all__ = ["require_followable", "require_like"]
 
@@ -45,7 +45,8 @@ def require_like(old: SynthesisProblem, new: SynthesisProblem, *, is_family: boo
     if one != two:
         reason = f"it has {count(two, 'pose')} instead of {one}"
     elif before.length_unit != after.length_unit:
-        reason = f"its lengths are in {after.length_unit}, not in {before.length_unit}"
+        units = [in_unit(each.length_unit or "no unit") for each in (after, before)]
+        reason = f"its lengths are{units[0]}, not{units[1]}"
     elif not _same_marks(before, after):
         reason = "other poses are exact"
     elif (before.tolerances is None) != (after.tolerances is None):

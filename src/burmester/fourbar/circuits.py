@@ -47,6 +47,7 @@ __all__ = ["Circuits", "Location", "circuit_of"]
 
 PLACES_PER_BLOCK = 8192  # places computed at once; their arrays fit the processor's cache
 # Step of the parameter (radians or a length) away from a change point, where a place is undefined.
+INPUT_ROUNDING = 1e-12  # an input that passes a dead point by less is at it
 CHANGE_POINT_NUDGE = 1e-8
 
 
@@ -268,16 +269,27 @@ class Circuits:
         The linkage stays on its circuit: an input beyond a dead point counts as the dead point.
         nan where there is no circuit.
         """
-        low, high = (self.input_range[..., None, end] for end in (0, 1))
-        with np.errstate(invalid="ignore"):
-            middle = (low + high) / 2
-            turned = middle + (inputs - middle + np.pi) % (2 * np.pi) - np.pi
-            inputs = np.where(self.turns[..., None], turned, inputs)
+        inputs, low, high = self._in_range(inputs)
         both = self.loop.closed_at(np.clip(inputs, low, high))
         second = np.where(
             self.branches == 2, branch == 1, (self.sign < 0) & (self.loop.closures == 2)
         )
         return _chosen(both, second[..., None])
+
+    def reached_at(self, inputs: FloatArray, branch: int = 0) -> Displacement:
+        """The same, nan at inputs beyond a dead point."""
+        places, (turned, low, high) = self.at_inputs(inputs, branch), self._in_range(inputs)
+        slack = INPUT_ROUNDING * (1 + np.abs(turned))
+        lost = np.where((turned < low - slack) | (turned > high + slack), np.nan, 0.0)
+        return Displacement(places.translation + lost[..., None], places.angle + lost)
+
+    def _in_range(self, inputs: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Inputs (*, n), angles within half a turn of the middle of the range, and its ends."""
+        low, high = (self.input_range[..., None, end] for end in (0, 1))
+        with np.errstate(invalid="ignore"):
+            middle = (low + high) / 2
+            turned = middle + (inputs - middle + np.pi) % (2 * np.pi) - np.pi
+        return np.where(self.turns[..., None], turned, inputs), low, high
 
     def inputs(self, parameter: FloatArray, places: Displacement) -> FloatArray:
         """The inputs (*, n) at places (*, n) of these circuits, without jumps.

@@ -54,9 +54,10 @@ def exact_generators(task: FunctionTask) -> ExactGenerators:
     known = "input" if task.input_phase is not None else "output"
     given = np.array([task.input_phase if known == "input" else task.output_phase], dtype=float)
     other, determined = other_phases(task, given, known)
-    phases = (np.broadcast_to(given[:, None], other.shape), other)
-    found, regular = generators_of_phases(task, *(phases if known == "input" else phases[::-1]))
     some = np.isfinite(other).ravel()
+    known_phase = np.broadcast_to(given[:, None], other.shape)
+    phases = known_phase, np.nan_to_num(other)  # an SVD takes no nan
+    found, regular = generators_of_phases(task, *(phases if known == "input" else phases[::-1]))
     sure = bool(determined.all() and regular.ravel()[some].all())
     return _all(task, found[np.nonzero(some[None])] if some.any() else found[:, :0][0], 2, sure)
 

@@ -1,17 +1,17 @@
 """A function synthesis as plain data, and read back: the object of `synthesize --json`.
 
 The contract is `function.schema.json` beside this file.  Reading takes from it the task and the
-dimensions of a linkage alone, and judges both again: no number and no verdict is taken on trust.
+dimensions of linkages, and judges these anew, as `saved` does.
 
 E150 no result of this kind      E151 no such linkage, or none at all
 """
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
-from typing import Any, Final, NamedTuple
+from dataclasses import replace
+from typing import Any, Final, NamedTuple, get_args
 
 import numpy as np
 
@@ -23,8 +23,18 @@ from burmester.functions.generator import Generator
 from burmester.io.linkage_data import number
 from burmester.io.reading.functions.function_file import task_of_tree
 from burmester.io.result import message_data
+from burmester.io.saved import (
+    judged_otherwise,
+    linkages_by_id,
+    named,
+    outcome_of,
+    result_tree,
+    unlike,
+    warnings_of,
+)
 from burmester.printable import printable
-from burmester.synthesis.function_generation import FunctionSynthesis
+from burmester.synthesis.function_generation import FunctionMethod, FunctionSynthesis
+from burmester.values import shown
 
 __all__ = [
     "SCHEMA",
@@ -37,6 +47,8 @@ __all__ = [
 
 SCHEMA: Final = "burmester.function/1"
 LINK_KEYS: Final = ("input", "coupler", "output")
+COUNTS: Final = ("expected", "found", "real")
+LONGEST = 1e9  # ground links; no link is longer
 SAME_SHARE = 1e-9  # of the range; shares that differ less are the same spacing
 
 
@@ -168,28 +180,27 @@ def _degrees(angle: float) -> float | None:
 
 
 class FunctionResult(NamedTuple):
-    """A result: where it came from, its task, and its linkages as the file has them."""
+    """A result that was read: where it came from, and its generators, judged anew.
+
+    refused: the linkages of the file that cannot be used, by id, and why.
+    """
 
     label: str
-    task: FunctionTask
-    linkages: tuple[FoundGenerator, ...]
+    synthesis: FunctionSynthesis
+    refused: Mapping[str, InputError]
 
     def choose(self, id: str | None = None) -> FoundGenerator:
-        """A linkage by its id, or the first; raises E151."""
-        known = [each.id for each in self.linkages]
-        for each in self.linkages:
-            if id is None or each.id.lower() == id.lower():
-                return each
-        have = f"it has {', '.join(known)}" if known else "it has none"
-        raise InputError(
-            "E151",
-            f"there is no linkage {id} in this result"
-            if id
-            else "there is no linkage in this result",
-            where=self.label,
-            why=have,
-            help=f"give --linkage {known[0]}" if known else "`burmester explain R361` says more",
-        )
+        """A linkage by its id, or the first; raises E150, E151."""
+        every = self.synthesis.generators
+        if not every:
+            raise InputError(
+                "E151",
+                "there is no linkage in this result",
+                where=self.label,
+                why="it has none",
+                help="`burmester explain R361` says more",
+            )
+        return named(every, id, "linkage", self.label, self.refused)
 
 
 def is_function_result(data: bytes) -> bool:
@@ -200,56 +211,69 @@ def is_function_result(data: bytes) -> bool:
 def read_function_result(data: bytes, path: str) -> FunctionResult:
     """The result in the bytes of a file; raises E109, E150 and what reading its task raises."""
     label = "<stdin>" if path == "-" else printable(path)
+    tree = result_tree(data, label)
+    refused: dict[str, InputError] = {}
     try:
-        tree = json.loads(data)
-    except (ValueError, RecursionError) as error:
-        why = printable(str(error))
-        raise InputError("E109", "this is not JSON", where=label, why=why, help=_HELP) from None
-    if not isinstance(tree, Mapping) or tree.get("schema") != SCHEMA:
-        message = f"this is no result of synthesize: its schema is not {SCHEMA}"
-        raise InputError("E150", message, where=label, help=_HELP)
-    stated = tree.get("task")
-    if not isinstance(stated, Mapping) or not isinstance(tree.get("linkages"), list):
-        raise _unlike("this result has no task, or no linkages", label)
-    try:
-        task = task_of_tree(stated.get("function"))
+        synthesis = _synthesis(tree, refused)
     except InputError as error:
         error.where = error.where or label
         raise
-    every = [_generator(each, task, label) for each in tree["linkages"]]
-    ids = [each["id"] for each in tree["linkages"]]
-    exact = tree.get("method") in ("exact", "phases")
-    found = []
-    for rank, (id, one) in enumerate(zip(ids, every, strict=True), start=1):
-        (judged,) = found_generators(one, task, exact=exact)
-        names = FoundGenerator.__match_args__[2:]
-        found.append(FoundGenerator(id, rank, *(getattr(judged, name) for name in names)))
-    return FunctionResult(label, task, tuple(found))
+    for each in refused.values():
+        each.where = label
+    return FunctionResult(label, synthesis, refused)
 
 
-_HELP = "make it with `burmester synthesize FILE -o result.json`"
+def _synthesis(tree: dict[str, Any], refused: dict[str, InputError]) -> FunctionSynthesis:
+    """The task of a file and its linkages, judged anew; of the search what the file says."""
+    if tree.get("schema") != SCHEMA:
+        raise unlike(f"this is no result of synthesize: its schema is not {SCHEMA}")
+    stated = tree.get("task")
+    if not isinstance(stated, dict) or not isinstance(tree.get("linkages"), list):
+        raise unlike("this result has no task, or no linkages")
+    method: FunctionMethod | None = next(
+        (each for each in get_args(FunctionMethod) if each == tree.get("method")), None
+    )
+    if method is None:
+        raise unlike("$.method of this result cannot be used", f"it is {shown(tree.get('method'))}")
+    task = task_of_tree(stated.get("function"))
+    found, others = list[FoundGenerator](), list[str]()
+    for id, each in linkages_by_id(tree):
+        try:
+            one = _generator(each, task)
+        except InputError as error:
+            refused[id] = error
+            continue
+        (judged,) = found_generators(one, task, exact=method in ("exact", "phases"))
+        judged = replace(judged, id=id, rank=len(found) + 1)
+        found.append(judged)
+        stated = each.get("usable")
+        if isinstance(stated, bool) and stated is not judged.usable:
+            others.append(f"{id} is {'' if judged.usable else 'not '}usable, otherwise than stated")
+    if refused and not found:
+        raise next(iter(refused.values()))
+    search = tree.get("search")
+    counts = (search.get(key) if isinstance(search, dict) else None for key in COUNTS)
+    return FunctionSynthesis(
+        task,
+        method,
+        outcome_of(tree),
+        tuple(found),
+        (*warnings_of(tree), *judged_otherwise(others, refused)),
+        *(each if isinstance(each, int) else None for each in counts),
+    )
 
 
-def _generator(tree: Any, task: FunctionTask, label: str) -> Generator:
-    """One generator, with a leading axis of one."""
+def _generator(tree: dict[str, Any], task: FunctionTask) -> Generator:
+    """One generator, with a leading axis of one; raises E150."""
     try:
         links = [float(tree["links"][key]) / task.ground for key in LINK_KEYS]
         phases = [math.radians(float(tree[f"{key}_phase_deg"])) for key in ("input", "output")]
-        side, id = float(tree["side"]), tree["id"]
+        side = float(tree["side"])
     except (KeyError, TypeError, ValueError, OverflowError):
-        raise _unlike("a linkage of this result lacks a dimension", label) from None
+        raise unlike("a linkage of this result lacks a dimension") from None
     numbers = np.array([*links, *phases])
-    if (
-        not np.isfinite(numbers).all()
-        or min(links) <= 0
-        or max(links) > 1e9
-        or side not in (1.0, -1.0)
-        or not isinstance(id, str)
-    ):
-        raise _unlike("a linkage of this result has a dimension that no linkage has", label)
+    sound = np.isfinite(numbers).all() and min(links) > 0 and max(links) <= LONGEST
+    if not sound or side not in (1.0, -1.0):
+        raise unlike("a linkage of this result has a dimension that no linkage has")
     a, r, b = links
     return Generator(*(np.array([v]) for v in (a, r, b, *phases, side)))
-
-
-def _unlike(message: str, label: str) -> InputError:
-    return InputError("E150", message, where=label, help=_HELP)

@@ -124,6 +124,7 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         data["rounded"] = {
             "position_error_before": errors_data(before.position),
             "angle_error_before_deg": errors_data(np.degrees(before.angle)),
+            "coupler_before": poses_data(before.places),
         }
     return data
 

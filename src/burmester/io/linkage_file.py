@@ -13,39 +13,33 @@ line = {point = [X, Y], direction_deg = A}    of a slider in F, of a slot in M; 
 Other keys of a file are not looked at (the poses of an export, say), other keys of a dyad refused.
 
 E101 not readable       E109 neither JSON nor TOML     E151 no linkage of this id
-E152 a result that contradicts itself                  E156 another kind of file
+E150 a result that cannot be used                      E156 another kind of file
 """
 
 from __future__ import annotations
 
 import json
-import math
 import os
 import tomllib
 from typing import Any
 
-import numpy as np
-
 from burmester.errors import InputError
-from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.io.linkage_values import fault, number, pair
-from burmester.io.reading.dyads_text import line_through
+from burmester.io.linkage_values import dyad_of, fault
 from burmester.io.reading.file_content import read_source
 from burmester.io.result import SCHEMA
 from burmester.io.saved import read_result
 from burmester.io.six_bar_file import is_six_bar, six_bar_of
-from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
 from burmester.sixbar.watt import WattLinkage
-from burmester.synthesis.given_linkage import GivenDyad, OpenLink
+from burmester.synthesis.given_linkage import GivenDyad
 from burmester.values import shown
 from burmester.verdicts.found_linkage import with_driver_first
+from burmester.wording import in_unit
 
 __all__ = ["read_linkage"]
 
 KEYS = {"id", "kind", "fixed_pivot", "moving_pivot", "length", "radius", "line"}
-LINE_KEYS = ({"point", "direction_deg"}, {"normal_deg", "offset"})
 NO_LINKAGE = "this file holds no linkage"
 HELP = (
     "give a result of `burmester synthesize POSES -o result.json`, an export to JSON, or a file "
@@ -130,7 +124,7 @@ def _require_unit(stated: object, unit: str | None) -> None:
     if unit and isinstance(stated, str) and stated and stated != unit:
         raise InputError(
             "E156",
-            f"the linkage is in {printable(stated)[:40]}, and the poses are in {unit}",
+            f"the linkage is{in_unit(printable(stated)[:40])}, and the poses are{in_unit(unit)}",
             help=f"give both in one unit, such as {unit}",
         )
 
@@ -157,47 +151,8 @@ def _of_dyads(tree: dict[str, Any]) -> tuple[GivenDyad, GivenDyad]:
 
 
 def _dyad(tree: dict[str, Any], path: str) -> GivenDyad:
-    """A dyad from its object."""
+    """A dyad from its object, which has nothing else."""
     for key in tree:
         if key not in KEYS:
-            raise fault(f"{path}.{printable(str(key))[:40]} is not known", f"{HELP}")
-    parts = {key for key in ("fixed_pivot", "moving_pivot", "line") if tree.get(key) is not None}
-    kind = {
-        frozenset({"fixed_pivot", "moving_pivot"}): "RR",
-        frozenset({"line", "moving_pivot"}): "PR",
-        frozenset({"fixed_pivot", "line"}): "RP",
-    }.get(frozenset(parts))
-    if kind is None or tree.get("kind", kind) != kind:
-        has = ", ".join(sorted(parts)) or "neither pivot"
-        stated = f" and is of kind {shown(tree['kind'])}" if "kind" in tree else ""
-        raise fault(f"{path} is no dyad", HELP, f"it has {has}{stated}")
-    if kind == "RR":
-        fixed, moving = (pair(tree, key, path) for key in ("fixed_pivot", "moving_pivot"))
-        lengths = [key for key in ("length", "radius") if tree.get(key) is not None]
-        if not lengths:
-            return OpenLink(fixed, moving)
-        if len(lengths) > 1:
-            raise fault(f"{path} has a length and a radius", "give the length alone")
-        length = number(tree[lengths[0]], f"{path}.{lengths[0]}")
-        if not length > 0:
-            help = "give a length above zero, or leave it out: then it follows from the poses"
-            raise fault(f"{path}.{lengths[0]} is {length:g}", help)
-        return RR(fixed, moving, np.asarray(length))
-    line = _line(tree["line"], f"{path}.line")
-    if kind == "PR":
-        return PR(*line, pair(tree, "moving_pivot", path))
-    return RP(pair(tree, "fixed_pivot", path), *line)
-
-
-def _line(tree: object, path: str) -> tuple[FloatArray, FloatArray]:
-    """A line by its normal and offset, or by a point and its direction."""
-    if isinstance(tree, dict):
-        if LINE_KEYS[1] <= tree.keys():
-            normal = number(tree["normal_deg"], f"{path}.normal_deg")
-            offset = number(tree["offset"], f"{path}.offset")
-            return np.asarray(math.radians(normal)), np.asarray(offset)
-        if LINE_KEYS[0] <= tree.keys():
-            direction = number(tree["direction_deg"], f"{path}.direction_deg")
-            return line_through(pair(tree, "point", path), direction)
-    help = "write line = {point = [X, Y], direction_deg = 30}"
-    raise fault(f"{path} is no line", help, f"it is {shown(tree)}")
+            raise fault(f"{path}.{printable(str(key))[:40]} is not known", HELP)
+    return dyad_of(tree, path, HELP)

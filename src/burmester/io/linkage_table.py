@@ -25,7 +25,7 @@ from burmester.tasks import notation
 from burmester.verdicts import explanation
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.tolerance_words import share_texts
-from burmester.wording import count, figure
+from burmester.wording import count, figure, in_unit
 
 __all__ = [
     "closest_three",
@@ -161,8 +161,8 @@ def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Itera
 
     Beside them, where a terminal can show it and has room, the linkage in braille; else above.
     """
-    unit = synthesis.task.length_unit
-    yield Text(f"\n{best.id} in full{f', in {unit}' if unit else ''}", style="bold")
+    unit = in_unit(synthesis.task.length_unit)
+    yield Text(f"\n{best.id} in full{unit and ','}{unit}", style="bold")
     unlimited = console.options.update(max_width=10 * console.width)
     table = _dimensions(synthesis, best)
     wide = console.measure(table, options=unlimited).maximum

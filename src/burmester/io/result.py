@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Callable
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from burmester.describe.cognates import cognates_of
@@ -34,6 +35,7 @@ from burmester.synthesis.result import JUDGED, Outcome, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.rails import Rail
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -56,6 +58,8 @@ __all__ = [
 ]
 
 SCHEMA = "burmester.synthesis/1"
+# What a result says of its search alone, and nothing gives again when it is read.
+SEARCH_KEYS = ("singular_values", "critical_points", "search")
 
 
 def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
@@ -66,6 +70,7 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         "schema": SCHEMA,
         "outcome": {**message_data(outcome), **_causes(synthesis)},
         "method": synthesis.method,
+        "options": _options(synthesis.options),
         "task": task_data(task),
         "motion": None if motion is None else motion_data(motion),
         "dyads": [dyad_data(dyad, synthesis.task.poses) for dyad in synthesis.dyads],
@@ -90,7 +95,14 @@ def synthesis_data(synthesis: Synthesis) -> dict[str, Any]:
         if synthesis.certificate is None
         else _certificate(synthesis.certificate),
         "six_bars": None if synthesis.six_bars is None else _six_bars(synthesis.six_bars),
+        **{key: synthesis.search[key] for key in SEARCH_KEYS if key in synthesis.search},
     }
+
+
+def _options(options: SynthesisOptions) -> dict[str, Any]:
+    """How the task was solved; how long that might take is no part of the answer."""
+    data = asdict(options) | {"stock_lengths": list(options.stock_lengths)}
+    return {name: each for name, each in data.items() if name != "time_limit"}
 
 
 def _prices(synthesis: Synthesis) -> dict[str, Any]:
@@ -114,7 +126,7 @@ def _prices(synthesis: Synthesis) -> dict[str, Any]:
 def _causes(synthesis: Synthesis) -> dict[str, Any]:
     """The limits that are to blame where no linkage is sound, the least loosening first."""
     if not synthesis.causes:
-        return {}
+        return {key: synthesis.search[key] for key in ("causes",) if key in synthesis.search}
     listed = {each.id for each in synthesis.linkages}
     return {
         "causes": [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
@@ -30,6 +31,7 @@ def six_bars_data(result: SixBars) -> dict[str, Any]:
         "designs": result.designs,
         "working": result.working,
         "seed": int(result.options.seed),
+        "options": {name: int(each) for name, each in asdict(result.options).items()},
         "free_poses": result.free_poses,
         "found": [six_bar_data(each) for each in result.found],
     }
@@ -44,6 +46,7 @@ def six_bar_data(found: FoundSixBar) -> dict[str, Any]:
         "id": found.id,
         "type": TYPE,
         "usable": found.usable,
+        "chain": found.chain,
         "driver": found.driver,
         "joints_of_links": {name: list(joints) for name, joints in LINKS.items()},
         "ground": {"A": _pair(linkage.fixed_first), "B": _pair(linkage.fixed_second)},

@@ -33,11 +33,12 @@ from burmester.printable import printable
 from burmester.sixbar.watt import BARS, WattLinkage
 from burmester.values import shown
 
-__all__ = ["is_six_bar", "six_bar_of"]
+__all__ = ["DIMENSIONS", "is_six_bar", "six_bar_of"]
 
 # The joints of each link in a file; the first one of three is the origin where it is left out.
 JOINTS: Final = {"ground": "AB", "coupler": "CDE", "second_crank": "BDG", "body": "EH"}
 LENGTHS: Final = ("AC", "GH")
+DIMENSIONS: Final = (*JOINTS, "lengths")  # the keys of an object that hold them
 OWN: Final = ("coupler", "second_crank", "lengths")  # no other file of a linkage has them
 SAME: Final = 1e-3  # relative; a length that a person typed beside the joints agrees as well
 HELP: Final = (

@@ -12,6 +12,7 @@ from burmester.io.message import draw, message, note, print_trimmed
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import SixBars
 from burmester.synthesis.result import Synthesis
+from burmester.wording import in_unit
 
 __all__ = ["show_six_bars"]
 
@@ -37,13 +38,13 @@ def show_six_bars(synthesis: Synthesis, result: SixBars, console: Console) -> No
         print_trimmed(Text(sentence), console)
     if result.given:
         print_trimmed(_at_poses(synthesis, best, console.width), console)
-    unit = synthesis.task.length_unit
+    unit = in_unit(synthesis.task.length_unit)
     rows = [*six_bar_words.joint_rows(best), *six_bar_words.length_rows(best)]
     grid = Table.grid(padding=(0, 2))
     for name, *joints in rows:
         cells = [Text(each) for each in joints if each]
         grid.add_row(name, *(cells if console.width >= NARROW else [Text("\n").join(cells)]))
-    print_trimmed(Text("\nDimensions" + (f", in {unit}" if unit else ""), style="bold"), console)
+    print_trimmed(Text(f"\nDimensions{unit and ','}{unit}", style="bold"), console)
     print_trimmed(grid, console)
     if len(result.found) > 1:
         table = new_table("All of them")

@@ -54,6 +54,7 @@ from burmester.verdicts.uncertainty import (
 from burmester.wording import count
 
 __all__ = [
+    "PLACES_AT_ONCE",
     "Candidates",
     "Evaluation",
     "at_given_poses",
@@ -114,12 +115,16 @@ class Evaluation:
 
     def evaluate(self, candidates: Candidates) -> list[FoundLinkage]:
         """The linkages with errors, verdicts, drivers and uncertainties, ranked."""
+        return ranked(self.evaluated(candidates), self.problem)
+
+    def evaluated(self, candidates: Candidates) -> list[FoundLinkage]:
+        """The same in their own order."""
         found: list[FoundLinkage] = []
         at_once = max(1, PLACES_AT_ONCE // self.target.poses.shape[0])
         for at in range(0, len(candidates.batch), at_once):
             some = take(candidates, np.arange(at, min(at + at_once, len(candidates.batch))))
             found += self._with_uncertainty(*self._where_best(some))
-        return ranked(found, self.problem)
+        return found
 
     def members(self, candidates: Candidates, *, quality: bool = True) -> list[FoundLinkage]:
         """The same for linkages of a family, in their order: no pose determines their pivots.

@@ -6,13 +6,16 @@ from dataclasses import dataclass
 from typing import final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from burmester.fourbar.defect_messages import Defect
+from burmester.fourbar.linkage import Positions
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
 from burmester.sixbar.watt import BARS, JOINTS, Drive, WattLinkage
+from burmester.values import real_numbers
 from burmester.verdicts.requirement_check import Violation
 
 __all__ = ["FoundSixBar"]
@@ -113,6 +116,19 @@ class FoundSixBar:
     def body(self, drive: FloatArray) -> Displacement:
         """The poses (*,) of the body when the driver is at angles (*,) in radians."""
         return poses_of(self.linkage, self._joints(np.asarray(drive, dtype=np.float64)))
+
+    def at(self, driver: ArrayLike) -> Positions:
+        """Where body and joints are for the driver's angle, or for an array of angles, in degrees.
+
+        As `burmester.ResultLinkage.at`; the joints are A to H of the drawing.
+        """
+        given = real_numbers(driver, (...,), "the driver")
+        drive = np.radians(given)
+        return Positions(given, self.body(drive), self.joints(drive))
+
+    def motion(self, count: int = 100) -> Positions:
+        """So many places of body and joints from the first pose to the last, at even steps."""
+        return self.at(np.degrees(self.along(count)))
 
     def transmission_at(self, drive: FloatArray) -> FloatArray:
         """The lesser transmission angle of both loops when the driver is at angles (*,).

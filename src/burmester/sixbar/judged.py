@@ -6,6 +6,7 @@ on it as near to each pose as it comes.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple, final
 
 import numpy as np
@@ -85,15 +86,17 @@ class _Verdict(NamedTuple):
     violations: tuple[Violation, ...]
 
 
-def judged_six_bar(linkage: WattLinkage, problem: SynthesisProblem) -> FoundSixBar:
+def judged_six_bar(
+    linkage: WattLinkage, problem: SynthesisProblem, drivers: Sequence[Drive] = DRIVERS
+) -> FoundSixBar:
     """A six-bar on the branch where it works, else on that where it is nearest to the poses.
 
     Of branches on which it works the nearest one; of equally near ones, that with the greater least
     transmission angle, as a search chooses between both drivers.
-    Raises E155 where it cannot be assembled.
+    drivers: the cranks that may drive.  Raises E155 where it cannot be assembled.
     """
     every: list[_Verdict] = []
-    for driver in DRIVERS:
+    for driver in drivers:
         branches = branches_of(linkage, driver)
         if len(branches.low):
             driven = _driven(linkage, branches, driver, problem)

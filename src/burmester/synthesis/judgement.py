@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import Advice, InputError
@@ -14,7 +15,13 @@ from burmester.fourbar.dyad import RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pose_error import PoseError
-from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
+from burmester.linkages.evaluation import (
+    PLACES_AT_ONCE,
+    Candidates,
+    Evaluation,
+    at_given_poses,
+    sizable,
+)
 from burmester.linkages.from_dyads import target_of
 from burmester.linkages.judged_places import best_places
 from burmester.linkages.nearby_linkages import greatest_move, nearby_linkages
@@ -33,7 +40,7 @@ from burmester.verdicts.explanation import hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.wording import count, listed
 
-__all__ = ["exact_note", "judge_linkage"]
+__all__ = ["exact_note", "judge_linkage", "judged_again"]
 
 EXACT_SHARE = 1e-4  # motion sizes; it is said where a pose to be met exactly is missed by more
 
@@ -83,16 +90,16 @@ def _judgement(
     evaluation = Evaluation(problem, target_of(problem))
     given = _found_dyads(both, evaluation)
     step("judging the linkage")
-    found = replace(_judged(given, evaluation), id="L1", rank=1)
+    orders = [given, given[::-1]] if len(task.limits) > 1 else [given]
+    judged = _judged(orders, np.zeros(len(orders), dtype=bool), evaluation)
+    found = replace(judged[best_places(judged)], id="L1", rank=1)
     every = [found]
     if improve and time_for("looking for better linkages near it"):
         near = nearby_linkages(found, evaluation) or _of_family(found, evaluation)
         every += [
             replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(near, start=2)
         ]
-    if _is_open(problem) or task.free_angles.any():  # no pose determines its pivots
-        every = [replace(each, uncertainty=None, determined=True, other_types=()) for each in every]
-    linkages = at_given_poses(evaluation.with_spreads(every), problem)
+    linkages = _told(every, evaluation)
     outcome = _outcome(linkages, problem, improve)
     warnings = (
         *task.notes,
@@ -140,23 +147,52 @@ def _at_all_poses(dyads: Pair, task: Task) -> Pair:
     return out[0], out[1]
 
 
-def _judged(given: Pair, evaluation: Evaluation) -> FoundLinkage:
-    """The linkage on the circuit where it works, else where it is nearest; in the better order."""
-    orders = [given]
-    if len(evaluation.task.limits) > 1:
-        orders.append((given[1], given[0]))
+def _judged(
+    pairs: Sequence[Pair], searched: NDArray[np.bool_], evaluation: Evaluation
+) -> list[FoundLinkage]:
+    """Linkages (k,), each on the circuit where it works, else where it is nearest; in their order.
+
+    searched: (k,), which come from the search for defect-free linkages.
+    """
     found: list[FoundLinkage] = []
-    for pair in orders:
-        own = LinkageBatch.of([Linkage(pair[0].dyad, pair[1].dyad)])
+    at_once = max(1, PLACES_AT_ONCE // evaluation.task.poses.shape[0])
+    for at in range(0, len(pairs), at_once):
+        some = list(pairs[at : at + at_once])
+        own = LinkageBatch.of([Linkage(first.dyad, second.dyad) for first, second in some])
         batch = own.to_canonical(evaluation.target.frames)
-        none = np.zeros(1, dtype=bool)
         rows = evaluation.target.places(batch)
-        candidates = Candidates(batch, rows, [pair], none, own)
-        if evaluation.target.path is not None:
-            found += evaluation.members(candidates)
-        else:
-            found += evaluation.evaluate(candidates)
-    return found[best_places(found)]
+        candidates = Candidates(batch, rows, some, searched[at : at + at_once], own)
+        on_path = evaluation.target.path is not None
+        found += (evaluation.members if on_path else evaluation.evaluated)(candidates)
+    return found
+
+
+def judged_again(
+    problem: SynthesisProblem, pairs: Sequence[Pair], searched: Sequence[bool]
+) -> list[FoundLinkage | None]:
+    """The linkages of an answer judged once more, in their order: as `judge_linkage` does.
+
+    None stands for one whose ground link or coupler has no length.
+    pairs: their dyads, of which each two make a linkage (`require_linkage`); searched: which come
+    from the search for defect-free linkages.
+    """
+    out: list[FoundLinkage | None] = [None] * len(pairs)
+    if pairs:
+        evaluation = Evaluation(problem, target_of(problem))
+        some = np.flatnonzero(sizable(evaluation.stacked(pairs))).tolist()
+        chosen = np.array([searched[k] for k in some], dtype=bool)
+        found = _judged([pairs[k] for k in some], chosen, evaluation)
+        for k, each in zip(some, _told(found, evaluation), strict=True):
+            out[k] = each
+    return out
+
+
+def _told(found: Sequence[FoundLinkage], evaluation: Evaluation) -> tuple[FoundLinkage, ...]:
+    """The linkages with their errors at all poses as given, and with their spreads."""
+    problem = evaluation.problem
+    if _is_open(problem) or problem.given.free_angles.any():  # no pose determines its pivots
+        found = [replace(each, uncertainty=None, determined=True, other_types=()) for each in found]
+    return at_given_poses(evaluation.with_spreads(list(found)), problem)
 
 
 def _of_family(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, final
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, final
 
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice
@@ -63,6 +64,8 @@ class Synthesis:
     points: the solutions that were counted where poses and points determine finitely many.
     causes: where no linkage is sound, the limits that are to blame, each with the least loosening
         that was found to be enough, the least first.
+    search: of a result that was read from its file: what that says of the search, as plain data.
+        `fits`, `points` and `causes` are empty then, as nothing was searched.
     """
 
     problem: SynthesisProblem
@@ -76,6 +79,7 @@ class Synthesis:
     six_bars: SixBars | None = None
     points: PointLinkages | None = None
     causes: tuple[Loosening, ...] = ()
+    search: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def task(self) -> Task:

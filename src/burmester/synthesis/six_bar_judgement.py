@@ -13,7 +13,7 @@ from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
 from burmester.sixbar.search_space import FEWEST, POSES, require_kept
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
-from burmester.sixbar.watt import BARS, LINKS, WattLinkage
+from burmester.sixbar.watt import BARS, LINKS, Drive, WattLinkage
 from burmester.synthesis.judgement import exact_note
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
@@ -24,7 +24,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import above, error_bounds, nearness
 from burmester.wording import figure, listed
 
-__all__ = ["judge_six_bar"]
+__all__ = ["judge_six_bar", "judged_at_poses"]
 
 SAME_JOINT = 1e-6  # sizes of the motion; joints of a link that are nearer to each other are one
 FARTHEST = 1e6  # sizes of the motion; of what is longer rounding takes too many digits
@@ -53,13 +53,25 @@ def judge_six_bar(
             message = "a six-bar is judged at two different poses or more, and here is one"
             raise InputError("E195", message, help="give another pose as well")
         problem = SynthesisProblem.of(task, motion, options)
-        _require_links(linkage, problem)
         step("judging the six-bar")
-        found = judged_six_bar(linkage, problem)
+        found = judged_at_poses(linkage, problem)
         six_bars = SixBars((found,), 0, 1, int(found.usable), SixBarOptions(), (), 0, given=True)
         outcome = _outcome(found, problem)
         judged = Synthesis(problem, outcome, warnings=task.notes, six_bars=six_bars)
         return with_time_limit(judged, watch)
+
+
+def judged_at_poses(
+    linkage: WattLinkage, problem: SynthesisProblem, driver: Drive | None = None
+) -> FoundSixBar:
+    """A six-bar where it works, else where it is nearest; raises E112, E154 and E155.
+
+    driver: the crank that is to drive, where it works so.
+    """
+    _require_links(linkage, problem)
+    if driver is not None and (found := judged_six_bar(linkage, problem, (driver,))).usable:
+        return found
+    return judged_six_bar(linkage, problem)
 
 
 def _require_links(linkage: WattLinkage, problem: SynthesisProblem) -> None:

@@ -44,6 +44,7 @@ MOST_POINTS = 9  # of the body, at any angle, that a linkage can meet exactly
 MOST = 1e60  # beyond it, or all below its inverse, fourth powers leave a double's range
 MOST_TURN = 1e9  # radians; of an angle beyond it few digits say where the body points
 MOST_RATIO = 1e12  # of two weights; beyond it the lighter pose is lost in rounding
+NO_ROTATION = 1e-3  # printed matrices are that near to those of a rotation, entry by entry
 MOST_NAME = 500  # characters of the name of a pose, which messages repeat
 MOST_UNIT = 100  # characters of a unit
 LEAST_POSES = 2  # one pose is met by every linkage
@@ -332,6 +333,7 @@ class Task:
         rows : (N, 3) array_like
             x, y and angle of the body's frame M, seen in F.  Components that `tolerances` leave
             free may be nan: they get a value between their neighbours, to draw the pose with.
+            Or (N, 3, 3), homogeneous matrices of the displacements, which need no unit of angles.
         angle_unit : {"deg", "rad"}
             The unit of the angles; it is never guessed.
         length_unit, limits, requirements, body, surroundings, tolerances
@@ -340,14 +342,17 @@ class Task:
         Raises
         ------
         InputError
-            E110 (no such angle unit) and what `Task` raises.
+            E110 (no such angle unit), E125 (neither rows nor matrices) and what `Task` raises.
         """
-        require_angle_unit(angle_unit)
-        table = real_numbers(rows, (None, 3), "the poses", finite=tolerances is None)
-        if isinstance(tolerances, PoseTolerances) and tolerances.shape == table.shape[:1]:
-            table = _with_nominal_values(table, tolerances, angle_unit)
-        angle = np.radians(table[:, 2]) if angle_unit == "deg" else table[:, 2]
-        poses = Displacement(table[:, :2], angle)
+        if _shape_of(rows)[1:] == (3, 3):
+            poses = _of_matrices(rows, angle_unit)
+        else:
+            require_angle_unit(angle_unit)
+            table = _table_of(rows, finite=tolerances is None)
+            if isinstance(tolerances, PoseTolerances) and tolerances.shape == table.shape[:1]:
+                table = _with_nominal_values(table, tolerances, angle_unit)
+            angle = np.radians(table[:, 2]) if angle_unit == "deg" else table[:, 2]
+            poses = Displacement(table[:, :2], angle)
         return cls(
             poses,
             length_unit=length_unit,
@@ -357,6 +362,50 @@ class Task:
             surroundings=surroundings,
             tolerances=tolerances,
         )
+
+
+def _shape_of(rows: ArrayLike) -> tuple[int, ...]:
+    """The shape of rows; () where they have none."""
+    try:
+        return np.shape(rows)
+    except ValueError:
+        return ()
+
+
+def _table_of(rows: ArrayLike, *, finite: bool) -> FloatArray:
+    """Rows (N, 3) of numbers; an E125 that names the columns for others."""
+    try:
+        return real_numbers(rows, (None, 3), "the poses", finite=finite)
+    except InputError as error:
+        if error.code == "E125" and (shape := _shape_of(rows)):
+            how = "np.column_stack([z.real, z.imag, angle])"
+            if not np.iscomplexobj(rows):
+                how = "np.column_stack([x, y, angle])"
+            if shape[1:] == (4,):
+                how = "np.column_stack([x, y, np.arctan2(sin, cos)]) with radians"
+            error.help = f"give the columns x, y and angle, such as {how}, or matrices (N, 3, 3)"
+        raise
+
+
+def _of_matrices(rows: ArrayLike, angle_unit: object) -> Displacement:
+    """The displacements of homogeneous matrices (N, 3, 3); raises E110, E125."""
+    if angle_unit is not None:
+        raise InputError(
+            "E110",
+            "the angles of matrices need no angle_unit",
+            help="leave angle_unit out, or give rows of x, y and angle",
+        )
+    matrix = real_numbers(rows, (None, 3, 3), "the poses")
+    poses = Displacement.from_matrix(matrix)
+    off = np.abs(matrix - poses.as_matrix()).max(axis=(1, 2)) > NO_ROTATION
+    if off.any():
+        raise InputError(
+            "E125",
+            f"the poses: matrix {int(off.argmax()) + 1} is no displacement of the plane",
+            why=f"it is {matrix[off.argmax()].tolist()}",
+            help="give [[cos, -sin, x], [sin, cos, y], [0, 0, 1]], or rows of x, y and angle",
+        )
+    return poses
 
 
 def require_angle_unit(unit: object) -> None:

@@ -11,6 +11,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.tasks.motion_task import MOST
+from burmester.values import shown
 from burmester.wording import listed
 
 __all__ = ["Method", "Norm", "Preference", "SynthesisOptions"]
@@ -88,7 +89,7 @@ class SynthesisOptions:
             if not isinstance(getattr(self, name), bool | np.bool_):
                 raise InputError(
                     "E134",
-                    f"{name} is {getattr(self, name)!r}, neither True nor False",
+                    f"{name} is {shown(getattr(self, name))}, neither True nor False",
                     help=f"give {name}=True or {name}=False",
                 )
         for name in _LENGTHS:
@@ -117,7 +118,7 @@ def _require_word(name: str, value: object, known: tuple[str, ...]) -> None:
     if not isinstance(value, str) or value not in known:
         raise InputError(
             "E134",
-            f"there is no {name} {value!r}",
+            f"there is no {name} {shown(value)}",
             help=f"choose {listed([repr(each) for each in known], 'or')}",
         )
 
@@ -132,7 +133,7 @@ def _seconds(name: str, value: object) -> float:
     if not _is_above_zero(value):
         raise InputError(
             "E134",
-            f"{name} is {value!r}, not a number of seconds above zero",
+            f"{name} is {shown(value)}, not a number of seconds above zero",
             help="give seconds above zero, such as 2.0, or leave it out",
         )
     return float(value)  # type: ignore[arg-type]
@@ -143,7 +144,7 @@ def _length(name: str, value: object) -> float:
     if not _is_above_zero(value):
         raise InputError(
             "E134",
-            f"{name} is {value!r}, not a length above zero",
+            f"{name} is {shown(value)}, not a length above zero",
             help="give a length above zero, in the unit of the poses, or leave it out",
         )
     if value > MOST:  # type: ignore[operator]

@@ -37,6 +37,7 @@ LEVELS = 16  # levels that are tried, at most
 LEADER_ANGLES = np.radians([45, 135, 60, 120, 75, 105, -45, -135, 20, 160, -20, -160])
 STEEP = 0.26  # sine of the inclination from which text stands beside its line, not above
 SAME_POINT = 1e-6  # of the part's size: distance below which there is nothing to measure
+SAME_REACH = 1e-14  # of the part's size: corners that reach as far up to rounding
 
 Kind = Literal["distance", "length", "width", "diameter"]
 
@@ -206,13 +207,13 @@ class _Layout:
             side = np.zeros(2)
             side[across] = sign
             axis = np.eye(2)[along]
-            # Of two corners that reach as far, the one on the side of the dimension line.
-            nearer = SAME_POINT * (self.corners @ side)
-            ends = [
-                self.corners[int((way * (self.corners @ axis) + nearer).argmax())]
-                + way * self.radius * axis
-                for way in (-1, 1)
-            ]
+            nearer, ends = self.corners @ side, []
+            for way in (-1, 1):
+                # Of two corners that reach as far, the one on the side of the dimension line.
+                reach = way * (self.corners @ axis)
+                as_far = reach >= reach.max() - SAME_REACH * float(np.ptp(self.corners))
+                farthest = self.corners[int(np.where(as_far, nearer, -np.inf).argmax())]
+                ends.append(farthest + way * self.radius * axis)
             first = float((every @ side).max()) + FIRST_LEVEL * self.letters
             yield self._straight(kind, (ends[0], ends[1]), side, first)
 

@@ -1,4 +1,6 @@
-"""DXF (R2010, millimetres): the plates laid out for cutting, and the assembly as a block.
+"""DXF (R2010): the plates laid out for cutting, and the assembly as a block.
+
+In millimetres, or in inches where the task is in inches or feet.
 
 Outlines are closed polylines with exact arcs, holes are circles, slots are closed polylines.
 Dimensions are entities that measure, on the layer DIMENSIONS, which can be switched off.  The block
@@ -28,10 +30,12 @@ from burmester.export.drawings.measured import require_dimensions
 from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
 from burmester.export.drawings.sheet import Sheet, beside, carried, joint_names, notes_on, sheet_of
 from burmester.export.escaping import dxf_text
-from burmester.export.options import Options
+from burmester.export.numbers import error_within
+from burmester.export.options import MILLIMETRES, Options
 from burmester.export.parts.holes import joints_of
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import Assembly, Plate, assembly_of, slot_outline
+from burmester.export.parts.stock import stock_for
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
@@ -42,8 +46,8 @@ __all__ = ["check", "write"]
 
 ezdxf: Any = import_module("ezdxf")
 
-TOLERANCE_MM = 1e-6  # largest deviation of what is read back
-MILLIMETRES_CODE = 4  # the code of millimetres in DXF
+DIGITS = 15  # of each number, those that survive arithmetic; the file has them all
+CODES = {"mm": 4, "in": 1}  # of units of length in DXF
 LINK_COLOURS = {  # by the index of AutoCAD
     "ground": 8,
     "driver": 1,
@@ -72,37 +76,59 @@ def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
     assembly = assembly_of(chosen, options)
     reference = reference_of(chosen, options)
     outlines = Outlines.of(chosen.task, reference)
-    notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
+    unit = _unit_of(assembly)
+    notes = description(chosen, options, unit) + dimension_notes(chosen, options, unit)
     notes += notes_on(assembly)
     sheet = sheet_of(
         assembly,
         reference.poses,
         len(notes),
-        length_decimals(chosen, options),
+        length_decimals(chosen, options, unit),
         options.dimensions,
         outlines=outlines,
+        unit=unit,
     )
     fixed = ezdxf.options.write_fixed_meta_data_for_testing
     try:
         ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates and no random numbers
-        document = ezdxf.new("R2010", units=MILLIMETRES_CODE)
-        document.header["$MEASUREMENT"] = 1
-        document.header["$INSUNITS"] = MILLIMETRES_CODE
-        document.header["$EXTMIN"] = (*sheet.low.tolist(), 0.0)
-        document.header["$EXTMAX"] = (*sheet.high.tolist(), 0.0)
+        document = ezdxf.new("R2010", units=CODES[unit])
+        document.header["$MEASUREMENT"] = int(unit == "mm")
+        document.header["$INSUNITS"] = CODES[unit]
+        size = MILLIMETRES[unit]
+        low, high = sheet.low / size, sheet.high / size
+        corners = ((*each.tolist(), 0.0) for each in (low, high))
+        document.modelspace().reset_extents(*corners)
         owners = dict.fromkeys(each.owner for each in assembly.plates)
         links = {_layer(each): LINK_COLOURS[each] for each in owners}
         for name, colour in (links | LAYERS).items():
             document.layers.add(name, color=colour)
-        add_style(document, sheet)
+        add_style(document, sheet, size)
         _draw(document, assembly, sheet, reference.poses, notes)
         _draw_outlines(document.modelspace(), outlines, sheet.letters)
-        middle, size = (sheet.low + sheet.high) / 2, sheet.high - sheet.low
-        document.set_modelspace_vport(float(size.max()), center=tuple(middle.tolist()))
+        _scale(document, 1 / size)
+        middle, tall = (low + high) / 2, float((high - low).max())
+        document.set_modelspace_vport(tall, center=tuple(middle.tolist()))
         _order_classes(document)
         document.saveas(path)
     finally:
         ezdxf.options.write_fixed_meta_data_for_testing = fixed
+
+
+def _unit_of(assembly: Assembly) -> str:
+    """The unit of the drawing."""
+    return "in" if stock_for(assembly.unit).inches else "mm"
+
+
+def _scale(document: Any, scale: float) -> None:
+    """Make all that is drawn larger, what dimensions measure included."""
+    if scale == 1.0:
+        return
+    matrix = ezdxf.math.Matrix44.scale(scale)
+    for entity in (*document.modelspace(), *document.blocks.get("ASSEMBLY")):
+        if entity.dxftype() != "INSERT":  # whose block is made larger
+            entity.transform(matrix)
+        if entity.dxftype() == "DIMENSION":
+            entity.dxf.actual_measurement *= scale
 
 
 def _layer(link: str) -> str:
@@ -214,7 +240,11 @@ def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
             why="; ".join(faults[:3]),
             help="this is a fault of burmester: report it, with the result file",
         )
-    require_equal("the unit of the drawing", document.header["$INSUNITS"], MILLIMETRES_CODE, 0)
+    unit = _unit_of(assembly)
+    require_equal("the unit of the drawing", document.header["$INSUNITS"], CODES[unit], 0)
+    _scale(document, MILLIMETRES[unit])
+    every = np.concatenate([_rows(each) for each in document.modelspace().query("LWPOLYLINE")])
+    tolerance = error_within(DIGITS, float(np.abs(every).max()))
     # The assembly holds a hole or a slot's middle line where the dyads have their pivots.
     block = document.blocks.get("ASSEMBLY")
     assert block is not None
@@ -227,32 +257,34 @@ def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> N
     for name, pivot in expected:
         gap = np.linalg.norm(circles - pivot, axis=1)
         what = f"a pivot of the {name} in the assembly"
-        require_equal(what, gap.min(initial=np.inf), 0, TOLERANCE_MM)
+        require_equal(what, gap.min(initial=np.inf), 0, tolerance)
     for point in circles:
         gap = min(float(np.linalg.norm(point - each)) for _, each in expected)
-        require_equal("a hole in the assembly", gap, 0, TOLERANCE_MM)
+        require_equal("a hole in the assembly", gap, 0, tolerance)
     drawn = iter(block.query("LWPOLYLINE"))
     for plate in assembly.plates:
         outline, _, slots, _ = moved(plate, plate.at(assembly.drawn))
         for rows in (outline, *map(slot_outline, slots)):
-            require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, TOLERANCE_MM)
-    placed = _check_plates(document, assembly)
+            require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, tolerance)
+    placed = _check_plates(document, assembly, tolerance)
     if options.dimensions:
-        require_dimensions(placed, measured_in(document, TOLERANCE_MM), TOLERANCE_MM)
+        require_dimensions(placed, measured_in(document, tolerance), tolerance, unit)
     body, regions = (
         [_rows(each) for each in document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')]
         for layer in ("BODY", "KEEP_OUT")
     )
-    require_outlines(Outlines.of(chosen.task, reference), body, regions, TOLERANCE_MM)
+    require_outlines(Outlines.of(chosen.task, reference), body, regions, tolerance)
     axes = document.modelspace().query('LINE[layer=="POSES"]')
     starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
-    require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), TOLERANCE_MM)
+    require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), tolerance)
     ends = np.array([tuple(each.dxf.end)[:2] for each in axes])[::2] - starts[::2]
     turned = np.exp(1j * (np.arctan2(ends[:, 1], ends[:, 0]) - poses.angle))
     require_equal("the angles of the poses", np.abs(turned - 1), np.zeros(len(turned)), 1e-6)
 
 
-def _check_plates(document: Any, assembly: Assembly) -> list[tuple[Plate, Displacement]]:
+def _check_plates(
+    document: Any, assembly: Assembly, tolerance: float
+) -> list[tuple[Plate, Displacement]]:
     """The plates laid out, by what lies within their outlines, and where they lie."""
     space = document.modelspace()
     outlines = {
@@ -274,19 +306,17 @@ def _check_plates(document: Any, assembly: Assembly) -> list[tuple[Plate, Displa
         rows = _rows(own)
         placed.append((plate, carried(plate, rows)))
         outline, holes, wanted, _ = moved(*placed[-1])
-        require_equal(f"the outline of {plate.name}", rows, outline, TOLERANCE_MM)
+        require_equal(f"the outline of {plate.name}", rows, outline, tolerance)
         if len(holes):
             gaps = np.abs(circles[:, None] - holes).max(axis=-1).min(axis=0)
-            require_equal(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), TOLERANCE_MM)
+            require_equal(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), tolerance)
         for slot in wanted:
             gaps_of = [
                 float(np.abs(each - slot_outline(slot)).max())
                 for each in map(_rows, slots)
                 if each.shape == slot_outline(slot).shape
             ]
-            require_equal(
-                f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, TOLERANCE_MM
-            )
+            require_equal(f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, tolerance)
     return placed
 
 

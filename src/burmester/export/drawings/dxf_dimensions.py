@@ -21,15 +21,18 @@ DIMENSION_STYLE = "BURMESTER"
 DIAMETER_TYPE = 3  # of dimension entities
 
 
-def add_style(document: Any, sheet: Sheet) -> None:
-    """The style of dimensions: the letters and decimals of the sheet, closed arrows."""
-    style = document.dimstyles.new(DIMENSION_STYLE)
+def add_style(document: Any, sheet: Sheet, unit: float) -> None:
+    """The style of dimensions: the letters and decimals of the sheet, closed arrows.
+
+    unit: of the drawing, in millimetres.
+    """
+    style, letters = document.dimstyles.new(DIMENSION_STYLE), sheet.letters / unit
     for key, value in {
-        "dimtxt": sheet.letters,
-        "dimasz": 0.8 * sheet.letters,
+        "dimtxt": letters,
+        "dimasz": 0.8 * letters,
         "dimexo": 0,
-        "dimexe": 0.5 * sheet.letters,
-        "dimgap": 0.35 * sheet.letters,
+        "dimexe": 0.5 * letters,
+        "dimgap": 0.35 * letters,
         "dimdec": sheet.decimals,
         "dimzin": 8,  # no zeros behind
         "dimtad": 1,  # text above its line

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from burmester.export.options import MILLIMETRES
 from burmester.export.parts.plate import Plate, moved
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
@@ -33,13 +34,16 @@ class Measured(NamedTuple):
 
 
 def require_dimensions(
-    placed: Iterable[tuple[Plate, Displacement]], read: Sequence[Measured], tolerance: float
+    placed: Iterable[tuple[Plate, Displacement]],
+    read: Sequence[Measured],
+    tolerance: float,
+    unit: str = "mm",
 ) -> None:
     """Compare dimension lines with plates and their places on the sheet; raises E160.
 
     Every two holes of a plate have their distance, every hole its diameter, every plate its length
     and its width; and there is no dimension line but of these, of ends of slots and of marks.  Text
-    is the value, rounded.
+    is the value in the unit, rounded.
     """
     lengths = [each for each in read if not each.diameter]
     diameters = [each for each in read if each.diameter]
@@ -72,7 +76,8 @@ def require_dimensions(
         require_equal("what a dimension line measures", gap, 0, tolerance)
         shown = each.text.partition(" [")[0].removeprefix("Ø")
         half = 0.5 * 10.0 ** -len(shown.partition(".")[2])
-        require_equal(f"the text {each.text}", float(shown), each.value, half * (1 + 1e-6))
+        value = each.value / MILLIMETRES[unit]
+        require_equal(f"the text {each.text}", float(shown), value, half * (1 + 1e-6))
 
 
 def require_drawn(lines: FloatArray, ends: FloatArray, diameter: bool, tolerance: float) -> None:

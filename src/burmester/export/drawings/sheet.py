@@ -15,6 +15,7 @@ import numpy as np
 from burmester.describe.decimals import figures_of
 from burmester.export.drawings.dimension_lines import LETTER_WIDTH, DimensionLine, dimension_lines
 from burmester.export.drawings.outlines import Outlines
+from burmester.export.options import MILLIMETRES
 from burmester.export.parts.plates import Assembly, Plate, outline_points
 from burmester.export.parts.stock import INCH, stock_for
 from burmester.geometry.displacement import Displacement
@@ -80,19 +81,19 @@ class Sheet:
 
 
 def laid_lengthwise(
-    assembly: Assembly, letters: float, decimals: int, dimensions: bool
+    assembly: Assembly, letters: float, decimals: int, dimensions: bool, unit: str = "mm"
 ) -> list[Laid]:
     """The plates of an assembly, each turned by 90° at most, so that its longest way is level.
 
-    letters: height of text; decimals: of lengths in mm; dimensions: whether they have dimension
-    lines.
+    letters: height of text; dimensions: whether they have dimension lines; unit: of the lengths
+    that these tell, with so many decimals.
     """
-    decimals = shown_decimals(decimals, letters)
+    decimals = shown_decimals(decimals, letters, unit)
     stock = stock_for(assembly.unit)
 
     def text(length: float) -> str:
-        shown = _plain(length, decimals)
-        if not stock.inches:
+        shown = _plain(length / MILLIMETRES[unit], decimals)
+        if not stock.inches or (unit == "in" and not stock.has(length)):
             return shown
         own = f"{_plain(length / INCH, decimals + 1)} in"
         return f"{shown} [{stock.name(length) if stock.has(length) else own}]"
@@ -114,9 +115,9 @@ def laid_lengthwise(
     return laid
 
 
-def shown_decimals(decimals: int, letters: float) -> int:
+def shown_decimals(decimals: int, letters: float, unit: str = "mm") -> int:
     """The decimals of dimension lines: those that keep the linkage's error, or a workshop's."""
-    return min(decimals, figures_of(FINEST * letters))
+    return min(decimals, figures_of(FINEST * letters / MILLIMETRES[unit]))
 
 
 def _plain(value: float, decimals: int) -> str:
@@ -132,10 +133,11 @@ def sheet_of(
     dimensions: bool = True,
     *,
     outlines: Outlines | None = None,
+    unit: str = "mm",
 ) -> Sheet:
     """The layout of an assembly, poses (N,) in millimetres, and a number of lines of notes.
 
-    outlines: what else is drawn about the assembly.
+    outlines: what else is drawn about the assembly; unit: of the lengths in dimension lines.
     """
     width = assembly.dimensions.width
     between, letters, axes = PLATE_SPACING * width, LETTER_HEIGHT * width, 0.8 * width
@@ -150,7 +152,7 @@ def sheet_of(
     both = np.concatenate(points)
     low, high = both.min(axis=0), both.max(axis=0)
     high[0] += 2 * letters  # a pose's number stands to the right of it
-    laid = laid_lengthwise(assembly, letters, decimals, dimensions)
+    laid = laid_lengthwise(assembly, letters, decimals, dimensions, unit)
     widest = max(*(float(each.high[0] - each.low[0]) for each in laid), float(high[0] - low[0]))
     x, y, row = float(low[0]), float(low[1]) - 2 * between, 0.0
     start, right = x, float(high[0])
@@ -180,7 +182,7 @@ def sheet_of(
         letters,
         axes,
         bottom,
-        shown_decimals(decimals, letters),
+        shown_decimals(decimals, letters, unit),
     )
 
 

@@ -27,11 +27,12 @@ from burmester.export.drawings.measured import Measured, require_dimensions, req
 from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
 from burmester.export.drawings.sheet import beside, carried, joint_names, notes_on, sheet_of
 from burmester.export.escaping import xml_text
+from burmester.export.numbers import error_within
 from burmester.export.options import Options
 from burmester.export.parts.holes import joints_of
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import Plate, assembly_of, slot_outline
-from burmester.export.reference import PRECISION, require_equal
+from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.io.saved_six_bars import SavedSixBar
@@ -39,6 +40,7 @@ from burmester.numerics.arrays import FloatArray
 
 __all__ = ["check", "write"]
 
+DIGITS = 15  # of each number
 LINE_WIDTH_MM = 0.1  # at most, and no more than a share of the link width
 OF_WIDTH = 0.02
 FONT_MIDDLE = 0.36  # of a font's size: middle of its capitals above the base line
@@ -212,19 +214,20 @@ def _text(text: str, at: FloatArray, more: str = "") -> str:
 
 
 def _n(value: float) -> str:
-    return f"{float(value) + 0.0:.15g}"
+    return f"{float(value) + 0.0:.{DIGITS}g}"
 
 
 def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
     """Read the drawing back by its XML and compare it; raises E160."""
     reference = reference_of(chosen, options)
     assembly = assembly_of(chosen, options)
-    tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     groups = {each.get("id"): each for each in root.iter() if each.get("id")}
     wide, _, _ = (root.get("width") or "").partition("mm")
     box = [float(part) for part in (root.get("viewBox") or "").split()]
     require_equal("millimetres per unit of the drawing", float(wide) / box[2], 1, 1e-12)
+    drawn = np.concatenate([path for each in groups.values() for path in _paths(each)])
+    tolerance = error_within(DIGITS, float(np.abs(drawn).max()))
     for joint in joints_of(reference, assembly, options.pose):
         if joint.point is not None:
             holes = [each for name in joint.plates for each in _holes(groups[f"placed-{name}"])]

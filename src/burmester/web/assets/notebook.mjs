@@ -517,10 +517,9 @@ ll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { wh
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
-2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}function ticks(low,high,about){
-const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999);const digits=Math.
-max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,
-digits)})}return marks}function listed(words){if(words.length<2)return words.join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){
+2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));const step=[1,2,5,10].map(k=>k*power).find(
+each=>each>=rough*.999);const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=
+1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function listed(words){if(words.length<2)return words.join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){
 const parts=[];for(let k=0;k<numbers.length;){let end=k;while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-
 1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}var SVG="http://www.w3.org/2000/svg";function furnish(node,attributes,children){for(const[name,value]of Object.entries(attributes??{})){if(value===null||value===
 void 0||value===false)continue;if(name.startsWith("on"))node.addEventListener(name.slice(2),value);else node.setAttribute(name,value===true?"":value)}node.append(

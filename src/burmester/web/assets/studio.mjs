@@ -74,14 +74,15 @@ and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveW
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
-2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}function ticks(low,high,about){
-const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999);const digits=Math.
-max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,
-digits)})}return marks}function angleTicks(low,high,about){const step=[5,10,15,30,45,60,90,180].find(each=>(high-low)/each<=about)??360;const marks=[];for(let k=Math.
-ceil(low/step-1e-9);k*step<=high+1e-6;k+=1){marks.push({at:k*step,text:`${fixed(k*step,0)}°`})}return marks.length>1?marks:ticks(low,high,about).map(t=>({...t,
-text:`${t.text}°`}))}function listed(words){if(words.length<2)return words.join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){
-const parts=[];for(let k=0;k<numbers.length;){let end=k;while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-
-1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
+2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}var spans=extent=>`${figure(
+extent)} span${figure(extent)==="1"?"":"s"}`;function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));
+const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999);const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(
+low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function angleTicks(low,high,about){const step=[5,10,
+15,30,45,60,90,180].find(each=>(high-low)/each<=about)??360;const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+1e-6;k+=1){marks.push({at:k*step,text:`${fixed(
+k*step,0)}°`})}return marks.length>1?marks:ticks(low,high,about).map(t=>({...t,text:`${t.text}°`}))}function listed(words){if(words.length<2)return words.join(
+"");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){const parts=[];for(let k=0;k<numbers.length;){let end=k;while(end+
+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=end;i+=
+1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
 a),d=Math.sin(place.a);return[c*(x-place.x)+d*(y-place.y),-d*(x-place.x)+c*(y-place.y)]}var normalOf=dyad=>{const angle=radians(dyad.line.normal_deg);return[Math.
 cos(angle),Math.sin(angle)]};function constraint(dyad,place){if(dyad.kind==="PP"){const away=place.a-radians(dyad.angle_deg);return[away-2*Math.PI*Math.round(away/
 (2*Math.PI)),0,0,1]}if(dyad.kind==="RP"){const[nx2,ny2]=normalOf(dyad);const c=Math.cos(place.a),d=Math.sin(place.a);const tx=c*nx2-d*ny2,ty=d*nx2+c*ny2;const ax=dyad.
@@ -171,38 +172,39 @@ null},head.name??head)))),h("tbody",{},rows)))}function longTable(caption,heads,
 others=rows.slice(MOST_ROWS);if(!others.length)return first;return h("div",{class:"bm-long"},first,h("details",{class:"bm-every"},h("summary",{},`${others.length}\
  more`),table(`${caption}, from ${MOST_ROWS+1}`,heads,others,attributes)))}var cells=(values,words=[],heads=[])=>values.map((value,k)=>k===0?h("th",{scope:"row"},
 value):h("td",{class:classes(words.includes(k)&&"bm-words",(value??NONE)===NONE&&"bm-none"),"data-head":heads[k]?.name??heads[k]},value??NONE));var classes=(...names)=>names.
-filter(Boolean).join(" ")||null;var unitOf=data=>data.unit?` (${data.unit})`:"";var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName2=pose=>pose.
-label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var isPoint2=pose=>pose.angle_deg===null;var nounOf=({poses})=>poses.length&&poses.every(isPoint2)?"po\
-int":"pose";var isNamed=({path:path2,poses},k)=>!path2||poses.length<=MOST_NAMES||k===0||(k+1)%NAME_STEP===0;var calledOf=pose=>`${isPoint2(pose)?"point":"pose"}\
- ${poseName2(pose)}`;var shortened=(text,most)=>text.length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position===
-"-")return"–";const[away,...share]=position.split(" (");const length=[away==="exact"?away:`${away}${unit2}`,...share].join(" (");return angle==="free"||position===
-"exact"&&angle==="exact"?length:`${length} and ${angle}`}function verdictOf(linkage){return linkage.usable?"✓ usable":"✕ not usable"}function dyadTable(data){
-const misses=data.poses.some(isPoint2)?[]:["rms miss","worst miss"];const heads=["",{name:"kind",text:true},"on the ground (F)","on the body (M)",`length${unitOf(
-data)}`,...misses];const rows=data.dyads.map(dyad=>h("tr",{},cells([dyad.id,dyad.kind,dyad.said.ground,dyad.said.body,dyad.said.length,...misses.length?[dyad.said.
-rms,dyad.said.worst]:[]],[1],heads)));return longTable(data.dyads_title,heads,rows,{class:"bm-stacks"})}function linkageTable(data){const names=["ground","drive\
-r","coupler","follower"];const heads=["",{name:"verdict",text:true},{name:"type",text:true},{name:"dyads",text:true},{name:"driver",text:true},...names.map(name=>`${name}\
- link`),"worst miss",...nounOf(data)==="point"?[]:["worst angle"],"least transm.","extent","sens.",{name:"why not",text:true}];const rows=data.linkages.map(each=>h(
-"tr",{},cells([each.id,verdictOf(each),each.type,each.dyads.map(dyad=>dyad.id).join(" "),each.led[0].id,...names.map(name=>each.said.links?.[name]??"–"),each.
-said.worst,...nounOf(data)==="point"?[]:[each.said.angle],each.said.transmission,each.said.quality.extent?.split(" ")[0]??"–",each.said.quality.sensitivity??"\
-–",each.said.reasons.join("; ")||"–"],[1,2,3,4,heads.length-1],heads)));return longTable(`All linkages${unitOf(data)}`,heads,rows,{class:"bm-linkages bm-sta\
-cks"})}function dimensionRows(linkage){const uncertain=linkage.said.dimensions.some(row=>row.give);let last=null;return linkage.said.dimensions.map(row=>{const name=row.
-dyad===last?"":row.dyad;last=row.dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{},h("th",{scope:"row",class:name?`bm-side${side}`:
-null},name),h("td",{class:"bm-words"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){return table(`D\
-imensions of ${linkage.id}${data.unit?`, in ${data.unit}`:""}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],
-dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data),noun=nounOf(data),turned=noun!==
-"point";const ifTurned=value=>turned?[value]:[];const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];if(linkage)heads.push("coupler x",`y${unit2}`,"an\
-gle","off by",...ifTurned("turned by"),"transm.",{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exa\
-ct)":""),fixed(pose.x,digits),fixed(pose.y,digits),...ifTurned(isPoint2(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];
-values.push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,...ifTurned(row.said.turned),row.
-said.transmission,row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,[heads.length-1]))});const what=turned?
-"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.poses.some(pose=>pose.label!==pose.name)?"bm\
--pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.filter(pose=>!isPoint2(pose)).map(
-pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];return h("t\
-r",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image points of the poses${unitOf(data)}, Z3² + Z4²\
- = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.said.manifolds[k]])));
-const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + \
-p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];
-if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
+filter(Boolean).join(" ")||null;var UNIT_NAMES={in:"inches",ft:"feet"};var inUnit=data=>data.unit?`, in ${UNIT_NAMES[data.unit]??data.unit}`:"";var unitOf=data=>data.
+unit?` (${data.unit})`:"";var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName2=pose=>pose.label===pose.name?pose.name:`${pose.label}\
+: ${pose.name}`;var isPoint2=pose=>pose.angle_deg===null;var nounOf=({poses})=>poses.length&&poses.every(isPoint2)?"point":"pose";var isNamed=({path:path2,poses},k)=>!path2||
+poses.length<=MOST_NAMES||k===0||(k+1)%NAME_STEP===0;var calledOf=pose=>`${isPoint2(pose)?"point":"pose"} ${poseName2(pose)}`;var shortened=(text,most)=>text.length>
+most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position==="-")return"–";const[away,...share]=position.split(" (");const length=[
+away==="exact"?away:`${away}${unit2}`,...share].join(" (");return angle==="free"||position==="exact"&&angle==="exact"?length:`${length} and ${angle}`}function verdictOf(linkage){
+return linkage.usable?"✓ usable":"✕ not usable"}function dyadTable(data){const misses=data.poses.some(isPoint2)?[]:["rms miss","worst miss"];const heads=["",
+{name:"kind",text:true},"on the ground (F)","on the body (M)",`length${unitOf(data)}`,...misses];const rows=data.dyads.map(dyad=>h("tr",{},cells([dyad.id,dyad.kind,
+dyad.said.ground,dyad.said.body,dyad.said.length,...misses.length?[dyad.said.rms,dyad.said.worst]:[]],[1],heads)));return longTable(data.dyads_title,heads,rows,
+{class:"bm-stacks"})}function linkageTable(data){const names=["ground","driver","coupler","follower"];const heads=["",{name:"verdict",text:true},{name:"type",text:true},
+{name:"dyads",text:true},{name:"driver",text:true},...names.map(name=>`${name} link`),"worst miss",...nounOf(data)==="point"?[]:["worst angle"],"least transm.",
+"extent","sens.",{name:"why not",text:true}];const rows=data.linkages.map(each=>h("tr",{},cells([each.id,verdictOf(each),each.type,each.dyads.map(dyad=>dyad.id).
+join(" "),each.led[0].id,...names.map(name=>each.said.links?.[name]??"–"),each.said.worst,...nounOf(data)==="point"?[]:[each.said.angle],each.said.transmission,
+each.said.quality.extent?.split(" ")[0]??"–",each.said.quality.sensitivity??"–",each.said.reasons.join("; ")||"–"],[1,2,3,4,heads.length-1],heads)));return longTable(
+`All linkages${unitOf(data)}`,heads,rows,{class:"bm-linkages bm-stacks"})}function dimensionRows(linkage){const uncertain=linkage.said.dimensions.some(row=>row.
+give);let last=null;return linkage.said.dimensions.map(row=>{const name=row.dyad===last?"":row.dyad;last=row.dyad;const side=linkage.led.findIndex(dyad=>dyad.id===
+row.dyad);return h("tr",{},h("th",{scope:"row",class:name?`bm-side${side}`:null},name),h("td",{class:"bm-words"},row.what),h("td",{},row.value),uncertain?h("td",
+{},row.give):null)})}function dimensionTable(data,linkage){return table(`Dimensions of ${linkage.id}${inUnit(data)}`,["",{name:"",text:true},"value",...linkage.
+said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),
+unit2=unitOf(data),noun=nounOf(data),turned=noun!=="point";const ifTurned=value=>turned?[value]:[];const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];
+if(linkage)heads.push("coupler x",`y${unit2}`,"angle","off by",...ifTurned("turned by"),"transm.",{name:"where",text:true});const rows=data.poses.map((pose,k)=>{
+const values=[poseName2(pose)+(pose.exact?" (exact)":""),fixed(pose.x,digits),fixed(pose.y,digits),...ifTurned(isPoint2(pose)?"free":`${fixed(pose.angle_deg,2)}\
+°`)];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,
+row.said.position,...ifTurned(row.said.turned),row.said.transmission,row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},
+cells(values,[heads.length-1]))});const what=turned?"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.
+poses.some(pose=>pose.label!==pose.name)?"bm-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.
+poses.filter(pose=>!isPoint2(pose)).map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/
+2,(pose.x*c+pose.y*d)/2,d,c];return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image point\
+s of the poses${unitOf(data)}, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",
+{},cells([dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z\
+1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(
+linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`bran\
+ch ${way.branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
 x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
 poses.flatMap((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return isPoint2(at)?[]:[{x:at.x,y:at.y,a:radians(at.angle_deg),k}]});function ghosts(data,linkage,view){
 const group=s("g",{class:"bm-ghosts"});if(!data.body)return group;const last=Math.max(1,data.poses.length-1);for(const{x,y,a,k}of placesAtPoses(data,linkage)){const opacity=(PALEST+
@@ -982,8 +984,8 @@ sign(step)*last;const u=a.frame+stage.share*step;return{way:a.way,u:way.round?(u
 values[0]<values[1]?0:1:null;const row=(name,text,value,sign=1)=>({name,texts:both.map(text),better:value?least2(both.map(each=>sign*(value(each)??NaN))):null});
 const links=["ground","driver","coupler","follower"];return[row("verdict",each=>each.gone?"gone":each.usable?"usable":"not usable",each=>each.usable?0:1),row("t\
 ype",each=>each.type),row("worst miss",each=>worstOf(each,data),each=>each.worst),row("least transmission angle",each=>leastOf(each),each=>each.least,-1),row("s\
-ize",each=>each.quality?`${figure(each.quality.extent)} spans`:"–",each=>each.quality?.extent),row("sensitivity",each=>each.quality?figure(each.quality.sensitivity):
-"–",each=>each.quality?.sensitivity),row("driver",each=>each.led[0].id),...links.map(name=>row(`${name} link`,each=>each.said.links?.[name]?`${each.said.links[name]}${unit2}`:
+ize",each=>each.quality?spans(each.quality.extent):"–",each=>each.quality?.extent),row("sensitivity",each=>each.quality?figure(each.quality.sensitivity):"–",
+each=>each.quality?.sensitivity),row("driver",each=>each.led[0].id),...links.map(name=>row(`${name} link`,each=>each.said.links?.[name]?`${each.said.links[name]}${unit2}`:
 "–")),row("reason",each=>each.usable?"–":(each.followed?each.reason:each.said.reasons.join("; "))||"–")]}var Compare=class{constructor(store,answers,playing){
 Object.assign(this,{store,answers,playing});this.pictures=[0,1].map(()=>h("div",{class:"bm-drawing"}));this.planes=this.pictures.map(parent=>new Plane(answers.data,
 parent));this.names=[0,1].map(()=>h("h3",{}));this.places=[0,1].map(()=>h("p",{class:"bs-quiet"}));this.table=h("div",{class:"bm-scroll",tabindex:0,role:"region",
@@ -1059,14 +1061,14 @@ id===PLACED?"the linkage by hand":linkage.id}),factsOf(data,linkage)])}part("Pos
 curves?.points??[];part("Instant centre and picked points",false,table2("At each pose, in F",["pose","instant centre",...points.map((each,k)=>`point ${k+1}`)],poseFacts(
 linkage,data,points)))}if(this.store.placed)part("Pivots put down by hand",false,this.placedTable());if(data.linkages.length)part("All linkages",isOld,this.linkages());
 if(data.dyads.length)part("Dyads",isOld,dyadTable(data));if(linkage&&!linkage.followed&&linkage.said.manifolds?.[0].length&&!playing.isOther)part("Image space",
-isOld,imageTables(data,linkage));this.element.replaceChildren(...parts)}followedFacts(linkage){const{data}=this.answers;return[table2(`Dimensions of ${linkage.id}${data.
-unit?`, in ${data.unit}`:""}`,["","","value"],dimensionsOf(linkage,data).map(({dyad,what,value})=>[dyad,what,value])),table2("Verdict",["","value"],[["verdict",
-linkage.gone??(linkage.usable?"usable":`not usable: ${linkage.reason??linkage.said.reasons.join("; ")}`)],["worst miss",worstOf(linkage,data)],["least transmiss\
-ion angle",leastOf(linkage)],["driver",linkage.led[0].id]])]}linkages(){const{answers}=this,{data}=answers;if(!answers.linkages.some(each=>each.followed))return linkageTable(
-data);return table2("All linkages, followed",["","verdict","type","worst miss","least transmission"],answers.linkages.map(each=>[each.id,each.gone?"gone":each.usable?
-"usable":"not usable",each.type,worstOf(each,data),leastOf(each)]))}placedTable(){const{placed}=this.store,unit2=this.answers.data.unit?`, in ${this.answers.data.
-unit}`:"";return table2(`Their dyads${unit2}`,["","on the ground (F)","on the body (M)","length","rms miss","worst miss"],placed.dyads.map(dyad=>[dyad.id,dyad.said.
-ground,dyad.said.body,dyad.said.length,dyad.said.rms,dyad.said.worst]))}};var CLASSES=7;var OUTSIDE2=2;var FamilyPairs=class{constructor(data){this.data=data;this.map=data.family_map;this.isCurve=this.map.kind==="curve";this.columns=this.isCurve?this.map.fixed.length:
+isOld,imageTables(data,linkage));this.element.replaceChildren(...parts)}followedFacts(linkage){const{data}=this.answers;return[table2(`Dimensions of ${linkage.id}${inUnit(
+data)}`,["","","value"],dimensionsOf(linkage,data).map(({dyad,what,value})=>[dyad,what,value])),table2("Verdict",["","value"],[["verdict",linkage.gone??(linkage.
+usable?"usable":`not usable: ${linkage.reason??linkage.said.reasons.join("; ")}`)],["worst miss",worstOf(linkage,data)],["least transmission angle",leastOf(linkage)],
+["driver",linkage.led[0].id]])]}linkages(){const{answers}=this,{data}=answers;if(!answers.linkages.some(each=>each.followed))return linkageTable(data);return table2(
+"All linkages, followed",["","verdict","type","worst miss","least transmission"],answers.linkages.map(each=>[each.id,each.gone?"gone":each.usable?"usable":"not \
+usable",each.type,worstOf(each,data),leastOf(each)]))}placedTable(){const{placed}=this.store,unit2=inUnit(this.answers.data);return table2(`Their dyads${unit2}`,
+["","on the ground (F)","on the body (M)","length","rms miss","worst miss"],placed.dyads.map(dyad=>[dyad.id,dyad.said.ground,dyad.said.body,dyad.said.length,dyad.
+said.rms,dyad.said.worst]))}};var CLASSES=7;var OUTSIDE2=2;var FamilyPairs=class{constructor(data){this.data=data;this.map=data.family_map;this.isCurve=this.map.kind==="curve";this.columns=this.isCurve?this.map.fixed.length:
 this.map.columns;this.rows=this.isCurve?this.columns:this.map.rows;this.starts=[];(this.map.loops??[]).reduce((start,size2)=>(this.starts.push(start),start+size2),
 0)}letter(loop){return this.starts.length>1?`${"ABCDEFGH"[loop]} `:""}pair([i,j]){const{cells:cells2}=this.map;if(!this.isCurve)return this.decoded(cells2[j*this.
 columns+i]);if(i===j)return{kind:CLASSES-1,driver:0,degrees:0};const[a,b]=[Math.min(i,j),Math.max(i,j)],n=this.columns;const pair=this.decoded(cells2[a*n-a*(a+1)/

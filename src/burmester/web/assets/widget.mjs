@@ -111,6 +111,8 @@ var cells = (values, words = [], heads = []) => values.map(
   (value, k) => k === 0 ? h("th", { scope: "row" }, value) : h("td", { class: classes(words.includes(k) && "bm-words", (value ?? NONE) === NONE && "bm-none"), "data-head": heads[k]?.name ?? heads[k] }, value ?? NONE)
 );
 var classes = (...names) => names.filter(Boolean).join(" ") || null;
+var UNIT_NAMES = { in: "inches", ft: "feet" };
+var inUnit = (data) => data.unit ? `, in ${UNIT_NAMES[data.unit] ?? data.unit}` : "";
 var unitOf = (data) => data.unit ? ` (${data.unit})` : "";
 var decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)), 0, 12);
 var poseName = (pose) => pose.label === pose.name ? pose.name : `${pose.label}: ${pose.name}`;
@@ -197,7 +199,7 @@ function dimensionRows(linkage) {
 }
 function dimensionTable(data, linkage) {
   return table(
-    `Dimensions of ${linkage.id}${data.unit ? `, in ${data.unit}` : ""}`,
+    `Dimensions of ${linkage.id}${inUnit(data)}`,
     ["", { name: "", text: true }, "value", ...linkage.said.dimensions.some((row) => row.give) ? ["± (95 %)"] : []],
     dimensionRows(linkage),
     { class: "bm-dimensions" }
@@ -3667,10 +3669,10 @@ function sixBarTable(data) {
 var lines = (parts) => parts.map((part) => h("span", { class: "bm-line-of" }, part));
 function sixBarDimensions(data, { id, said }) {
   const rows = said.dimensions.map(([link, ...joints]) => h("tr", {}, cells([link, lines(joints.filter(Boolean))])));
-  return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
+  return table(`Dimensions of ${id}${inUnit(data)}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
 }
 function sixBarDistances(data, { id, said }) {
-  const caption = `Distances between joints of ${id}${data.unit ? `, in ${data.unit}` : ""}`;
+  const caption = `Distances between joints of ${id}${inUnit(data)}`;
   const rows = said.distances.map((row) => h("tr", {}, cells(row)));
   return h("details", { class: "bm-every" }, h("summary", {}, "Distances between joints"), table(caption, [{ name: "joints", text: true }, "distance"], rows));
 }

@@ -2,7 +2,7 @@
 
 import { give, h, say } from "../widget/dom.mjs";
 import { placeAt } from "../widget/kinematics.mjs";
-import { figure, fixed } from "../widget/numbers.mjs";
+import { figure, fixed, spans } from "../widget/numbers.mjs";
 import { Plane } from "../widget/plane.mjs";
 import { leastOf, worstOf } from "./answers.mjs";
 import { Pace, isSeen, watch } from "./pacing.mjs";
@@ -19,7 +19,7 @@ export function comparison(one, other, data) {
     row("type", (each) => each.type),
     row("worst miss", (each) => worstOf(each, data), (each) => each.worst),
     row("least transmission angle", (each) => leastOf(each), (each) => each.least, -1),
-    row("size", (each) => (each.quality ? `${figure(each.quality.extent)} spans` : "–"), (each) => each.quality?.extent),
+    row("size", (each) => (each.quality ? spans(each.quality.extent) : "–"), (each) => each.quality?.extent),
     row("sensitivity", (each) => (each.quality ? figure(each.quality.sensitivity) : "–"), (each) => each.quality?.sensitivity),
     row("driver", (each) => each.led[0].id),
     ...links.map((name) => row(`${name} link`, (each) => (each.said.links?.[name] ? `${each.said.links[name]}${unit}` : "–"))),

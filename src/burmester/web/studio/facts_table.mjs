@@ -4,7 +4,7 @@ import { h } from "../widget/dom.mjs";
 import { instantCentre } from "../widget/instantaneous.mjs";
 import { act } from "../widget/kinematics.mjs";
 import { fixed } from "../widget/numbers.mjs";
-import { decimalsOf, dimensionTable, dyadTable, imageTables, linkageTable, poseName, poseTable } from "../widget/tables.mjs";
+import { decimalsOf, dimensionTable, dyadTable, imageTables, inUnit, linkageTable, poseName, poseTable } from "../widget/tables.mjs";
 import { factsOf, storyOf } from "../widget/words.mjs";
 import { PLACED, dimensionsOf, leastOf, placeOf, worstOf } from "./answers.mjs";
 import { Pace, isSeen, watch } from "./pacing.mjs";
@@ -67,7 +67,7 @@ export class FactsTable {
   followedFacts(linkage) {
     const { data } = this.answers;
     return [
-      table(`Dimensions of ${linkage.id}${data.unit ? `, in ${data.unit}` : ""}`, ["", "", "value"], dimensionsOf(linkage, data).map(({ dyad, what, value }) => [dyad, what, value])),
+      table(`Dimensions of ${linkage.id}${inUnit(data)}`, ["", "", "value"], dimensionsOf(linkage, data).map(({ dyad, what, value }) => [dyad, what, value])),
       table("Verdict", ["", "value"], [
         ["verdict", linkage.gone ?? (linkage.usable ? "usable" : `not usable: ${linkage.reason ?? linkage.said.reasons.join("; ")}`)],
         ["worst miss", worstOf(linkage, data)], ["least transmission angle", leastOf(linkage)], ["driver", linkage.led[0].id],
@@ -83,7 +83,7 @@ export class FactsTable {
   }
 
   placedTable() {
-    const { placed } = this.store, unit = this.answers.data.unit ? `, in ${this.answers.data.unit}` : "";
+    const { placed } = this.store, unit = inUnit(this.answers.data);
     return table(`Their dyads${unit}`, ["", "on the ground (F)", "on the body (M)", "length", "rms miss", "worst miss"], placed.dyads.map((dyad) => [dyad.id, dyad.said.ground, dyad.said.body, dyad.said.length, dyad.said.rms, dyad.said.worst]));
   }
 }

@@ -24,6 +24,9 @@ export function figure(value) {
   return `${Number(digits)}e-${String(-power).padStart(2, "0")}`;
 }
 
+/** A length in spans of the motion: "1 span", "1.6 spans". */
+export const spans = (extent) => `${figure(extent)} span${figure(extent) === "1" ? "" : "s"}`;
+
 /** Round numbers between two ends for an axis, `about` of them. */
 export function ticks(low, high, about) {
   const rough = (high - low) / Math.max(1, about);

@@ -4,7 +4,7 @@ import { CardList } from "./cards.mjs";
 import { h, s } from "./dom.mjs";
 import { axes } from "./drawing.mjs";
 import { fixed } from "./numbers.mjs";
-import { cells, decimalsOf, poseName, table } from "./tables.mjs";
+import { cells, decimalsOf, inUnit, poseName, table } from "./tables.mjs";
 
 export class SixBarCards extends CardList {
   constructor(linkages, choose) {
@@ -46,12 +46,12 @@ const lines = (parts) => parts.map((part) => h("span", { class: "bm-line-of" }, 
 /** What to build a six-bar from: the joints of each link in its own frame, or its length. */
 export function sixBarDimensions(data, { id, said }) {
   const rows = said.dimensions.map(([link, ...joints]) => h("tr", {}, cells([link, lines(joints.filter(Boolean))])));
-  return table(`Dimensions of ${id}${data.unit ? `, in ${data.unit}` : ""}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
+  return table(`Dimensions of ${id}${inUnit(data)}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
 }
 
 /** The distances between the joints of one link, to measure and to check. */
 export function sixBarDistances(data, { id, said }) {
-  const caption = `Distances between joints of ${id}${data.unit ? `, in ${data.unit}` : ""}`;
+  const caption = `Distances between joints of ${id}${inUnit(data)}`;
   const rows = said.distances.map((row) => h("tr", {}, cells(row)));
   return h("details", { class: "bm-every" }, h("summary", {}, "Distances between joints"), table(caption, [{ name: "joints", text: true }, "distance"], rows));
 }

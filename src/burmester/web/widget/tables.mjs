@@ -40,6 +40,11 @@ export const cells = (values, words = [], heads = []) =>
 
 const classes = (...names) => names.filter(Boolean).join(" ") || null;
 
+const UNIT_NAMES = { in: "inches", ft: "feet" };
+
+/** The unit of lengths after a caption. */
+export const inUnit = (data) => (data.unit ? `, in ${UNIT_NAMES[data.unit] ?? data.unit}` : "");
+
 /** The unit of lengths in brackets, for a head. */
 const unitOf = (data) => (data.unit ? ` (${data.unit})` : "");
 
@@ -131,7 +136,7 @@ function dimensionRows(linkage) {
 
 export function dimensionTable(data, linkage) {
   return table(
-    `Dimensions of ${linkage.id}${data.unit ? `, in ${data.unit}` : ""}`,
+    `Dimensions of ${linkage.id}${inUnit(data)}`,
     ["", { name: "", text: true }, "value", ...(linkage.said.dimensions.some((row) => row.give) ? ["± (95 %)"] : [])],
     dimensionRows(linkage),
     { class: "bm-dimensions" },

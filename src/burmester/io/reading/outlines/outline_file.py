@@ -33,7 +33,7 @@ from burmester.io.reading.outlines.dxf_drawing import read_dxf
 from burmester.io.reading.outlines.svg_drawing import read_svg
 from burmester.io.reading.pose_table import shown
 from burmester.printable import printable
-from burmester.wording import count, figure, listed
+from burmester.wording import count, figure, in_unit, listed
 
 __all__ = [
     "FROM_PAGE",
@@ -227,14 +227,15 @@ def _factor(drawn: str | None, wanted: str | None) -> float:
     if wanted is None:
         raise InputError(
             "E174",
-            f"the drawing is in {drawn}, and the task states no unit",
+            f"the drawing is{in_unit(drawn)}, and the task states no unit",
             why="units are never guessed",
             help='write length_unit = "mm" into the task, or the unit that its poses are in',
         )
     if (metres := METRES.get(wanted.strip().lower())) is None:
         raise InputError(
             "E174",
-            f"the drawing is in {drawn}, and the unit of the task, {shown(wanted)}, is not known",
+            f"the drawing is{in_unit(drawn)}, and the unit of the task, {shown(wanted)}, is not "
+            "known",
             why=f"known are {listed(list(METRES)[:7])}",
             help="state the unit of the poses as one of these, or draw without a unit",
         )

@@ -23,7 +23,7 @@ from burmester.io.reading.tables.column_words import (
     Word,
     known,
 )
-from burmester.wording import listed, shortened
+from burmester.wording import in_unit, listed, shortened
 
 __all__ = ["LENGTHS", "MAX_NAMES", "Columns", "has_poses", "is_header", "read_columns"]
 
@@ -155,7 +155,8 @@ def read_columns(
     for role in (*lengths[1:], *tolerances):
         if units[role] != units[first := lengths[0]]:
             message = (
-                f"{first} is in {units[first] or 'no unit'}, {role} in {units[role] or 'no unit'}"
+                f"{first} is{in_unit(units[first] or 'no unit')}, "
+                f"{role}{in_unit(units[role] or 'no unit')}"
             )
             one = "both columns" if len(lengths) == 2 else "all four columns"
             if role in tolerances:

@@ -14,6 +14,7 @@ from typing import NamedTuple
 from burmester.errors import Advice, InputError
 from burmester.io.reading.pose_table import POINTS, UNITS, brief, plain_number, shown
 from burmester.io.reading.tables.column_words import unit_of
+from burmester.wording import in_unit
 
 __all__ = ["CellNumbers", "WrittenNumber", "written_number"]
 
@@ -133,6 +134,6 @@ class CellNumbers:
             (role, unit), (cell, _, _) = next(iter(self._units.items()))
             yield Advice(
                 "W213",
-                f"units are read from the cells: {shown(cell)} is in {UNITS.get(unit, unit)}",
+                f"units are read from the cells: {shown(cell)} is{in_unit(UNITS.get(unit, unit))}",
                 f"write numbers alone, and the unit in the header, as in {role}_{unit}",
             )

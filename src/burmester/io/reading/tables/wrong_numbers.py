@@ -12,6 +12,7 @@ from fractions import Fraction
 
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import NOT_FINITE, NUMBER, UNITS, brief, plain_number, shown
+from burmester.wording import in_unit
 
 __all__ = ["not_a_number"]
 
@@ -38,8 +39,8 @@ def not_a_number(
     row: from 1; unit: of the column, if it names one.
     """
     code, fault, why = "E103", "a value that is not a finite number", None
-    in_unit = f" in {UNITS.get(unit, unit)}" if unit else ""
-    help = f"give a number{in_unit}, such as -12.5 or 3e-4, or delete the row"
+    of = in_unit(unit and UNITS.get(unit, unit))
+    help = f"give a number{of}, such as -12.5 or 3e-4, or delete the row"
     if NUMBER.fullmatch(plain):
         why = f"{shown(cell)} is beyond 1.8e308, the largest representable number"
     elif not cell:

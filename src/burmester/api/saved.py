@@ -1,0 +1,53 @@
+"""A result that was saved, as a person holds it again."""
+
+from __future__ import annotations
+
+import os
+
+from burmester.api.function import FunctionGenerators
+from burmester.api.result import Result
+from burmester.api.six_bars import SixBarResult
+from burmester.io import saved
+from burmester.io.function_result import is_function_result, read_function_result
+from burmester.io.reading.file_content import read_source
+
+__all__ = ["read_result"]
+
+
+def read_result(source: str | os.PathLike[str]) -> Result | SixBarResult | FunctionGenerators:
+    """What `Result.save` or `burmester synthesize -o` wrote.
+
+    Parameters
+    ----------
+    source : str or path
+        The file, "-" for standard input.
+
+    Returns
+    -------
+    Result, SixBarResult or FunctionGenerators
+        What wrote the file, with all that it gave but what concerns the search alone: `fits`,
+        `points` and `causes` are empty.  The task and the dimensions of its linkages are read, and
+        the linkages judged anew.  Where the file says something else of one, or one cannot be used,
+        a warning W244 says so.
+
+    Raises
+    ------
+    InputError
+        E101 (not readable), E109 (not JSON), E150 (not of a synthesis, or no part of it that is
+        needed), and what `read_task` raises of its poses.
+
+    Examples
+    --------
+    >>> import burmester, tempfile
+    >>> result = burmester.synthesize(burmester.read_task("case:motiongen-shoulder"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     again = burmester.read_result(result.save(f"{folder}/shoulder.json"))
+    >>> [linkage.id for linkage in again.usable]
+    ['L1', 'L2', 'L3']
+    """
+    path = os.fspath(source)
+    data = read_source(path)
+    if is_function_result(data):
+        return FunctionGenerators(read_function_result(data, path).synthesis)
+    synthesis = saved.read_result(path, data).synthesis
+    return Result.of(synthesis) if synthesis.six_bars is None else SixBarResult(synthesis)
