@@ -14,7 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
-from burmester.io.files import write
+from burmester.io.files import open_plain, write
 from burmester.studio.parcel import as_json
 
 __all__ = ["folder", "last", "save"]
@@ -49,17 +49,21 @@ def save(given: dict[str, Any]) -> None:
     # Names of tabs and tasks may be anything; a digest of them may not.
     digest = hashlib.sha256(f"{given.get('tab')}\n{name}".encode(errors="replace")).hexdigest()
     write(place / f"{digest[:16]}.json", as_json(kept), force=True)
-    files = sorted(place.glob("*.json"), key=lambda each: each.stat().st_mtime, reverse=True)
+    files = sorted(place.glob("*.json"), key=_written_at, reverse=True)
     for each in files[MOST_FILES:]:
         with suppress(OSError):
             each.unlink()
 
 
+def _written_at(path: Path) -> float:
+    return path.lstat().st_mtime
+
+
 def last() -> dict[str, Any] | None:
     """What was kept last, if it can be read."""
     try:
-        newest = max(folder().glob("*.json"), key=lambda each: each.stat().st_mtime)
-        kept = json.loads(newest.read_bytes())
+        with open_plain(max(folder().glob("*.json"), key=_written_at), "rb") as file:
+            kept = json.loads(file.read())
     except (OSError, ValueError, RecursionError):
         return None
     return kept if isinstance(kept, dict) and isinstance(kept.get("document"), dict) else None
