@@ -38,6 +38,7 @@ __all__ = [
     "cell_name",
     "decimals",
     "extent",
+    "is_held",
     "no_poses",
     "numeric_roles",
     "plain_number",
@@ -236,6 +237,14 @@ def plain_number(cell: str, separator: str) -> tuple[str, str | None]:
     if _THOUSANDS.fullmatch(cell):
         return plain, "?"
     return plain, "," if "," in cell else "." if "." in cell else ""
+
+
+def is_held(number: str) -> bool:
+    """Whether the digits of a number stand for a finite double, and not for 0 unless they are 0."""
+    value = float(number)
+    return math.isfinite(value) and (
+        value != 0 or not re.search("[1-9]", number.lower().split("e")[0])
+    )
 
 
 def resolution_by_digits(half: float, size: float) -> float:
