@@ -236,7 +236,7 @@ def test_a_toml_key_may_have_a_hundred_parts(read):
     sound = f'# {dots}a = 1\nt = """\n{dots}a = 1\n"""\nu = "{dots}"\nv = \'{dots}\'\n'
     sound += f"w = [{'1.5,' * 150}]\n{'a.' * 99}a = 1\n[{'b.' * 99}b]\n"
     poses = "angle_unit = 'deg'\nposes = [[1, 2, 3], [2, 3, 4], [3, 4, 6]]\n"
-    assert read(poses + sound, ".toml").poses.shape == (3,)
+    assert refused(lambda: read(poses + sound, ".toml")).message == "the table a is not known"
     for parts in ("«{}a» = 1", "[«{}a»]", "q = {{«{}a» = 1}}", "[['x'.«{}a»]]"):
         text, line, column, _ = marked(sound + parts.format("b . " * 50 + "'c'. " * 50 + "d"))
         error = refused(lambda: read(text, ".toml"))  # noqa: B023
@@ -433,11 +433,61 @@ def test_a_key_that_is_nearly_known_is_told_the_known_one(read, said, meant):
 
 
 def test_other_keys_at_the_top_are_ignored(read):
-    notes = (
-        'title = "a"\nname = "n"\nnote = 1\nnotes = []\nauthor = {a = nan}\ndescription = "limit"\n'
-    )
+    notes = 'title = "a"\nname = "n"\nnote = 1\nnotes = []\nauthor = "a"\ndescription = "limit"\n'
     notes += "poses_old = 3\nsource = 2020-01-01\n'' = 1\n"
     assert task_data(read(notes + POSES, ".toml")) == task_data(read(POSES, ".toml"))
+
+
+@pytest.mark.parametrize(
+    ("table", "near"),
+    [
+        ("«[»foo]\na = 1", None),
+        ("«[»[foo]]\na = 1", None),
+        ("«foo» = { a = nan }", None),
+        ("«foo».a.b = 1", None),
+        ("«[»require]\ntransmission_deg = 30", "requirements"),
+        ("«[»limitations]\nlength = {least = 1}", "limits"),
+    ],
+)
+def test_an_unknown_table_is_refused_and_the_nearest_known_one_told(read, table, near):
+    text, line, _, _ = marked(POSES + table)
+    error = refused(lambda: read(text, ".toml"))
+    assert error.code == "E107"
+    assert re.search(r"the table \w+ is not known", error.message)
+    assert carets(error.where)[1] == line
+    assert (f"write {near} if" in error.help) == (near is not None)
+    assert "the tables of a task are pose_sigma, tolerance, body" in error.help or near
+    if near:
+        read(re.sub(r"\[\w+\]", f"[{near}]", text), ".toml")
+
+
+def test_more_keys_than_a_task_has_are_refused(read):
+    many = [f"k{k} = {k}" for k in range(1001)]
+    texts = {
+        "keys": POSES + "\n".join(many),
+        "a table": f"{POSES}[limits]\n" + "\n".join(many),
+        "a table in one line": f"{POSES}limits = {{{', '.join(many)}}}",
+        "a pose": POSES.replace("poses = [", f"poses = [{{{', '.join(many)}}}, "),
+        "tables": POSES + "\n".join(f"[k{k}]" for k in range(1001)),
+        "lists of tables": POSES + "\n".join(f"[[k{k}]]" for k in range(1001)),
+    }
+    for text in texts.values():
+        error = refused(lambda text=text: read(text, ".toml"))
+        assert (error.code, error.message) == ("E107", "there are too many keys")
+    pairs = ", ".join(f'"k{k}": 1' for k in range(1001))
+    poses = '"angle_unit": "deg", "poses": [[0, 0, 0], [1, 1, 9], [2, 1, 20]]'
+    for text in (f"{{{poses}, {pairs}}}", f'{{{poses}, "limits": {{{pairs}}}}}'):
+        assert refused(lambda text=text: read(text, ".json")).message == "there are too many keys"
+    heads = "".join(f"[[poses]]\nx = {k}\ny = {k * k}\nangle_deg = {k}\n" for k in range(1200))
+    assert len(read(heads, ".toml").poses.angle) == 1200
+
+
+def test_more_values_than_there_is_memory_for_are_refused(read, monkeypatch):
+    monkeypatch.setattr("burmester.io.reading.file_content.MAX_VALUES", 50)
+    corners = ", ".join("[0, 1]" for _ in range(20))
+    error = refused(lambda: read(f"{POSES}body = [{corners}]", ".toml"))
+    assert (error.code, error.message) == ("E101", "the file is too large")
+    assert "50 are the most" in error.why
 
 
 @pytest.mark.parametrize("name", cases.names())

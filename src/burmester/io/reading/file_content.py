@@ -25,6 +25,7 @@ __all__ = [
 MAX_BYTES = 50_000_000  # of a file: some two million poses, or what is no pose file
 MAX_LINES = 1_100_000  # of a text: `check` takes 0.5 kB of memory a line, and 12 s for all
 MAX_TREE_CHARACTERS = 20_000_000  # of JSON and TOML
+MAX_VALUES = 1_500_000  # in JSON and TOML: 350,000 poses in lists, of 1 kB of memory each
 TREE_BYTES = 40  # of memory for a character of them, with locations and printed digits
 
 _WINDOWS_SIGNS = "°º²³µ§±×·–—‘’“”„…«»€\u00a0"  # beside letters, in tables of Western Europe
@@ -71,6 +72,8 @@ def require_moderate(text: str, *, tree: bool) -> None:
     if tree and len(text) > MAX_TREE_CHARACTERS:
         why = f"its {size:.0f} MB would need {size * TREE_BYTES / 1e3:.2g} GB of memory as a tree"
         raise too_large(f"{why}; {MAX_TREE_CHARACTERS / 1e6:.0f} MB are the most")
+    if tree and (values := sum(map(text.count, ",[{="))) > MAX_VALUES:
+        raise too_large(f"it has some {values} values, and {MAX_VALUES} are the most")
     if lines > MAX_LINES:
         raise too_large(f"it has {lines} lines, and {MAX_LINES} are the most")
 

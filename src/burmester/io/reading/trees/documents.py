@@ -19,8 +19,12 @@ from burmester.io.reading.trees.locations import LONG, SHORT, UNCLOSED, Document
 
 __all__ = ["read_json", "read_toml"]
 
+MAX_KEYS = 1000  # keys of a table, and tables: no task has as many
 MAX_KEY_PARTS = 100  # parts of a dotted TOML key; the parsing time grows as their square
 _PART = rf"(?:[\w-]++|{SHORT})"
+_HEAD_OR_KEY = re.compile(  # the lines of TOML in which tables and keys begin
+    r"^[ \t]*(?:(\[\[?[^][,\n]*\]\]?)[ \t]*(?:#|$)|[\w\"'.-][^=\n]*=)", re.MULTILINE
+)
 _KEYS = re.compile(rf"{LONG}|#[^\n]*+|({_PART}(?:[ \t]*\.[ \t]*{_PART})*)|{UNCLOSED}")
 
 
@@ -34,6 +38,8 @@ def read_json(source: Source) -> PoseTable:
         raise InputError("E103", f"{constant} is not a finite number", where=where, help=help)
 
     def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        if len(pairs) > MAX_KEYS:
+            raise _many_keys(source.label)
         tree = dict(pairs)
         if len(tree) < len(pairs):
             raise _twice(source, pairs)
@@ -58,11 +64,45 @@ def read_toml(source: Source) -> PoseTable:
     import tomllib
 
     document = Document(source, "TOML")
+    _require_few_keys(source)
     _require_short_keys(source)
     tree = _tree(document, functools.partial(tomllib.loads, parse_float=_exact))
+    _require_narrow(tree, source.label)
     from burmester.io.reading.trees.pose_tree import read_tree
 
     return read_tree(tree, document, 'angle_unit = "deg" above poses = [[0.5, 2, 30], ...]')
+
+
+def _require_few_keys(source: Source) -> None:
+    """Refuse more keys and tables than a task has, before the parser takes seconds: E107."""
+    if source.text.count("=") + source.text.count("[") <= MAX_KEYS:
+        return
+    heads: set[str] = set()
+    keys = 0
+    for found in _HEAD_OR_KEY.finditer(source.text):
+        keys = 0 if found[1] else keys + 1
+        if found[1]:
+            heads.add(found[1])
+        if max(keys, len(heads)) > MAX_KEYS:
+            raise _many_keys(source.where(found.start()))
+
+
+def _require_narrow(tree: Any, label: str) -> None:
+    """The same of a tree, for tables that are written in one line."""
+    stack = [tree]
+    while stack:
+        each = stack.pop()
+        if isinstance(each, dict):
+            if len(each) > MAX_KEYS:
+                raise _many_keys(label)
+            stack += each.values()
+        elif isinstance(each, list):
+            stack += each
+
+
+def _many_keys(where: str) -> InputError:
+    message, why = "there are too many keys", f"a task has no table of more than {MAX_KEYS}"
+    return InputError("E107", message, where=where, why=why, help="delete those that are none")
 
 
 def _require_short_keys(source: Source) -> None:

@@ -107,11 +107,11 @@ def dotted(path: Path) -> str:
     return out.removeprefix(".")
 
 
-def close_match(word: str, known: Iterable[str]) -> str | None:
-    """The one of the known words that is nearly the same, if one is."""
+def close_match(word: str, known: Iterable[str], least: float = 0.75) -> str | None:
+    """The one of the known words that is nearly the same, if one is; least: of likeness, to 1."""
     from difflib import get_close_matches
 
-    found = get_close_matches(word.lower(), list(known), 1, 0.75)
+    found = get_close_matches(word.lower(), list(known), 1, least)
     return found[0] if found else None
 
 
