@@ -16,6 +16,7 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io import cases
+from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.trees.syntax_faults import syntax_fault
 from burmester.io.result import task_data
@@ -510,10 +511,43 @@ def test_every_way_to_write_a_number_in_toml(read, number):
     assert math.copysign(1, value) == math.copysign(1, tomllib.loads(f"v = {number}")["v"])
 
 
-@pytest.mark.parametrize("number", ["1e-400", "5e-324", "9.999999999999999e49", "1E2", "-0"])
+@pytest.mark.parametrize("number", ["3e-324", "5e-324", "9.999999999999999e49", "1E2", "-0"])
 def test_extreme_numbers_in_json(read, number):
     text = f'{{"angle_unit": "rad", "poses": [[0, {number}, 0], [1, 2, 1], [2, 2, 2]]}}'
     assert read(text, ".json").poses.translation[0, 1] == float(number)
+
+
+TINY = f"0.{'0' * 400}1"
+SMALL = [  # where a number stands that is not 0 and would become 0
+    ("x,y,angle_deg\n0,0,0\n1,1,9\n2,«{}»,20\n", ".csv"),
+    ("x;y;angle_deg\n0;0;0\n1;1;9\n2;«{}»;20\n", ".csv"),
+    ('{"angle_unit": "deg", "poses": [[0, «{}», 0], [1, 2, 1], [2, 2, 2]]}', ".json"),
+    (POSES + "[limits]\nfixed_pivot = { point = [«{}», 1] }\n", ".toml"),
+    (POSES + "tolerance = { x = «{}» }\n", ".toml"),
+    (POSES + "body = [[0, 0], [1, 0], [«{}», 1]]\n", ".toml"),
+    (POSES + "note = «{}»\n", ".toml"),
+    ("[function]\npairs = [[0, 0], [9, {}], [20, 9]]\n", ".toml"),
+    ('{"function": {"pairs": [[0, 0], [9, {}], [20, 9]]}}', ".json"),
+    ("[function]\nexpression = 'x + {}'\nx = [1, 2]\ninput_deg = 9\noutput_deg = 9\n", ".toml"),
+    ("input_deg,output_deg\n0,0\n9,{}\n20,9\n", ".csv"),
+]
+
+
+@pytest.mark.parametrize("number", ["1e-400", "-2.4E-0324", TINY])
+@pytest.mark.parametrize(("text", "suffix"), SMALL)
+def test_a_number_that_would_become_0_is_refused_and_0_is_read(text, suffix, number):
+    name, (small, line, _, _) = f"a{suffix}", marked(text.replace("{}", number))
+    zero = marked(text.replace("{}", "0")).text
+    if "«" not in text:
+        error = refused(lambda: read_function(small.encode(), name))
+        assert error.code in ("E103", "E104", "E190")
+        read_function(zero.encode(), name)
+        return
+    error = refused(lambda: read_task(name, data=small.encode()))
+    assert error.code == "E103"
+    assert "nearer to 0 than 4.9e-324" in error.why
+    assert carets(error.where)[1] == line
+    read_task(name, data=zero.encode())
 
 
 def test_a_long_text_is_no_trouble(read):

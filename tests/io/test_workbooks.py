@@ -129,6 +129,10 @@ def test_a_number_is_the_one_that_is_stored_or_written(read, cell, meant):
         (text("1,234"), "E104", "thousands"),
         (text("12 cm"), "E108", ""),
         (number("1e999"), "E103", ""),
+        (number("1e-400"), "E103", "nearer to 0"),
+        (text("1e-400"), "E103", "nearer to 0"),
+        (number("1_000"), "E104", ""),
+        (number("\uff11"), "E104", ""),
         (None, "E104", ""),
     ],
 )

@@ -22,6 +22,7 @@ from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
 from burmester.io.linkage_data import number
 from burmester.io.reading.functions.function_file import task_of_tree
+from burmester.io.reading.pose_table import held_float
 from burmester.io.result import message_data
 from burmester.printable import printable
 from burmester.synthesis.function_generation import FunctionSynthesis
@@ -201,7 +202,10 @@ def read_function_result(data: bytes, path: str) -> FunctionResult:
     """The result in the bytes of a file; raises E109, E150 and what reading its task raises."""
     label = "<stdin>" if path == "-" else printable(path)
     try:
-        tree = json.loads(data)
+        tree = json.loads(data, parse_float=held_float)
+    except InputError as error:
+        error.where = label
+        raise
     except (ValueError, RecursionError) as error:
         why = printable(str(error))
         raise InputError("E109", "this is not JSON", where=label, why=why, help=_HELP) from None

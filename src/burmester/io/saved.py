@@ -20,6 +20,7 @@ from burmester.errors import InputError
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.io.reading.file_content import read_source
+from burmester.io.reading.pose_table import held_float
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA
 from burmester.printable import printable
@@ -138,7 +139,10 @@ def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> Re
     label = "<stdin>" if path == "-" else printable(path)
     data = read_source(path) if data is None else data
     try:
-        tree = json.loads(data, parse_int=_whole_number)
+        tree = json.loads(data, parse_int=_whole_number, parse_float=held_float)
+    except InputError as error:
+        error.where = label
+        raise
     except (ValueError, RecursionError) as error:
         raise InputError(
             "E109", "this is not JSON", where=label, why=printable(str(error)), help=HELP

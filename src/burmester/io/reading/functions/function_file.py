@@ -30,7 +30,7 @@ from burmester.io.reading.functions.pair_table import (
     read_pair_text,
     require_weights,
 )
-from burmester.io.reading.pose_table import Source, shown
+from burmester.io.reading.pose_table import Source, held_float, shown
 
 __all__ = ["read_function", "settings_of_tree", "task_of_tree"]
 
@@ -78,7 +78,7 @@ def _toml(source: Source) -> Any:
     import tomllib
 
     try:
-        return tomllib.loads(source.text).get("function")
+        return tomllib.loads(source.text, parse_float=held_float).get("function")
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise InputError(
             "E109", "this is not TOML", why=str(error), help="correct the file there"
@@ -87,7 +87,7 @@ def _toml(source: Source) -> Any:
 
 def _json(source: Source) -> Any:
     try:
-        tree = json.loads(source.text)
+        tree = json.loads(source.text, parse_float=held_float)
     except (ValueError, RecursionError) as error:
         raise InputError(
             "E109", "this is not JSON", why=str(error), help="correct the file there"

@@ -14,7 +14,7 @@ from decimal import Decimal, InvalidOperation
 from typing import Any
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import PoseTable, Source, shown
+from burmester.io.reading.pose_table import PoseTable, Source, held_float, shown
 from burmester.io.reading.trees.locations import LONG, SHORT, UNCLOSED, Document, duplicate_key
 
 __all__ = ["read_json", "read_toml"]
@@ -47,8 +47,8 @@ def read_json(source: Source) -> PoseTable:
 
     parse = functools.partial(
         json.loads,
-        parse_float=_exact,
-        parse_int=_exact,
+        parse_float=functools.partial(_exact, source),
+        parse_int=functools.partial(_exact, source),
         parse_constant=refuse,
         object_pairs_hook=distinct_keys,
     )
@@ -59,14 +59,19 @@ def read_json(source: Source) -> PoseTable:
     return read_tree(tree, Document(source, "JSON"), example)
 
 
-def read_toml(source: Source) -> PoseTable:
-    """`poses = [[x, y, angle], ...]` or tables `[[poses]]`; raises E103 to E110."""
+def read_toml(source: Source, others: tuple[str, ...] = ()) -> PoseTable:
+    """`poses = [[x, y, angle], ...]` or tables `[[poses]]`; raises E103 to E110.
+
+    others: names of further tables, which are not looked at.
+    """
     import tomllib
 
-    document = Document(source, "TOML")
+    document = Document(source, "TOML", others=others)
     _require_few_keys(source)
     _require_short_keys(source)
-    tree = _tree(document, functools.partial(tomllib.loads, parse_float=_exact))
+    tree = _tree(
+        document, functools.partial(tomllib.loads, parse_float=functools.partial(_exact, source))
+    )
     _require_narrow(tree, source.label)
     from burmester.io.reading.trees.pose_tree import read_tree
 
@@ -164,8 +169,14 @@ def _too_long(source: Source) -> InputError:
     return InputError("E103", message, where=source.where(start, end - start), why=why, help=help)
 
 
-def _exact(number: str) -> Decimal:
-    """A number with the decimals it is printed with, which a float would forget."""
+def _exact(source: Source, number: str) -> Decimal:
+    """A number with the decimals it is printed with, which a float would forget; raises E103."""
+    try:
+        held_float(number)
+    except InputError as error:
+        found = re.search(rf"(?<![\w.]){re.escape(number)}", source.text)
+        error.where = source.where(found.start(), len(number)) if found else source.label
+        raise
     try:
         return Decimal(number)
     except InvalidOperation:  # its exponent has twenty digits

@@ -60,6 +60,7 @@ class Document(NamedTuple):
     language: Language
     root: Path = ()
     bare: bool = False  # whether the tree is the list of poses itself
+    others: tuple[str, ...] = ()  # tables at the top that somebody else reads
 
     def named(self, *path: str | int) -> str:
         """The path of a value in the task, as a message names it."""

@@ -188,7 +188,7 @@ def _specification(tree: dict[str, Any], document: Document) -> Specification:
 def _require_known(document: Document, tree: dict[str, Any]) -> None:
     """Refuse what stands beside the poses and is misspelt, or belongs elsewhere."""
     for key, value in tree.items():
-        if key in TOP_KEYS or key in LIMIT_KEYS or key in REQUIREMENT_KEYS:
+        if key in (*TOP_KEYS, *LIMIT_KEYS, *REQUIREMENT_KEYS, *document.others):
             continue
         if key in _MISPLACED:
             message = f"{document.named(key)} stands beside the poses, where it has no effect"
