@@ -277,7 +277,7 @@ def _table(
             source = read_sheet(label, data, sheet)
         else:
             _require_no_sheet(sheet)
-            source = Source(label, *decode_text(data))
+            source = Source(label, *decode_text(data, label))
         del data  # a million poses are many bytes
         by_content = "JSON" if source.text.lstrip().startswith(("{", "[")) else "CSV"
         language = "CSV" if source.sheet else _FORMATS.get(suffix, by_content)

@@ -107,7 +107,7 @@ def _sheet_parts(data: bytes) -> dict[str, bytes]:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             wanted = [info for info in archive.infolist() if _PARTS.fullmatch(info.filename)]
             if not any(info.filename.lower() == "xl/workbook.xml" for info in wanted):
-                raise _no_workbook("it has no xl/workbook.xml in it")
+                raise _other_archive(archive.namelist())
             if (size := sum(info.file_size for info in wanted)) > MAX_BYTES:
                 raise _too_large(f"{size} bytes unpacked")
             outline = (info.file_size for info in wanted if not _CELLS.fullmatch(info.filename))
@@ -400,6 +400,17 @@ def _quoted_cell(text: str) -> str:
 def _quoted(name: str) -> str:
     """A sheet's name as an option is written on a command line."""
     return name if re.fullmatch(r"[\w.-]+", name) else f'"{name}"'
+
+
+def _other_archive(names: list[str]) -> InputError:
+    """The error for an archive without a workbook: what it is, if it is one that people have."""
+    kinds = {
+        "word/": "it is a Word document (.docx)",
+        "ppt/": "it is a presentation (.pptx)",
+        "content.xml": "it is an OpenDocument file, such as .ods or .odt",
+    }
+    found = (kind for start, kind in kinds.items() if any(n.startswith(start) for n in names))
+    return _no_workbook(next(found, "it has no xl/workbook.xml in it"))
 
 
 def _no_workbook(why: str) -> InputError:
