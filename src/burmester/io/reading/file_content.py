@@ -130,8 +130,8 @@ def decode_text(data: bytes, name: str = "") -> tuple[str, tuple[Advice, ...]]:
         why = f"byte {error.start + 1}, in line {line}, is not UTF-{16 if wide else 8}"
         if not wide and (ansi := _windows_text(data)) is not None:
             text, why, notes = ansi, "", (_windows_note(ansi, why),)
-    if why and (start := _BY_ENDING.get(os.path.splitext(name)[1].lower())):
-        raise _no_text(start)
+    if why and (meant := _BY_ENDING.get(os.path.splitext(name)[1].lower())):
+        raise _no_text(meant)
     if why:
         raise InputError("E101", "the poses are not text", why=why, help="save the file as UTF-8")
     if not text.strip():
