@@ -60,7 +60,12 @@ class OutFolder:
 
     def write(self, path: str, data: bytes | str) -> None:
         """Write a file of this folder, or replace it; raises E141."""
-        files.write(path, data, force=True, swept=True)
+        try:
+            files.write(path, data, force=True, swept=True)
+        except InputError as error:
+            if os.path.exists(path) and not os.path.isfile(path):
+                error.help = "take away what stands there, or give another folder"
+            raise
 
     def append(self, path: str, line: bytes) -> None:
         """Write a line behind the others, and now and then all down to the disk; raises E141.
@@ -104,7 +109,9 @@ class OutFolder:
         if os.path.lexists(self.path) and not os.path.isdir(self.path):
             message, help = f"{printable(self.path)} cannot be written", "give the name of a folder"
             return InputError("E141", message, why="it is a file, not a folder", help=help)
-        return files.cannot_write(self.path, error, Path(self.path) / LOCK)
+        lock = os.path.join(self.path, LOCK)
+        given = lock if os.path.lexists(lock) else self.path
+        return files.cannot_write(given, error, Path(lock))
 
 
 def _locked(descriptor: int) -> bool:
