@@ -31,7 +31,7 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.io.linkage_values import fault, number, pair
 from burmester.io.reading.dyads_text import line_through
-from burmester.io.reading.file_content import read_source
+from burmester.io.reading.file_content import read_source, require_moderate
 from burmester.io.reading.pose_table import held_float
 from burmester.io.result import SCHEMA
 from burmester.io.saved import read_result
@@ -94,6 +94,7 @@ def _tree(data: bytes, label: str) -> dict[str, Any]:
         raise InputError("E156", NO_LINKAGE, where=label, why=why, help=HELP) from None
     language = "JSON" if text.lstrip()[:1] in ("{", "[") and not _is_table(text) else "TOML"
     try:
+        require_moderate(text, tree=language == "TOML")
         loads = json.loads if language == "JSON" else tomllib.loads
         tree = loads(text.replace("\r\n", "\n"), parse_float=held_float)
     except InputError as error:

@@ -18,7 +18,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
-from burmester.io.reading.file_content import is_parquet
+from burmester.io.reading.file_content import is_parquet, require_moderate
 from burmester.io.reading.functions.function_kind import source_of
 from burmester.io.reading.functions.function_options import (
     FunctionSettings,
@@ -61,6 +61,7 @@ def read_function(
         if is_parquet(data):
             return read_pair_parquet(label, data, settings)
         source = source_of(data, path, sheet)
+        require_moderate(source.text, tree=suffix in (".toml", ".json"))
         if source.sheet is None and suffix == ".toml":
             return task_of_tree(_toml(source), settings)
         if source.sheet is None and (suffix == ".json" or source.text.lstrip().startswith("{")):
