@@ -368,6 +368,7 @@ TABLES = {
     "two angles": ("task,x,y,angle_deg,angle_rad\n1,0,0,0,0\n", "E108", "leave one"),
     "apart": ("task,x,y,angle_deg\n1,0,0,0\n2,0,0,0\n1,3,0,0\n", "E108", "sort the table"),
     "no number": ("task,x,y,angle_deg\n1,zero,0,0\n", "E101", "write a table"),
+    "a number that would become 0": ("task,x,y,angle_deg\n1,0,0,0\n1,3,1e-400,0\n", "E103", "0"),
     "no mark": ("task,x,y,angle_deg,exact\n1,0,0,0,perhaps\n", "E104", "write yes"),
     "no rows": ("task,x,y,angle_deg\n", "E102", ""),
     "nothing": ("", "E102", "line 1"),

@@ -1,5 +1,6 @@
 """What may happen to a batch: its files stay whole, and going on ends with the same bytes."""
 
+import json
 import os
 import shutil
 import signal
@@ -16,6 +17,7 @@ from burmester import InputError
 from burmester.batch import manifest as manifests
 from burmester.batch import run
 from burmester.batch.out_folder import OutFolder
+from burmester.batch.summary import read_summary
 from tests.oracles.batches import PARTS, as_table, files_of, rows
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
@@ -88,6 +90,43 @@ def lost_manifest(out):
     (out / "_manifest.json").unlink()
 
 
+def other_json(out):
+    """Lines that are JSON, and no records; one is sealed."""
+    good = (out / "_parts.jsonl").read_bytes().splitlines()
+    forged = {"run": json.loads(good[0])["run"], "part": "0"}
+    forged["seal"] = manifests.digest_of(forged)[:16]
+    odd = [b"[]", b"1", b"null", b'"seal"', b'{"seal": 1}', b"[" * 9000, b"\0", b"\xff"]
+    lines = [*good[2:], *odd, json.dumps(forged).encode()]
+    (out / "_parts.jsonl").write_bytes(b"\n".join(lines))
+
+
+def manifest_of_a_list(out):
+    (out / "_manifest.json").write_bytes(b"[]")
+
+
+def links(out):
+    """Every file is a link to one elsewhere; one part leads to a part that is damaged."""
+    there = out.parent / "there"
+    out.rename(there)
+    out.mkdir()
+    for each in there.iterdir():
+        (out / each.name).symlink_to(each)
+    (there / ".lock").unlink()
+    (out / ".lock").unlink()
+    (there / "part-000001.parquet").write_bytes(b"precious")
+
+
+def hard_links(out):
+    for each in out.iterdir():
+        os.link(each, out.parent / f"{each.name}.link")
+    (out / "part-000001.parquet").write_bytes(b"precious")
+
+
+def link_to_nothing(out):
+    (out / "part-000001.parquet").unlink()
+    (out / "part-000001.parquet").symlink_to("nowhere")
+
+
 def leftovers(out):
     (out / ".burmester-0123456789abcdef-part-000001.parquet").write_bytes(b"half")
 
@@ -102,6 +141,11 @@ DAMAGE = {
     changed_manifest: (0, [ANEW]),
     lost_manifest: (0, [ANEW]),
     leftovers: (0, []),
+    other_json: (2, [REDONE]),
+    manifest_of_a_list: (0, [ANEW]),
+    links: (1, [REDONE]),
+    hard_links: (1, [REDONE]),
+    link_to_nothing: (1, [REDONE]),
 }
 
 
@@ -116,6 +160,45 @@ def test_what_is_damaged_is_done_again_and_nothing_else(damage, copy, whole):
     assert files_of(copy / "out") == files_of(whole / "out")
     later = {each.name: each.stat().st_mtime_ns for each in (copy / "out").glob(PARTS)}
     assert sum(times[name] != later[name] for name in times) == redone
+
+
+def contents(folder):
+    return {each.name: each.read_bytes() for each in folder.iterdir()}
+
+
+def test_what_links_in_the_folder_lead_to_stays(copy, whole):
+    links(copy / "out")
+    before = contents(copy / "there")
+    again(copy)
+    assert contents(copy / "there") == before
+    assert files_of(copy / "out") == files_of(whole / "out")
+
+
+def test_a_link_in_place_of_the_lock_is_refused(copy):
+    (copy / "out" / ".lock").unlink()
+    (copy / "out" / ".lock").symlink_to(copy / "made")
+    assert "symbolic link" in refused("E141", again, copy).why
+    assert not (copy / "made").exists()
+
+
+@pytest.mark.parametrize("name", ["_manifest.json", "_parts.jsonl", "part-000001.parquet"])
+def test_a_pipe_in_the_folder_is_refused_and_not_waited_for(copy, name):
+    (copy / "out" / name).unlink()
+    os.mkfifo(copy / "out" / name)
+    assert "pipe" in refused("E141", again, copy).why
+
+
+def test_strange_parts_of_a_complete_batch_are_named(copy):
+    """A reader of Parquet folders would take them in; the parts alone are the batch."""
+    names = ["part-000006.parquet", "part-1.parquet", "more.parquet", "part-\x1b[2J.parquet"]
+    for name in [*names, "_own.parquet", "remarks.txt"]:
+        (copy / "out" / name).write_bytes(b"")
+    (note,) = again(copy).notes
+    assert note == (
+        r"more.parquet, part-\x1b[2J.parquet, part-000006.parquet and part-1.parquet are not of "
+        "this batch; readers of the folder take it in: move it away"
+    )
+    assert read_summary(copy / "out").notes == (note,)
 
 
 def refused(code, call, *arguments, **settings):
@@ -240,7 +323,9 @@ def test_ctrl_c_finishes_what_runs_and_says_how_to_go_on(tmp_path):
     assert process.returncode == 130
     assert "the same command goes on" in told
     assert "Traceback" not in told
-    done = manifests.read_sealed((tmp_path / "out" / "_manifest.json").read_bytes())
+    done = manifests.read_sealed(
+        (tmp_path / "out" / "_manifest.json").read_bytes(), manifests.OF_MANIFEST
+    )
     parts = sorted((tmp_path / "out").glob(PARTS))
     assert done["parts"] == len(parts) < PARTS_OF_MANY
     assert not done["complete"]

@@ -152,6 +152,10 @@ def test_following_the_help_on_the_angle_unit_works(tmp_path):
         ("synthesize", "x.csv", "--method", "magic"),
         ("fly",),
         ("synthesize", "--no"),
+        ("batch", "--sample", "four-bars", "--noise", "1e-400"),
+        ("export", "x.json", "-o", "x.dxf", "--hole", "1_0"),
+        ("export", "x.json", "-o", "x.dxf", "--hole", "\uff11\uff12"),
+        ("export", "x.json", "-o", "x.dxf", "--hole", "nan"),
     ],
 )
 def test_wrong_usage_is_one_message(arguments):

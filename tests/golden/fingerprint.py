@@ -38,27 +38,37 @@ class Fingerprint(NamedTuple):
 
 def as_text(name: str, content: bytes) -> str:
     """A document as text, by the ending of its name; pages as the data that they show."""
-    ending = name.rpartition(".")[2]
-    if ending == "html":
-        found = PAGE_DATA.findall(content.decode())
-        return "\n".join(json.dumps(json.loads(each), indent=1) for each in found)
-    if ending == "pdf":
-        pages = PdfReader(io.BytesIO(content)).pages
-        return "\n".join(page.get_contents().get_data().decode("latin-1") for page in pages)
-    if ending == "stl" and content[:5] != b"solid":
-        count = struct.unpack("<I", content[80:84])[0]
-        rows = np.frombuffer(content[84:], np.dtype([("v", "<f4", 12), ("_", "<u2")]), count)["v"]
-        return "\n".join(" ".join(f"{x:.6g}" for x in row) for row in rows.tolist())
-    if ending == "gif":
-        return _frames(content)
-    if ending == "step":  # rounding says which of its points are one, and so their order
-        points = re.findall(r"CARTESIAN_POINT\('',\(([^)]*)\)", content.decode())
-        rounded = {tuple(round(float(x), 5) + 0.0 for x in each.split(",")) for each in points}
-        return "\n".join(map(str, sorted(rounded)))
-    if ending == "zip":
-        with zipfile.ZipFile(io.BytesIO(content)) as parts:
-            return "\n".join(as_text(each, parts.read(each)) for each in sorted(parts.namelist()))
-    return content.decode()
+    readers = {"html": _page, "pdf": _sheets, "stl": _triangles, "step": _points, "gif": _frames}
+    readers["zip"] = _parts
+    return readers.get(name.rpartition(".")[2], bytes.decode)(content)
+
+
+def _page(content: bytes) -> str:
+    found = PAGE_DATA.findall(content.decode())
+    return "\n".join(json.dumps(json.loads(each), indent=1) for each in found)
+
+
+def _sheets(content: bytes) -> str:
+    pages = PdfReader(io.BytesIO(content)).pages
+    return "\n".join(page.get_contents().get_data().decode("latin-1") for page in pages)
+
+
+def _triangles(content: bytes) -> str:
+    count = struct.unpack("<I", content[80:84])[0]
+    rows = np.frombuffer(content[84:], np.dtype([("v", "<f4", 12), ("_", "<u2")]), count)["v"]
+    return "\n".join(" ".join(f"{x:.6g}" for x in row) for row in rows.tolist())
+
+
+def _points(content: bytes) -> str:
+    # Rounding says which points are one, and so their order.
+    points = re.findall(r"CARTESIAN_POINT\('',\(([^)]*)\)", content.decode())
+    rounded = {tuple(round(float(x), 5) + 0.0 for x in each.split(",")) for each in points}
+    return "\n".join(map(str, sorted(rounded)))
+
+
+def _parts(content: bytes) -> str:
+    with zipfile.ZipFile(io.BytesIO(content)) as parts:
+        return "\n".join(as_text(each, parts.read(each)) for each in sorted(parts.namelist()))
 
 
 def _frames(content: bytes) -> str:

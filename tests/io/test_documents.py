@@ -16,6 +16,7 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io import cases
+from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.trees.syntax_faults import syntax_fault
 from burmester.io.result import task_data
@@ -236,7 +237,7 @@ def test_a_toml_key_may_have_a_hundred_parts(read):
     sound = f'# {dots}a = 1\nt = """\n{dots}a = 1\n"""\nu = "{dots}"\nv = \'{dots}\'\n'
     sound += f"w = [{'1.5,' * 150}]\n{'a.' * 99}a = 1\n[{'b.' * 99}b]\n"
     poses = "angle_unit = 'deg'\nposes = [[1, 2, 3], [2, 3, 4], [3, 4, 6]]\n"
-    assert read(poses + sound, ".toml").poses.shape == (3,)
+    assert refused(lambda: read(poses + sound, ".toml")).message == "the table a is not known"
     for parts in ("«{}a» = 1", "[«{}a»]", "q = {{«{}a» = 1}}", "[['x'.«{}a»]]"):
         text, line, column, _ = marked(sound + parts.format("b . " * 50 + "'c'. " * 50 + "d"))
         error = refused(lambda: read(text, ".toml"))  # noqa: B023
@@ -433,11 +434,61 @@ def test_a_key_that_is_nearly_known_is_told_the_known_one(read, said, meant):
 
 
 def test_other_keys_at_the_top_are_ignored(read):
-    notes = (
-        'title = "a"\nname = "n"\nnote = 1\nnotes = []\nauthor = {a = nan}\ndescription = "limit"\n'
-    )
+    notes = 'title = "a"\nname = "n"\nnote = 1\nnotes = []\nauthor = "a"\ndescription = "limit"\n'
     notes += "poses_old = 3\nsource = 2020-01-01\n'' = 1\n"
     assert task_data(read(notes + POSES, ".toml")) == task_data(read(POSES, ".toml"))
+
+
+@pytest.mark.parametrize(
+    ("table", "near"),
+    [
+        ("«[»foo]\na = 1", None),
+        ("«[»[foo]]\na = 1", None),
+        ("«foo» = { a = nan }", None),
+        ("«foo».a.b = 1", None),
+        ("«[»require]\ntransmission_deg = 30", "requirements"),
+        ("«[»limitations]\nlength = {least = 1}", "limits"),
+    ],
+)
+def test_an_unknown_table_is_refused_and_the_nearest_known_one_told(read, table, near):
+    text, line, _, _ = marked(POSES + table)
+    error = refused(lambda: read(text, ".toml"))
+    assert error.code == "E107"
+    assert re.search(r"the table \w+ is not known", error.message)
+    assert carets(error.where)[1] == line
+    assert (f"write {near} if" in error.help) == (near is not None)
+    assert "the tables of a task are pose_sigma, tolerance, body" in error.help or near
+    if near:
+        read(re.sub(r"\[\w+\]", f"[{near}]", text), ".toml")
+
+
+def test_more_keys_than_a_task_has_are_refused(read):
+    many = [f"k{k} = {k}" for k in range(1001)]
+    texts = {
+        "keys": POSES + "\n".join(many),
+        "a table": f"{POSES}[limits]\n" + "\n".join(many),
+        "a table in one line": f"{POSES}limits = {{{', '.join(many)}}}",
+        "a pose": POSES.replace("poses = [", f"poses = [{{{', '.join(many)}}}, "),
+        "tables": POSES + "\n".join(f"[k{k}]" for k in range(1001)),
+        "lists of tables": POSES + "\n".join(f"[[k{k}]]" for k in range(1001)),
+    }
+    for text in texts.values():
+        error = refused(lambda text=text: read(text, ".toml"))
+        assert (error.code, error.message) == ("E107", "there are too many keys")
+    pairs = ", ".join(f'"k{k}": 1' for k in range(1001))
+    poses = '"angle_unit": "deg", "poses": [[0, 0, 0], [1, 1, 9], [2, 1, 20]]'
+    for text in (f"{{{poses}, {pairs}}}", f'{{{poses}, "limits": {{{pairs}}}}}'):
+        assert refused(lambda text=text: read(text, ".json")).message == "there are too many keys"
+    heads = "".join(f"[[poses]]\nx = {k}\ny = {k * k}\nangle_deg = {k}\n" for k in range(1200))
+    assert len(read(heads, ".toml").poses.angle) == 1200
+
+
+def test_more_values_than_there_is_memory_for_are_refused(read, monkeypatch):
+    monkeypatch.setattr("burmester.io.reading.file_content.MAX_VALUES", 50)
+    corners = ", ".join("[0, 1]" for _ in range(20))
+    error = refused(lambda: read(f"{POSES}body = [{corners}]", ".toml"))
+    assert (error.code, error.message) == ("E101", "the file is too large")
+    assert "50 are the most" in error.why
 
 
 @pytest.mark.parametrize("name", cases.names())
@@ -460,10 +511,43 @@ def test_every_way_to_write_a_number_in_toml(read, number):
     assert math.copysign(1, value) == math.copysign(1, tomllib.loads(f"v = {number}")["v"])
 
 
-@pytest.mark.parametrize("number", ["1e-400", "5e-324", "9.999999999999999e49", "1E2", "-0"])
+@pytest.mark.parametrize("number", ["3e-324", "5e-324", "9.999999999999999e49", "1E2", "-0"])
 def test_extreme_numbers_in_json(read, number):
     text = f'{{"angle_unit": "rad", "poses": [[0, {number}, 0], [1, 2, 1], [2, 2, 2]]}}'
     assert read(text, ".json").poses.translation[0, 1] == float(number)
+
+
+TINY = f"0.{'0' * 400}1"
+SMALL = [  # where a number stands that is not 0 and would become 0
+    ("x,y,angle_deg\n0,0,0\n1,1,9\n2,«{}»,20\n", ".csv"),
+    ("x;y;angle_deg\n0;0;0\n1;1;9\n2;«{}»;20\n", ".csv"),
+    ('{"angle_unit": "deg", "poses": [[0, «{}», 0], [1, 2, 1], [2, 2, 2]]}', ".json"),
+    (POSES + "[limits]\nfixed_pivot = { point = [«{}», 1] }\n", ".toml"),
+    (POSES + "tolerance = { x = «{}» }\n", ".toml"),
+    (POSES + "body = [[0, 0], [1, 0], [«{}», 1]]\n", ".toml"),
+    (POSES + "note = «{}»\n", ".toml"),
+    ("[function]\npairs = [[0, 0], [9, {}], [20, 9]]\n", ".toml"),
+    ('{"function": {"pairs": [[0, 0], [9, {}], [20, 9]]}}', ".json"),
+    ("[function]\nexpression = 'x + {}'\nx = [1, 2]\ninput_deg = 9\noutput_deg = 9\n", ".toml"),
+    ("input_deg,output_deg\n0,0\n9,{}\n20,9\n", ".csv"),
+]
+
+
+@pytest.mark.parametrize("number", ["1e-400", "-2.4E-0324", TINY])
+@pytest.mark.parametrize(("text", "suffix"), SMALL)
+def test_a_number_that_would_become_0_is_refused_and_0_is_read(text, suffix, number):
+    name, (small, line, _, _) = f"a{suffix}", marked(text.replace("{}", number))
+    zero = marked(text.replace("{}", "0")).text
+    if "«" not in text:
+        error = refused(lambda: read_function(small.encode(), name))
+        assert error.code in ("E103", "E104", "E190")
+        read_function(zero.encode(), name)
+        return
+    error = refused(lambda: read_task(name, data=small.encode()))
+    assert error.code == "E103"
+    assert "nearer to 0 than 4.9e-324" in error.why
+    assert carets(error.where)[1] == line
+    read_task(name, data=zero.encode())
 
 
 def test_a_long_text_is_no_trouble(read):

@@ -19,7 +19,7 @@ from pathlib import Path
 import pytest
 
 from burmester.errors import InputError
-from burmester.io.files import atomic_file, require_writable, write
+from burmester.io.files import atomic_file, open_plain, require_writable, write
 from tests.oracles.kill import campaign, leftovers, state
 from tests.samples import samples
 
@@ -137,18 +137,48 @@ def test_a_file_replaced_keeps_its_owner():
 
 
 @posix
-def test_links_are_written_through(here):
+def test_what_links_lead_to_stays(here):
+    """A symbolic link is replaced by a file, and so is one of several names of a file."""
     (here / "deep").mkdir()
     write("deep/target", OLD)
+    os.chmod("deep/target", 0o604)
     os.symlink("deep/target", "link")
     os.symlink("deep/new", "dangling")
-    refused("E140", write, "link", NEW)
-    write("link", NEW, force=True)
-    write("dangling", NEW)
-    assert os.path.islink("link")
-    assert os.path.islink("dangling")
-    assert (here / "deep/target").read_bytes() == NEW == (here / "deep/new").read_bytes()
+    os.symlink("no folder/a", "nowhere")
+    os.symlink("deep", "folder")
+    os.link("deep/target", "hard")
+    for name in ("link", "dangling", "nowhere", "hard"):
+        why = refused("E140", write, name, NEW).why
+        assert (why is None) == (name == "hard")
+        assert why is None or "symbolic link" in why
+        require_writable(name, force=True)
+        write(name, NEW, force=True)
+        assert not os.path.islink(name)
+        assert Path(name).read_bytes() == NEW
+    write("folder/new", NEW)  # a folder may be named by a link
+    assert sorted(os.listdir("deep")) == ["new", "target"]
+    assert (here / "deep/target").read_bytes() == OLD
+    assert stat.S_IMODE(os.stat("link").st_mode) != 0o604  # a link has no mode to hand on
     assert leftovers(here / "deep") == []
+
+
+@posix
+def test_a_plain_file_is_opened_and_nothing_else(here):
+    write("file", OLD)
+    os.symlink("file", "link")
+    os.symlink("new", "dangling")
+    os.mkfifo("pipe")
+    os.mkdir("folder")
+    for name in ("link", "dangling"):
+        with pytest.raises(OSError, match="symbolic link"):
+            open_plain(name, "ab")
+    for name in ("pipe", "folder"):
+        for mode in ("rb", "ab"):
+            with pytest.raises(OSError, match="folder"):
+                open_plain(name, mode)
+    with open_plain("link", "rb") as file:
+        assert file.read() == OLD
+    assert not os.path.exists("new")
 
 
 def test_a_library_may_write_by_itself(here):
@@ -380,7 +410,7 @@ def test_a_folder_that_is_not_there_and_the_help(here):
         pytest.param("loop", "symbolic links", marks=posix),
         pytest.param(os.devnull, "a device or a pipe", marks=posix),
         pytest.param("pipe", "a device or a pipe", marks=posix),
-        pytest.param("nowhere", "there is no folder", marks=posix),
+        pytest.param("nowhere/a", "there is no folder", marks=posix),
     ],
 )
 @pytest.mark.parametrize("force", [False, True])

@@ -165,6 +165,12 @@ def block_bomb(document, space):
 
 USES = "".join(f'<g id="x{k}">' + f'<use href="#x{k - 1}"/>' * 10 + "</g>" for k in range(1, 10))
 RECT = '<rect width="4" height="2"/>'
+
+
+def bent(document, space):
+    space.add_lwpolyline([(k, k % 7, 1) for k in range(21_000)], format="xyb", close=True)
+
+
 REFUSED = {
     "two closed curves": (dxf(two_squares), "a.dxf", "E172", "layer 'A'"),
     "no such layer": (dxf(two_squares), "a.dxf:C", "E173", "'A' and 'B'"),
@@ -190,7 +196,40 @@ REFUSED = {
     "a page": (b"<html/>", "a.svg", "E170", "no svg element"),
     "entities": (b'<!DOCTYPE svg [<!ENTITY a "a">]>' + svg(RECT), "a.svg", "E170", "entities"),
     "groups in groups": (svg("<g>" * 900 + "</g>" * 900), "a.svg", "E170", "200 deep"),
-    "a bomb of uses": (svg(f'<g id="x0">{RECT}</g>{USES}'), "a.svg", "E170", "20000 elements"),
+    "a bomb of uses": (svg(f'<g id="x0">{RECT}</g>{USES}'), "a.svg", "E170", "200000 straight"),
+    "many arcs": (
+        svg(f'<path d="M0 0{"a1 1 0 0 1 1 1a1 1 0 0 1-1-1" * 60_000}z"/>'),
+        "a.svg",
+        "E170",
+        "200000 straight",
+    ),
+    "many corners": (
+        svg(f'<polygon points="{"0,0 1,1 " * 250_000}"/>'),
+        "a.svg",
+        "E170",
+        "200000 straight",
+    ),
+    "many circles": (svg('<circle r="1"/>' * 10_000), "a.svg", "E170", "200000 straight"),
+    "a path that is closed again and again": (
+        svg(f'<path d="M0 0h1{"z" * 100_000}"/>'),
+        "a.svg",
+        "E170",
+        "200000 straight",
+    ),
+    "a transform without an end": (
+        svg(f'<path transform="{"rotate(" * 50_000}" d="M0 0h1v1z"/>'),
+        "a.svg",
+        "E170",
+        "transform",
+    ),
+    "a long style sheet": (svg(f"<style>{'a{b:c}' * 50_000}</style>"), "a.svg", "E170", "sheets"),
+    "many entries": (
+        b"  0\nSECTION\n  2\nENTITIES\n" + b"  0\nARC\n  8\n0\n" * 60_000 + b"  0\nEOF\n",
+        "a.dxf",
+        "E170",
+        "60000 entries",
+    ),
+    "many arcs of a polyline": (dxf(bent), "a.dxf", "E170", "20000 curves"),
     "uses itself": (svg('<g id="x"><use href="#x"/></g>'), "a.svg", "E170", "uses itself"),
     "not finite": (svg('<path d="M 0 0 L 1e400 5 5 5z"/>'), "a.svg", "E170", "not finite"),
     "an open path": (svg('<path d="M 0 0 L 9 0 L 9 9"/>'), "a.svg", "E171", "none closes"),

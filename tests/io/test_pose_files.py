@@ -10,6 +10,7 @@ import os
 import re
 import subprocess
 import sys
+import zipfile
 from collections.abc import Callable
 from decimal import Decimal
 from pathlib import Path
@@ -671,6 +672,57 @@ def test_e105_gives_the_header_to_put_on_top(read: Read, rows: str) -> None:
     assert read(f"{line}\n{rows}").poses.shape == (rows.count("\n"),)
     in_radians = read(f"{line.replace('angle_deg', 'angle_rad')}\n{rows}")
     assert in_radians.poses.angle[0] > 1.5
+
+
+FOREIGN = {
+    "a.mat": (b"MATLAB 5.0 MAT-file, Platform: GLNXA64" + bytes(90), "MATLAB"),
+    "new.mat": (b"\x89HDF\r\n\x1a\n" + bytes(90), "HDF5"),
+    "old.mat": (bytes(90), "MATLAB"),
+    "a.npy": (b"\x93NUMPY" + bytes(90), "NumPy"),
+    "a.png": (b"\x89PNG\r\n\x1a\n" + bytes(90), "a picture (PNG)"),
+    "a.jpg": (b"\xff\xd8\xff\xe0" + bytes(90), "a picture (JPEG)"),
+    "no suffix": (b"\xff\xd8\xff\xe0" + bytes(90), "a picture (JPEG)"),
+    "damaged.jpeg": (bytes(90), "a picture (JPEG)"),
+}
+
+
+@pytest.mark.parametrize("name", FOREIGN)
+def test_e101_says_what_a_file_is_that_holds_no_text(name: str) -> None:
+    data, kind = FOREIGN[name]
+    with pytest.raises(InputError) as caught:
+        read_task(name, data=data)
+    assert caught.value.code == "E101"
+    assert kind in str(caught.value.why)
+    assert re.search("CSV|savetxt", str(caught.value.help))
+    read_task(name, data=b"MATLAB\nx,y,angle_deg\n0,0,0\n1,1,10\n2,1,25\n")  # contents count
+
+
+@pytest.mark.parametrize(("inside", "kind"), [("word/document.xml", "Word"), ("content.xml", "Op")])
+def test_e101_says_what_an_archive_is(inside: str, kind: str) -> None:
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w") as archive:
+        archive.writestr(inside, "<a/>")
+    with pytest.raises(InputError, match=kind):
+        read_task("a.docx", data=data.getvalue())
+
+
+@pytest.mark.parametrize(
+    ("header", "row"),
+    [
+        ("a,b,c", "{},{},{}"),
+        ("Zeit;a;b;c;d", "9;{};{};{};7"),
+        ("name,a,b,c", "p,{},{},{}"),
+        ("y,a,b", "{1},{0},{2}"),
+    ],
+)
+def test_e105_offers_columns_first_and_they_work(read: Read, header: str, row: str) -> None:
+    lines = [row.format(*map(float, values)) for values in ((0, 0, 0), (1, 3, 10), (2, 1, 25))]
+    text = "\n".join([header, *lines, ""])
+    error = refused(read, text)
+    assert error.code == "E105"
+    option = re.match(r'pass --columns "?([^ "]+)"? if that is their order, or name', error.help)
+    assert option
+    assert read(text, columns=option[1]).poses.translation.tolist() == [[0, 0], [1, 3], [2, 1]]
 
 
 def test_e105_for_a_header_in_other_words(read: Read) -> None:

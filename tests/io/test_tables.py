@@ -319,9 +319,9 @@ def test_a_number_is_read_as_it_was_meant_or_refused(  # noqa: PLR0917
 
 def test_what_no_double_holds_is_the_nearest_one(read: Read) -> None:
     half = "1.00000000000000011102230246251565404236316680908203125"  # between two doubles
-    task = read(f"x,y,angle_rad\n{half},{half}1,1e-400\n9007199254740993,0,0\n2,2,2\n")
+    task = read(f"x,y,angle_rad\n{half},{half}1,3e-324\n9007199254740993,0,0\n2,2,2\n")
     assert task.poses.translation.tolist()[:2] == [[1.0, 1.0000000000000002], [2.0**53, 0.0]]
-    assert task.poses.angle[0] == 0
+    assert task.poses.angle[0] == 5e-324
 
 
 def test_errors_of_a_spreadsheet_are_no_comments(read: Read) -> None:

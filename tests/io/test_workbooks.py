@@ -5,6 +5,7 @@ import random
 import re
 import sys
 import time
+import tracemalloc
 import zipfile
 
 import numpy as np
@@ -128,6 +129,10 @@ def test_a_number_is_the_one_that_is_stored_or_written(read, cell, meant):
         (text("1,234"), "E104", "thousands"),
         (text("12 cm"), "E108", ""),
         (number("1e999"), "E103", ""),
+        (number("1e-400"), "E103", "nearer to 0"),
+        (text("1e-400"), "E103", "nearer to 0"),
+        (number("1_000"), "E104", ""),
+        (number("\uff11"), "E104", ""),
         (None, "E104", ""),
     ],
 )
@@ -249,7 +254,25 @@ def behind_rows(more):
     return lambda xml: xml.replace("</sheetData>", more)
 
 
-AREA = "</sheetData><mergeCells><mergeCell ref='A1:XFD1048576'/></mergeCells>"
+def merging(area):
+    merged = f"</sheetData><mergeCells><mergeCell ref='{area}'/></mergeCells>"
+    return packed(with_part(behind_rows(merged)))
+
+
+def sharing(texts, row):
+    """A workbook whose cells share texts, with one more row."""
+    files = with_part(behind_rows(f"{row}</sheetData>"))
+    files["xl/sharedStrings.xml"] = f'{HEAD}<sst xmlns="{MAIN}">{texts}</sst>'
+    return packed(files)
+
+
+def styled(change):
+    return packed(with_part(change, "xl/styles.xml"))
+
+
+AREA = "A1:XFD1048576"
+SHARED = '<row r="9"><c r="A9" t="s"><v>{}</v></c></row>'
+FORMAT = f"<numFmts><numFmt numFmtId='10' formatCode='{'[' * 200_000}'/></numFmts><fonts "
 FAR = '<row r="1048576"><c r="XFD1048576"><v>1</v></c></row></sheetData>'
 HOSTILE = {
     "entities": packed(with_part(declaring(LAUGHS))),
@@ -261,7 +284,31 @@ HOSTILE = {
     "a document type in the workbook": packed(with_part(declaring(LAUGHS), "xl/workbook.xml")),
     "a bomb": packed(with_part(lambda xml: xml + " " * 300_000_000)),
     "many tags": packed(with_part(behind_rows("<row/>" * 2_000_000))),
-    "merged everywhere": packed(with_part(behind_rows(AREA))),
+    "merged everywhere": merging(AREA),
+    "merged in small letters": merging(AREA.lower()),
+    "merged with dollars": merging("$A$1:$XFD$1048576"),
+    "merged with characters by number": merging("&#65;1:&#x58;FD1048576"),
+    "merged in pieces": merging("A1:B40000'/><mergeCell ref='C1:D40000"),
+    "merged nowhere": merging("A1:B"),
+    "shared texts of 190 MB": sharing(f"<si><t>{'a' * 190_000_000}</t></si>", SHARED.format(0)),
+    "a long shared text": sharing(f"<si><t>{'a' * 200_000}</t></si>", SHARED.format(0)),
+    "a long text in many cells": sharing(
+        f"<si><t>{'a' * 90_000}</t></si>",
+        "".join(f'<row><c t="s"><v>{0 * k}</v></c></row>' for k in range(400)),
+    ),
+    "a shared text that is not there": sharing("<si><t>a</t></si>", SHARED.format(-1)),
+    "a format that takes the square of its length": styled(
+        lambda xml: xml.replace("<fonts ", FORMAT)
+    ),
+    "many styles": styled(
+        lambda xml: xml.replace("<xf numFmtId='10'/>", "").replace(
+            '<xf numFmtId="10"/>', '<xf numFmtId="10"/>' * 60_000
+        )
+    ),
+    "a row beyond the last": packed(with_part(behind_rows('<row r="1e99"><c/></row></sheetData>'))),
+    "a column beyond the last": packed(
+        with_part(behind_rows('<row r="9"><c r="XFE9"/></row></sheetData>'))
+    ),
     "a cell far away": packed(with_part(behind_rows(FAR))),
     "packed by lzma": packed(with_part(str), zipfile.ZIP_LZMA),
     "no workbook": packed({"mimetype": "application/vnd.oasis.opendocument.spreadsheet"}),
@@ -280,6 +327,35 @@ def test_hostile_and_damaged_workbooks_are_refused_at_once(read, name):
     assert time.process_time() - begun < 10
     assert "lollol" not in str(error)
     assert "root:" not in str(error)
+
+
+def test_ranges_cost_nothing_whatever_they_span():
+    """Links, rules and formulas may span the sheet: no object is made of the cells in between."""
+    area = "A1:Z9999"
+    formula = f'<row r="9"><c r="D9"><f t="array" ref="{area}">A1</f><v>0</v></c></row>'
+    more = (
+        f"{formula}</sheetData><conditionalFormatting sqref='{'A1 ' * 100_000}'/>"
+        f"<dataValidations><dataValidation sqref='{'A1 ' * 100_000}'/></dataValidations>"
+        f"<hyperlinks><hyperlink ref='{area}' display='x'/></hyperlinks>"
+    )
+    data = packed(with_part(behind_rows(more)))
+    reader.read_sheet("loads", workbook([HEADER, *ROWS]), None)
+    tracemalloc.start()
+    source = reader.read_sheet("poses", data, None)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert source.text.endswith("\t\t\t0")
+    assert peak < 5_000_000
+
+
+def test_what_is_below_merged_cells_is_not_read(read):
+    rows = [[*row, number("7")] for row in ROWS]
+    task = read(
+        workbook(
+            [[*HEADER, text("#")], *rows], merged=["F1:G9", *(f"C{k}:D{k}" for k in range(1, 6))]
+        )
+    )
+    require_poses(task)
 
 
 def test_an_archive_that_lies_about_its_size_is_not_unpacked_further(read):

@@ -6,12 +6,14 @@ angles all rows are points, perhaps with `crank_deg` or `crank_rad`.  Or a row a
 `task`, `input_deg`, `output_deg` (or both in `_rad`), and `weight`.
 The table is read from front to back, a piece at a time; it may be larger than the memory.
 
-E101 not readable      E104 no numbers, or no names of tasks      E107 a column that is not known
+E101 not readable      E103 a number that would become 0
+E104 no numbers, or no names of tasks      E107 a column that is not known
 E102 no rows           E105 a column is missing                   E108 a task or a column twice
 """
 
 from __future__ import annotations
 
+import mmap
 import os
 import re
 from collections.abc import Iterator
@@ -22,7 +24,7 @@ import numpy as np
 from burmester.batch.parts import Part, TableTasks
 from burmester.batch.task_names import TaskNames
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import MARKS, shown
+from burmester.io.reading.pose_table import MARKS, is_held, shown, unheld
 from burmester.io.reading.trees.locations import close_match
 from burmester.printable import printable
 from burmester.wording import listed
@@ -35,6 +37,8 @@ PAIR_COLUMNS = ("task", "input_deg", "output_deg", "input_rad", "output_rad", "w
 EXAMPLE = "task,x,y,angle_deg"
 PAIR_EXAMPLE = "task,input_deg,output_deg"
 WHOLE = re.compile(r"[+-]?[0-9]{1,18}")  # a number that names a task
+_TINY = re.compile(rb"(?<![^,\n])[+-]?[0-9.]*[0-9][0-9.]*[eE]-0*[0-9]{3,}(?![^,\r\n])")
+_LINE_END = re.compile(rb"\n")
 PIECE_ROWS = 1 << 16  # rows that are taken from a Parquet file at a time
 PIECE_BYTES = 1 << 22  # bytes that are taken from a CSV file at a time
 
@@ -126,6 +130,7 @@ def _pieces(path: str, label: str) -> Iterator[_Piece]:
             task = pa.int64() if WHOLE.fullmatch(first) else pa.string()
             total = max(1, os.fstat(file.fileno()).st_size)
             file.seek(0)
+            _require_held(file, total, label)
             numeric = {*COLUMNS, *PAIR_COLUMNS} - {"task", "exact"}
             kinds = dict.fromkeys(sorted(numeric), pa.float64())
             reader = pc.open_csv(
@@ -144,6 +149,16 @@ def _pieces(path: str, label: str) -> Iterator[_Piece]:
         help = f"write a table with numbers below `{EXAMPLE}`, or save it as Parquet"
         message = "the table of tasks cannot be read"
         raise InputError("E101", message, where=label, why=why, help=help) from None
+
+
+def _require_held(file: Any, size: int, label: str) -> None:
+    """Refuse a number that would become 0, which pyarrow does not tell; raises E103."""
+    with mmap.mmap(file.fileno(), size, access=mmap.ACCESS_READ) as text:
+        for found in _TINY.finditer(text):
+            if not is_held(number := found[0].decode()):
+                where = f"{label}:{1 + sum(1 for _ in _LINE_END.finditer(text, 0, found.start()))}"
+                message, help = f"{number} is too small", "write 0 if that is meant"
+                raise InputError("E103", message, where=where, why=unheld(number), help=help)
 
 
 def _cells(file: Any) -> list[str]:

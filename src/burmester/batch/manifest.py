@@ -14,15 +14,24 @@ import hashlib
 import json
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from typing import Any, final
 
 from burmester.batch.out_folder import OutFolder
 from burmester.errors import InputError
+from burmester.io.files import open_plain
 from burmester.printable import printable
 
-__all__ = ["Manifest", "PartRecord", "digest_of", "read_sealed"]
+__all__ = ["OF_MANIFEST", "Manifest", "PartRecord", "digest_of", "read_sealed"]
 
+OF_RECORD: Mapping[str, type] = {
+    "run": str, "part": int, "tasks": int, "bytes": int, "sha256": str,
+    "outcomes": dict, "failed": list,
+}  # fmt: skip
+OF_MANIFEST: Mapping[str, type] = {
+    "identity": dict, "complete": bool, "parts": int, "tasks": int, "outcomes": dict,
+    "failed": list, "parts_sha256": str,
+}  # fmt: skip
 NAMED = 100  # failed tasks that the manifest names; the parts name all
 
 
@@ -49,14 +58,15 @@ def _sealed(data: dict[str, Any]) -> dict[str, Any]:
     return {**data, "seal": digest_of(data)[:16]}
 
 
-def read_sealed(text: bytes) -> dict[str, Any] | None:
-    """The data in sealed JSON; None where it is damaged."""
+def read_sealed(text: bytes, kinds: Mapping[str, type]) -> dict[str, Any] | None:
+    """The data in sealed JSON, values of these kinds by their keys; None where it is damaged."""
     try:
         data = json.loads(text)
-        seal = data.pop("seal")
-    except (ValueError, AttributeError, KeyError, RecursionError):
+    except (ValueError, RecursionError):
         return None
-    return data if seal == digest_of(data)[:16] else None
+    if not isinstance(data, dict) or data.pop("seal", None) != digest_of(data)[:16]:
+        return None
+    return data if all(type(data.get(key)) is kind for key, kind in kinds.items()) else None
 
 
 class Manifest:
@@ -81,7 +91,7 @@ class Manifest:
             message = f"{printable(folder.path)} holds parts without a manifest"
             help = "give another folder, or delete these parts"
             raise InputError("E140", message, why="they cannot be told apart", help=help)
-        given = None if known is None else read_sealed(known)
+        given = None if known is None else read_sealed(known, OF_MANIFEST)
         if given is not None:
             self._require_same(given["identity"])
         elif known is not None or lines is not None:
@@ -98,19 +108,19 @@ class Manifest:
         self._write(complete=False)
 
     def _record(self, line: bytes, *, strange: bool) -> PartRecord | None:
-        data = read_sealed(line)
+        data = read_sealed(line, OF_RECORD)
         if data is None:
             return None
-        if data.pop("run", None) != self.run:
+        if data.pop("run") != self.run:
             if strange:
                 raise self._other("its manifest is damaged, and its parts are of another batch")
             return None
-        return PartRecord(**data)
+        return PartRecord(**{each.name: data[each.name] for each in fields(PartRecord)})
 
     def _is_whole(self, record: PartRecord) -> bool:
         """Whether the file of a part is as it was written."""
         try:
-            with open(self.folder.part(record.part), "rb") as file:
+            with open_plain(self.folder.part(record.part), "rb") as file:
                 same = os.fstat(file.fileno()).st_size == record.bytes
                 return same and hashlib.file_digest(file, "sha256").hexdigest() == record.sha256
         except OSError:
@@ -178,7 +188,7 @@ def _sums(records: Iterable[PartRecord]) -> dict[str, Any]:
 
 def _content(path: str) -> bytes | None:
     try:
-        with open(path, "rb") as file:
+        with open_plain(path, "rb") as file:
             return file.read()
     except FileNotFoundError:
         return None

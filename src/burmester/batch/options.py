@@ -20,7 +20,7 @@ from typing import Any, Final, Literal, TypeAlias, final
 from burmester.errors import InputError
 from burmester.io.reading.functions.function_file import settings_of_tree
 from burmester.io.reading.functions.function_options import FunctionSettings
-from burmester.io.reading.pose_table import PoseTable, Source
+from burmester.io.reading.pose_table import PoseTable, Source, held_float
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.specification import TOP_KEYS
 from burmester.io.reading.trees.documents import read_toml
@@ -155,7 +155,10 @@ class BatchOptions:
 @lru_cache(maxsize=4)
 def _parsed(text: str, label: str) -> dict[str, Any]:
     try:
-        return tomllib.loads(text)
+        return tomllib.loads(text, parse_float=held_float)
+    except InputError as error:
+        error.where = label
+        raise
     except tomllib.TOMLDecodeError as error:
         help = 'write lines such as prefer = "size"'
         message = "the options are no TOML"
@@ -165,7 +168,7 @@ def _parsed(text: str, label: str) -> dict[str, Any]:
 @lru_cache(maxsize=4)
 def _beside(text: str, label: str) -> PoseTable:
     poses = "".join(_POSES.format(k, 10 * k) for k in range(5))
-    return read_toml(Source(label, text + poses))
+    return read_toml(Source(label, text + poses), (FUNCTION, SIX_BARS))
 
 
 def _unknown(

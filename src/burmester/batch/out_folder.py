@@ -54,15 +54,18 @@ class OutFolder:
         return os.path.join(self.path, f"part-{number:06}.parquet")
 
     def part_names(self) -> list[str]:
-        """The names of all files that look like parts."""
+        """The names of all that a reader of Parquet folders takes for parts."""
         names = os.listdir(self.path)
-        return sorted(
-            each for each in names if each.startswith("part-") and each.endswith(".parquet")
-        )
+        return sorted(each for each in names if each.endswith(".parquet") and each[0] not in "_.")
 
     def write(self, path: str, data: bytes | str) -> None:
         """Write a file of this folder, or replace it; raises E141."""
-        files.write(path, data, force=True, swept=True)
+        try:
+            files.write(path, data, force=True, swept=True)
+        except InputError as error:
+            if os.path.exists(path) and not os.path.isfile(path):
+                error.help = "take away what stands there, or give another folder"
+            raise
 
     def append(self, path: str, line: bytes) -> None:
         """Write a line behind the others, and now and then all down to the disk; raises E141.
@@ -71,15 +74,12 @@ class OutFolder:
         the last second: what they tell of is done again.
         """
         try:
-            descriptor = os.open(path, os.O_WRONLY | os.O_APPEND | os.O_CREAT, 0o666)
-            try:
+            with files.open_plain(path, "ab") as file:
                 while line:
-                    line = line[os.write(descriptor, line) :]
+                    line = line[file.write(line) :]
                 if (now := monotonic()) - self._synced > SYNC_S:
-                    os.fsync(descriptor)
+                    os.fsync(file.fileno())
                     self._synced = now
-            finally:
-                os.close(descriptor)
         except OSError as error:
             raise files.cannot_write(path, error, Path(path)) from None
 
@@ -91,11 +91,11 @@ class OutFolder:
         """
         try:
             os.makedirs(self.path, exist_ok=True)
-            lock = os.open(os.path.join(self.path, LOCK), os.O_RDWR | os.O_CREAT, 0o666)
+            lock = files.open_plain(os.path.join(self.path, LOCK), "ab")
         except (OSError, ValueError) as error:
             raise self._refused(error) from None
-        try:
-            if not _locked(lock):
+        with lock:
+            if not _locked(lock.fileno()):
                 raise InputError(
                     "E181",
                     "another run works on this folder",
@@ -104,14 +104,14 @@ class OutFolder:
                 )
             files.sweep(self.path)
             yield
-        finally:
-            os.close(lock)
 
     def _refused(self, error: OSError | ValueError) -> InputError:
         if os.path.lexists(self.path) and not os.path.isdir(self.path):
             message, help = f"{printable(self.path)} cannot be written", "give the name of a folder"
             return InputError("E141", message, why="it is a file, not a folder", help=help)
-        return files.cannot_write(self.path, error, Path(self.path) / LOCK)
+        lock = os.path.join(self.path, LOCK)
+        given = lock if os.path.lexists(lock) else self.path
+        return files.cannot_write(given, error, Path(lock))
 
 
 def _locked(descriptor: int) -> bool:

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from burmester.cli.options import Number
 from burmester.cli.output import (
     EXIT_FOUND,
     EXIT_INTERRUPT,
@@ -41,7 +42,7 @@ TASKS   a table with a row for each pose (.parquet or .csv), whose columns are
 @click.option("--poses", type=click.IntRange(2), metavar="N", help="Poses of each; by default 10.")
 @click.option(
     "--noise",
-    type=click.FloatRange(0, 1),
+    type=Number(0, 1),
     metavar="SIGMA",
     help="Standard deviation of the errors of the poses: a share of their span, and radians; by "
     "default 0.",
@@ -83,14 +84,14 @@ TASKS   a table with a row for each pose (.parquet or .csv), whose columns are
 )
 @click.option(
     "--part-limit",
-    type=click.FloatRange(min=0.1),
+    type=Number(min=0.1),
     metavar="SECONDS",
     help="A part that takes longer is taken apart, and a task that alone takes longer fails; "
     "by default 600 at the depth full, and 120 at the others.",
 )
 @click.option(
     "--worker-memory",
-    type=click.FloatRange(min=0.1),
+    type=Number(min=0.1),
     metavar="GB",
     help="Address space that each process may have; by default there is no limit.",
 )

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from burmester.cli.options import Number
 from burmester.cli.output import EXIT_FOUND, console
 
 if TYPE_CHECKING:
@@ -44,12 +45,12 @@ Lengths are in the unit of the poses."""
     metavar="UNIT",
     help="Unit of the lengths, if the poses state none or px; by default mm.",
 )
-@click.option("--hole", type=float, metavar="LENGTH", help="Diameter of holes.")
-@click.option("--pin", type=float, metavar="LENGTH", help="Diameter of pins.")
-@click.option("--width", type=float, metavar="LENGTH", help="Width of the links.")
-@click.option("--thickness", type=float, metavar="LENGTH", help="Thickness of the plates.")
+@click.option("--hole", type=Number(), metavar="LENGTH", help="Diameter of holes.")
+@click.option("--pin", type=Number(), metavar="LENGTH", help="Diameter of pins.")
+@click.option("--width", type=Number(), metavar="LENGTH", help="Width of the links.")
+@click.option("--thickness", type=Number(), metavar="LENGTH", help="Thickness of the plates.")
 @click.option(
-    "--gap", type=float, metavar="LENGTH", help="Gap between plates that lie on each other."
+    "--gap", type=Number(), metavar="LENGTH", help="Gap between plates that lie on each other."
 )
 @click.option(
     "--pose", type=int, metavar="N", default=1, help="Pose at which the assembly is drawn."
@@ -67,7 +68,7 @@ Lengths are in the unit of the poses."""
 )
 @click.option(
     "--density",
-    type=float,
+    type=Number(),
     metavar="KG/M3",
     default=2700.0,
     help="Density of plates and pins in mjcf and urdf; steel has 7850.",
@@ -81,12 +82,12 @@ Lengths are in the unit of the poses."""
     show_default=True,
 )
 @click.option(
-    "--seconds", type=float, default=4.0, help="Duration of gif and mp4.", show_default=True
+    "--seconds", type=Number(), default=4.0, help="Duration of gif and mp4.", show_default=True
 )
 @click.option(
     "--fps",
     "frames_per_second",
-    type=float,
+    type=Number(),
     default=25.0,
     help="Frames per second of gif and mp4.",
     show_default=True,

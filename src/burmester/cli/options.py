@@ -6,6 +6,7 @@ take their values.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
 from functools import partial, reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -28,6 +29,7 @@ __all__ = [
     "POSES_HELP",
     "SIX_BARS",
     "SPECIFICATION",
+    "Number",
     "Sectioned",
     "pose_arguments",
     "read_poses",
@@ -66,6 +68,26 @@ for one dyad and the second for the other, and `any` leaves a dyad free. A point
 given once is for one dyad and leaves the other free, because two dyads cannot
 share a pivot. Fixed pivots are in the frame of the ground, moving pivots in that
 of the body, lengths in the unit of the poses."""
+
+
+class Number(click.FloatRange):
+    """A number in digits that a double holds, within a range."""
+
+    name = "number"
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
+        """The double of a text; click takes 1_000, nan and 1e-400 as well."""
+        if isinstance(value, str):
+            from burmester.io.reading.pose_table import plain_number, shown, unheld
+
+            plain, mark = plain_number(value.strip(), ",")
+            if mark is None:
+                held = not re.fullmatch(r"[-+]?[0-9.]+[eE][-+]?[0-9]+", plain)
+                why = f"{shown(value)} is no number such as 12.5 or 3e-4"
+                self.fail(why if held else unheld(plain), param, ctx)
+        return float(super().convert(value, param, ctx))
 
 
 class _Option(click.Option):

@@ -6,6 +6,7 @@ import sys
 
 import click
 
+from burmester.cli.options import Number
 from burmester.cli.output import EXIT_FOUND
 from burmester.errors import InputError
 
@@ -40,7 +41,7 @@ MOST_BYTES = 50_000_000  # of standard input
 )
 @click.option(
     "--time-limit",
-    type=click.FloatRange(min=0.1),
+    type=Number(min=0.1),
     default=10.0,
     show_default=True,
     metavar="SECONDS",

@@ -1,7 +1,9 @@
 """Files that are there whole or not at all: every output of this package is written here.
 
 A temporary file beside the target is written, flushed to the disk and then put in place under the
-target's name.  Whoever looks sees the old file or the new one, also after a crash.
+target's name.  Whoever looks sees the old file or the new one, also after a crash.  What is
+replaced is a name in its folder and nothing else: a symbolic link gives way to a file, and what it
+leads to stays as it was, as do the other names (hard links) of a file that is replaced.
 
 E140 the file exists already        E141 the file cannot be written
 E142 it is the file that is read
@@ -17,13 +19,22 @@ import stat
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from io import FileIO
 from pathlib import Path
 
 from burmester.errors import BurmesterError, InputError
 from burmester.printable import printable
 from burmester.signals import unfinished
 
-__all__ = ["atomic_file", "cannot_write", "quoted", "require_writable", "sweep", "write"]
+__all__ = [
+    "atomic_file",
+    "cannot_write",
+    "open_plain",
+    "quoted",
+    "require_writable",
+    "sweep",
+    "write",
+]
 
 STALE_SECONDS = 3600.0  # age above which a temporary file was left by a killed process
 
@@ -52,8 +63,8 @@ def atomic_file(
 ) -> Iterator[Path]:
     """An empty file to write into, which becomes `path` when the block ends without an error.
 
-    It lies in the folder of `path` and has its suffix.  A symbolic link is written through, and a
-    file that is replaced hands on its mode and its owner.  Without `force`, a file that exists is
+    It lies in the folder of `path` and has its suffix.  A file that is replaced hands on its mode
+    and its owner.  Without `force`, a file that exists is
     not touched, whenever it came.  Where the block is left by an exception, KeyboardInterrupt
     too, nothing remains, and its error names `path`, never the temporary file.  A killed process
     leaves a file `.burmester-...` behind, which the next one to write to `path` sweeps away after
@@ -82,6 +93,30 @@ def atomic_file(
             if isinstance(refused, FileExistsError) and not force:
                 raise _exists(given) from None
             raise cannot_write(given, refused, target) from None
+
+
+def open_plain(path: str | os.PathLike[str], mode: str) -> FileIO:
+    """Open a file of a folder that others may write to, unbuffered, in a binary mode.
+
+    Raises OSError for a folder, a device or a pipe, which may wait for ever.  A link may be read
+    through, but to write or to lock only the file of that very name is opened.
+    """
+
+    def opener(name: str, flags: int) -> int:
+        links = 0 if mode == "rb" else getattr(os, "O_NOFOLLOW", 0)
+        try:
+            descriptor = os.open(name, flags | links | getattr(os, "O_NONBLOCK", 0), 0o666)
+            if stat.S_ISREG(os.fstat(descriptor).st_mode):
+                return descriptor
+            os.close(descriptor)
+        except OSError as error:
+            if links and os.path.islink(name):
+                raise OSError(errno.ELOOP, "it is a symbolic link", name) from None
+            if error.errno not in (errno.EISDIR, errno.ENXIO):
+                raise
+        raise OSError(errno.EISDIR, "it is no file, but a folder, device or pipe", name)
+
+    return FileIO(path, mode, opener=opener)
 
 
 def sweep(folder: str | os.PathLike[str]) -> None:
@@ -129,13 +164,14 @@ def _require_other(given: str, source: str) -> None:
 
 
 def _target(given: str, force: bool) -> Path:
-    """The file that is meant, behind all links, if it may be written as far as can be seen."""
+    """The file that is meant, in its own folder, if it may be written as far as can be seen."""
     if not given:
         raise _refused(given, "its name is empty", "give the name of a file")
     target = Path(given)
     try:
-        target = Path(os.path.realpath(given))
-        known = _stat(given)
+        place, name = os.path.split(given)
+        target, is_link = Path(os.path.realpath(place), name), os.path.islink(given)
+        known = _stat(given) or (os.lstat(given) if is_link else None)
         if known is None and not given.endswith(_separators()):
             folder = _stat(str(target.parent))
             if folder is not None and stat.S_ISDIR(folder.st_mode):
@@ -148,12 +184,12 @@ def _target(given: str, force: bool) -> Path:
         why = "it is a folder" if known else "it ends like the name of a folder"
         inside = _plain(os.path.join(given, "NAME"))
         raise _refused(given, why, f"give the name of a file, such as {inside}")
-    if not stat.S_ISREG(known.st_mode):
+    if not (stat.S_ISREG(known.st_mode) or stat.S_ISLNK(known.st_mode)):
         why = "it is a device or a pipe, not a file"
         raise _refused(given, why, "give the name of a file")
     if not force:
         raise _exists(given)
-    if not os.access(target, os.W_OK):
+    if not (is_link or os.access(target, os.W_OK)):
         unlock = f"attrib -r {quoted(given)}" if _WINDOWS else f"chmod u+w {quoted(given)}"
         raise _refused(given, "the file is read-only", f"give another name, or run `{unlock}`")
     return target
@@ -223,14 +259,14 @@ def _name_target(error: Exception, temporary: Path, given: str) -> None:
 
 def _settle(temporary: Path, target: Path, force: bool) -> None:
     """Bring the temporary file to the disk, and then under the target's name."""
-    replaced = _stat(str(target)) if force else None
-    if replaced is not None and not _WINDOWS:
-        own = os.stat(temporary)
-        if (own.st_uid, own.st_gid) != (replaced.st_uid, replaced.st_gid):
-            with suppress(OSError):  # only root may give files away
-                os.chown(temporary, replaced.st_uid, replaced.st_gid)
-        os.chmod(temporary, stat.S_IMODE(replaced.st_mode))
-    with open(temporary, "rb+") as file:
+    replaced = _stat(str(target)) if force and not target.is_symlink() else None
+    with open_plain(temporary, "rb+") as file:
+        if replaced is not None and not _WINDOWS:
+            own = os.fstat(file.fileno())
+            if (own.st_uid, own.st_gid) != (replaced.st_uid, replaced.st_gid):
+                with suppress(OSError):  # only root may give files away
+                    os.chown(file.fileno(), replaced.st_uid, replaced.st_gid)
+            os.chmod(file.fileno(), stat.S_IMODE(replaced.st_mode))
         os.fsync(file.fileno())
     if force:
         os.replace(temporary, target)
@@ -289,7 +325,9 @@ def _sweep(target: Path) -> None:
 
 def _exists(given: str) -> InputError:
     help = "give another name, or add --force to replace it"
-    return InputError("E140", f"{_plain(given)} exists already", help=help)
+    link = "it is a symbolic link; --force replaces the link, and what it leads to stays"
+    why = link if os.path.islink(given) else None
+    return InputError("E140", f"{_plain(given)} exists already", why=why, help=help)
 
 
 def _refused(given: str, why: str, help: str) -> InputError:
@@ -299,11 +337,11 @@ def _refused(given: str, why: str, help: str) -> InputError:
 def cannot_write(given: str, error: OSError | ValueError, target: Path) -> InputError:
     """E141 for a path as it was given, with the system's words and a way out.
 
-    target: the file that is meant, behind all links.
+    target: the file that is meant, its folder behind all links.
     """
     why = getattr(error, "strerror", None) or str(error)
     code, folder = getattr(error, "errno", None), os.path.dirname(given) or os.curdir
-    if code == errno.ENOENT and os.path.isdir(folder):  # a link into a folder that is not there
+    if code == errno.ENOENT and os.path.islink(folder):  # to a folder that is not there
         folder = str(target.parent)
     if code == errno.ENOENT and not os.path.isdir(folder):
         make = f"{'mkdir' if _WINDOWS else 'mkdir -p'} {quoted(folder)}"
@@ -322,7 +360,7 @@ def cannot_write(given: str, error: OSError | ValueError, target: Path) -> Input
         errno.ENAMETOOLONG: "give a shorter name",
         errno.EFBIG: "give a name on another disk, or raise the limit on the size of files",
         errno.EINVAL: "give a name of letters, digits, - and _",
-        errno.ELOOP: "remove the symbolic link that leads to itself, or give another name",
+        errno.ELOOP: "remove the symbolic link, or give another name",
     }.get(code or 0, "give another name")
     return _refused(given, why, help)
 

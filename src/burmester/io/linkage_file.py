@@ -26,7 +26,8 @@ from typing import Any
 from burmester.errors import InputError
 from burmester.fourbar.linkage import Linkage
 from burmester.io.linkage_values import dyad_of, fault
-from burmester.io.reading.file_content import read_source
+from burmester.io.reading.file_content import read_source, require_moderate
+from burmester.io.reading.pose_table import held_float
 from burmester.io.result import SCHEMA
 from burmester.io.saved import read_result
 from burmester.io.six_bar_file import is_six_bar, six_bar_of
@@ -87,7 +88,12 @@ def _tree(data: bytes, label: str) -> dict[str, Any]:
         raise InputError("E156", NO_LINKAGE, where=label, why=why, help=HELP) from None
     language = "JSON" if text.lstrip()[:1] in ("{", "[") and not _is_table(text) else "TOML"
     try:
-        tree = json.loads(text) if language == "JSON" else tomllib.loads(text.replace("\r\n", "\n"))
+        require_moderate(text, tree=language == "TOML")
+        loads = json.loads if language == "JSON" else tomllib.loads
+        tree = loads(text.replace("\r\n", "\n"), parse_float=held_float)
+    except InputError as error:
+        error.where = label
+        raise
     except (ValueError, RecursionError) as error:
         code, message, why = "E109", f"this is not {language}", printable(str(error))
         if not label.lower().endswith((".json", ".toml")):

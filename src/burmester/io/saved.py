@@ -31,6 +31,7 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_values import dyad_of, number
 from burmester.io.reading.file_content import read_source
+from burmester.io.reading.pose_table import held_float
 from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA, SEARCH_KEYS
 from burmester.printable import printable
@@ -235,11 +236,14 @@ def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> Sa
 
 
 def result_tree(data: bytes, label: str) -> dict[str, Any]:
-    """The object in the bytes of a result; raises E109 and E150."""
+    """The object in the bytes of a result; raises E103, E109 and E150."""
     try:
         tree = json.loads(
             data, parse_int=_whole_number, parse_float=_finite, parse_constant=_finite
         )
+    except InputError as error:
+        error.where = label
+        raise
     except (ValueError, RecursionError) as error:
         why = printable(str(error))
         raise InputError("E109", "this is not JSON", where=label, why=why, help=HELP) from None
@@ -254,8 +258,8 @@ def _whole_number(digits: str) -> int | float:
 
 
 def _finite(digits: str) -> float:
-    """A number; ValueError where it is none, or too large to be one."""
-    if not math.isfinite(value := float(digits)):
+    """A number; ValueError where it is none, or too large to be one, and E103 if too small."""
+    if not math.isfinite(value := held_float(digits)):
         raise ValueError(f"{digits[:40]} is no finite number")
     return value
 

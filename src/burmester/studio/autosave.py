@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any, Final
 
-from burmester.io.files import write
+from burmester.io.files import open_plain, write
 from burmester.studio.parcel import as_json, from_json
 
 __all__ = ["folder", "last", "save"]
@@ -56,8 +56,11 @@ def save(given: dict[str, Any]) -> None:
 def last() -> dict[str, Any] | None:
     """What was kept last; where that is damaged, what was kept before it."""
     for file in _kept():
-        with suppress(OSError, ValueError, RecursionError, TypeError, LookupError):
-            kept: dict[str, Any] = from_json(file.read_bytes())
+        with (
+            suppress(OSError, ValueError, RecursionError, TypeError, LookupError),
+            open_plain(file, "rb") as opened,
+        ):
+            kept: dict[str, Any] = from_json(opened.read())
             if isinstance(kept["document"]["poses"], list):
                 return kept
     return None
@@ -68,5 +71,5 @@ def _kept() -> list[Path]:
     files = {}
     for each in folder().glob("[!.]*.json"):
         with suppress(OSError):  # another tab has taken it away
-            files[each] = each.stat().st_mtime
+            files[each] = each.lstat().st_mtime
     return sorted(files, key=lambda each: files[each], reverse=True)

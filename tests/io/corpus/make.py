@@ -114,8 +114,8 @@ def dialects() -> None:
     good("many-digits.csv", CSV.replace("12.5", long), [*POSES[:3], [long, *POSES[3][1:]]])
     good(
         "tiny.csv",
-        "x,y,angle_rad\n1e-400,2,3\n4,5e-324,6\n7,8,1e-310\n",
-        [["1e-400", "2", "3"], ["4", "5e-324", "6"], ["7", "8", "1e-310"]],
+        "x,y,angle_rad\n3e-324,2,3\n4,5e-324,6\n7,8,1e-310\n",
+        [["3e-324", "2", "3"], ["4", "5e-324", "6"], ["7", "8", "1e-310"]],
         "rad",
     )
     good(
@@ -307,6 +307,7 @@ def faults() -> None:
         ("nan", "NaN", "E103"),
         ("inf", "-inf", "E103"),
         ("1e400", "1e400", "E103"),
+        ("1e-400", "1e-400", "E103"),
         ("text", "seven", "E104"),
         ("empty-cell", "", "E104"),
         ("en-dash", "\u20133", "E104"),

@@ -25,6 +25,7 @@ __all__ = [
 MAX_BYTES = 50_000_000  # of a file: some two million poses, or what is no pose file
 MAX_LINES = 1_100_000  # of a text: `check` takes 0.5 kB of memory a line, and 12 s for all
 MAX_TREE_CHARACTERS = 20_000_000  # of JSON and TOML
+MAX_VALUES = 1_500_000  # in JSON and TOML: 350,000 poses in lists, of 1 kB of memory each
 TREE_BYTES = 40  # of memory for a character of them, with locations and printed digits
 
 _WINDOWS_SIGNS = "°º²³µ§±×·–—‘’“”„…«»€\u00a0"  # beside letters, in tables of Western Europe
@@ -32,10 +33,26 @@ ARCHIVE_HELP = (
     "save the sheet as CSV, or copy its cells and paste them: "
     f"`burmester synthesize - --columns {HEADER}`"
 )
+_PASTE_HELP = f"copy its table and paste it: `burmester synthesize - --columns {HEADER}`"
+_MATLAB_HELP = f"write the matrix as CSV, writematrix(P, 'poses.csv'), and pass --columns {HEADER}"
+_PICTURE_HELP = "trace the curve in it as SVG and read that, or measure poses and write them as CSV"
 _BINARY_FORMATS: dict[bytes, tuple[str, str]] = {  # first bytes of a file: its format, and the help
     b"\xd0\xcf\x11\xe0": ("an .xls spreadsheet, or another old Office file", ARCHIVE_HELP),
     b"\x1f\x8b": ("packed with gzip", "unpack it with gunzip, and read what comes out"),
-    b"%PDF": ("a PDF", f"copy its table and paste it: `burmester synthesize - --columns {HEADER}`"),
+    b"%PDF": ("a PDF", _PASTE_HELP),
+    b"MATLAB 5.0 MAT-file": ("a MATLAB file (.mat)", _MATLAB_HELP),
+    b"MATLAB 7.3 MAT-file": ("a MATLAB file (.mat)", _MATLAB_HELP),
+    b"\x89HDF": ("an HDF5 file, as newer .mat files are", _MATLAB_HELP),
+    b"\x93NUMPY": ("a NumPy array (.npy)", "write it as text: numpy.savetxt(..., delimiter=',')"),
+    b"\x89PNG": ("a picture (PNG)", _PICTURE_HELP),
+    b"\xff\xd8\xff": ("a picture (JPEG)", _PICTURE_HELP),
+    b"GIF89a": ("a picture (GIF)", _PICTURE_HELP),
+}
+_BY_ENDING = {  # what does not begin as it should, or in an older form that begins as anything
+    ".mat": b"MATLAB 5.0 MAT-file",
+    ".png": b"\x89PNG",
+    ".jpg": b"\xff\xd8\xff",
+    ".jpeg": b"\xff\xd8\xff",
 }
 
 
@@ -71,6 +88,8 @@ def require_moderate(text: str, *, tree: bool) -> None:
     if tree and len(text) > MAX_TREE_CHARACTERS:
         why = f"its {size:.0f} MB would need {size * TREE_BYTES / 1e3:.2g} GB of memory as a tree"
         raise too_large(f"{why}; {MAX_TREE_CHARACTERS / 1e6:.0f} MB are the most")
+    if tree and (values := sum(map(text.count, ",[{="))) > MAX_VALUES:
+        raise too_large(f"it has some {values} values, and {MAX_VALUES} are the most")
     if lines > MAX_LINES:
         raise too_large(f"it has {lines} lines, and {MAX_LINES} are the most")
 
@@ -91,16 +110,16 @@ def is_archive(data: bytes) -> bool:
     return data.startswith(b"PK\x03\x04")
 
 
-def decode_text(data: bytes) -> tuple[str, tuple[Advice, ...]]:
+def decode_text(data: bytes, name: str = "") -> tuple[str, tuple[Advice, ...]]:
     """Text with line feeds between its lines, and a note where its encoding was assumed.
 
     Read is UTF-8, UTF-16 with a byte order mark, and what spreadsheets call ANSI: Windows-1252,
     where all that is no ASCII is letters and a few signs of Western Europe.  Raises E101 and E102.
+    name: of the file, which says what it is where its bytes are no text and do not.
     """
-    for start, (what, help) in _BINARY_FORMATS.items():
+    for start in _BINARY_FORMATS:
         if data.startswith(start):
-            message = "the poses are not text"
-            raise InputError("E101", message, why=f"the file is {what}", help=help)
+            raise _no_text(start)
     wide = data[:2] in (b"\xff\xfe", b"\xfe\xff")
     notes: tuple[Advice, ...] = ()
     try:
@@ -111,12 +130,19 @@ def decode_text(data: bytes) -> tuple[str, tuple[Advice, ...]]:
         why = f"byte {error.start + 1}, in line {line}, is not UTF-{16 if wide else 8}"
         if not wide and (ansi := _windows_text(data)) is not None:
             text, why, notes = ansi, "", (_windows_note(ansi, why),)
+    if why and (meant := _BY_ENDING.get(os.path.splitext(name)[1].lower())):
+        raise _no_text(meant)
     if why:
         raise InputError("E101", "the poses are not text", why=why, help="save the file as UTF-8")
     if not text.strip():
         raise no_poses("the file is empty")
     # splitlines() would also break a name at U+2028 and shift the line numbers
     return text.replace("\r\n", "\n").replace("\r", "\n").rstrip("\n"), notes
+
+
+def _no_text(start: bytes) -> InputError:
+    what, help = _BINARY_FORMATS[start]
+    return InputError("E101", "the poses are not text", why=f"the file is {what}", help=help)
 
 
 def _windows_text(data: bytes) -> str | None:

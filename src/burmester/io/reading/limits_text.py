@@ -17,7 +17,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Region
-from burmester.io.reading.pose_table import Source, plain_number, shown
+from burmester.io.reading.pose_table import Source, plain_number, shown, unheld
 from burmester.io.reading.specification import SHAPES, LengthRange, OptionalKinds, Specification
 from burmester.tasks.limits import KINDS, Kind
 from burmester.tasks.rails import Rail
@@ -214,7 +214,7 @@ def _number_slip(cell: str) -> tuple[str | None, str | None]:
     if cell[:1] in tuple("−–"):
         return f"{cell[0]} is a dash, not a minus sign", f"write -{cell[1:]}"
     if re.fullmatch(r"[-+]?[0-9.]+[eE][+-]?[0-9]+", cell):
-        return f"{cell} is beyond 1.8e308, the largest representable number", None
+        return unheld(cell), None
     return None, None
 
 

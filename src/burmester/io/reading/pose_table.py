@@ -38,11 +38,14 @@ __all__ = [
     "cell_name",
     "decimals",
     "extent",
+    "held_float",
+    "is_held",
     "no_poses",
     "numeric_roles",
     "plain_number",
     "resolution_by_digits",
     "shown",
+    "unheld",
     "with_angles",
 ]
 
@@ -227,15 +230,39 @@ def plain_number(cell: str, separator: str) -> tuple[str, str | None]:
     """A cell with a point for its decimal comma, and its mark: "", ".", "," or "?".
 
     "?" is a comma that may separate thousands; the mark is None if this is no finite number.  The
-    minus sign U+2212 is a minus.  What is nearer to 0 than to any other double is 0: 1e-400.
+    minus sign U+2212 is a minus.  1e-400, which would become 0, is none that a double holds.
     """
     cell = cell.replace("\u2212", "-")
     plain = cell.replace(",", ".") if separator != "," and "." not in cell else cell
-    if not NUMBER.fullmatch(plain) or not math.isfinite(float(plain)):
+    if not NUMBER.fullmatch(plain) or not is_held(plain):
         return plain, None
     if _THOUSANDS.fullmatch(cell):
         return plain, "?"
     return plain, "," if "," in cell else "." if "." in cell else ""
+
+
+def is_held(number: str) -> bool:
+    """Whether a double is near a number: it is finite, and not 0 unless all its digits are."""
+    value = float(number)
+    return math.isfinite(value) and (
+        value != 0 or not re.search("[1-9]", re.split("[eE]", number, maxsplit=1)[0])
+    )
+
+
+def unheld(number: str) -> str:
+    """Why a number that `is_held` denies is refused."""
+    if math.isfinite(float(number)):
+        return f"{shown(number)} is nearer to 0 than 4.9e-324, the smallest representable number"
+    return f"{shown(number)} is beyond 1.8e308, the largest representable number"
+
+
+def held_float(number: str) -> float:
+    """The double of a number in JSON or TOML; raises E103 for one that would become 0."""
+    value = float(number)
+    if value == 0 and not is_held(number):
+        message, help = f"{shown(number)} is too small", "write 0 if that is meant"
+        raise InputError("E103", message, why=unheld(number), help=help)
+    return value
 
 
 def resolution_by_digits(half: float, size: float) -> float:

@@ -3,9 +3,9 @@
 Recordings of markers are read as well, as motion capture exports them (`marker_header`).
 
 A number is taken as the nearest double or refused, never changed: no guessed units, no guessed
-decimal marks, thousands only where they have one meaning; digits beyond a double's are rounded, so
-that 1e-400 is 0.  What is passed over or assumed is among the task's notes (W213).  An error's
-`where` holds
+decimal marks, thousands only where they have one meaning; digits beyond a double's are rounded,
+but 1e-400 is refused as 1e400 is.  What is passed over or assumed is among the task's notes (W213).
+An error's `where` holds
 `file:line:column`, then the line with a caret below; the column is that of the first
 character at fault, counted from 1.  Numbers in JSON and TOML are pointed at by their path,
 `poses[3].x`, counted from 0 as in the file; those in Parquet by row, from 1, and column;
@@ -277,7 +277,7 @@ def _table(
             source = read_sheet(label, data, sheet)
         else:
             _require_no_sheet(sheet)
-            source = Source(label, *decode_text(data))
+            source = Source(label, *decode_text(data, label))
         del data  # a million poses are many bytes
         by_content = "JSON" if source.text.lstrip().startswith(("{", "[")) else "CSV"
         language = "CSV" if source.sheet else _FORMATS.get(suffix, by_content)

@@ -22,6 +22,7 @@ from burmester.tasks.rails import Rail
 __all__ = [
     "LIMIT_KEYS",
     "SHAPES",
+    "TABLES",
     "TOP_KEYS",
     "LengthRange",
     "OptionalKinds",
@@ -33,11 +34,11 @@ LengthRange: TypeAlias = tuple[float, float]
 OptionalRegion: TypeAlias = Region | None  # None leaves a dyad free
 OptionalKinds: TypeAlias = frozenset[Kind] | None
 
-# The keys at the top of a task in a file.
-TOP_KEYS = (
-    "poses", "angle_unit", "length_unit", "pose_sigma", "tolerance", "body", "keep_out",
-    "surroundings", "limits", "requirements", "path",
+# The tables at the top of a task in a file, and all keys there.
+TABLES = (
+    "pose_sigma", "tolerance", "body", "keep_out", "surroundings", "limits", "requirements", "path",
 )  # fmt: skip
+TOP_KEYS = ("poses", "angle_unit", "length_unit", *TABLES)
 
 # `limits`, and keys that may stand beside the poses by mistake, where they would limit nothing.
 LIMIT_KEYS = (

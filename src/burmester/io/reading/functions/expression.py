@@ -17,7 +17,7 @@ from typing import Any, Final, TypeAlias
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import Source
+from burmester.io.reading.pose_table import Source, is_held
 from burmester.numerics.arrays import FloatArray
 
 __all__ = ["CONSTANTS", "FUNCTIONS", "read_expression", "read_number"]
@@ -118,6 +118,9 @@ def _require(node: ast.expr, source: Source, depth: int) -> None:  # noqa: PLR09
         case ast.Constant(value=value) if type(value) in (int, float):
             if not math.isfinite(_number(value)):
                 raise _fault(source, at, width, "this number is too large", "one below 1e308")
+            written = source.text[at : at + width].replace("_", "")
+            if value == 0 and isinstance(value, float) and not is_held(written):
+                raise _fault(source, at, width, "this number is too small", "0 if that is meant")
         case ast.Name(id=name) if name == "x" or name in CONSTANTS:
             pass
         case ast.Name(id=name):

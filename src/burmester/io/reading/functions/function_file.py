@@ -18,7 +18,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
-from burmester.io.reading.file_content import is_parquet
+from burmester.io.reading.file_content import is_parquet, require_moderate
 from burmester.io.reading.functions.function_kind import source_of
 from burmester.io.reading.functions.function_options import (
     FunctionSettings,
@@ -30,7 +30,7 @@ from burmester.io.reading.functions.pair_table import (
     read_pair_text,
     require_weights,
 )
-from burmester.io.reading.pose_table import Source, shown
+from burmester.io.reading.pose_table import Source, held_float, shown
 
 __all__ = ["read_function", "settings_of_tree", "task_of_tree"]
 
@@ -61,6 +61,7 @@ def read_function(
         if is_parquet(data):
             return read_pair_parquet(label, data, settings)
         source = source_of(data, path, sheet)
+        require_moderate(source.text, tree=suffix in (".toml", ".json"))
         if source.sheet is None and suffix == ".toml":
             return task_of_tree(_toml(source), settings)
         if source.sheet is None and (suffix == ".json" or source.text.lstrip().startswith("{")):
@@ -78,7 +79,7 @@ def _toml(source: Source) -> Any:
     import tomllib
 
     try:
-        return tomllib.loads(source.text).get("function")
+        return tomllib.loads(source.text, parse_float=held_float).get("function")
     except (tomllib.TOMLDecodeError, RecursionError) as error:
         raise InputError(
             "E109", "this is not TOML", why=str(error), help="correct the file there"
@@ -87,7 +88,7 @@ def _toml(source: Source) -> Any:
 
 def _json(source: Source) -> Any:
     try:
-        tree = json.loads(source.text)
+        tree = json.loads(source.text, parse_float=held_float)
     except (ValueError, RecursionError) as error:
         raise InputError(
             "E109", "this is not JSON", why=str(error), help="correct the file there"

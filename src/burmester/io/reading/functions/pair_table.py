@@ -18,7 +18,14 @@ from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
 from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, header_of
 from burmester.io.reading.functions.function_options import FunctionSettings, task_of_pairs
-from burmester.io.reading.pose_table import Source, no_poses, plain_number, shown
+from burmester.io.reading.pose_table import (
+    NUMBER,
+    Source,
+    no_poses,
+    plain_number,
+    shown,
+    unheld,
+)
 from burmester.numerics.arrays import FloatArray
 
 __all__ = [
@@ -99,6 +106,7 @@ def read_pair_text(source: Source, settings: FunctionSettings) -> FunctionTask:
                     "E104",
                     f"{shown(cell)} is not a number",
                     where=where,
+                    why=unheld(plain) if NUMBER.fullmatch(plain) else None,
                     help="write a number with a decimal point, such as 12.5",
                 )
             value = float(plain)

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import io
 import logging
+import re
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any, Final
 
 import numpy as np
@@ -20,6 +22,8 @@ __all__ = ["read_dxf"]
 UNITS: Final = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 13: "um", 14: "dm"}  # of $INSUNITS
 FAR: Final = 1e60  # no length of a drawing is as great
 MAX_ENTITIES: Final = 20_000  # those of blocks counted at each place
+_ENTRY = re.compile("^ *0\n *[A-Za-z]", re.MULTILINE)
+ALONE_HELP: Final = "save the outline alone to a file of its own"
 ASCII_HELP: Final = "save it as DXF in text form (ASCII), of any version"
 
 
@@ -95,6 +99,9 @@ def _document(ezdxf: Any, data: bytes) -> Any:
     if "SECTION" not in text[:100_000] or not text.rstrip().endswith("EOF"):
         why = "its text does not begin or not end as DXF does"
         raise unreadable(why, "save it anew; a file that was cut off has no EOF at its end")
+    most = 3 * MAX_ENTITIES  # with layers and other entries of tables
+    if sum(1 for _ in islice(_ENTRY.finditer(text), most + 1)) > most:
+        raise unreadable(f"it has more than {most} entries", ALONE_HELP)
     try:
         return ezdxf.read(io.StringIO(text))
     except Exception as error:  # of many kinds, for files that are damaged
@@ -112,10 +119,11 @@ def _entities(document: Any) -> Iterator[tuple[Any, str]]:
         if entity is None:
             stack.pop()
             continue
-        count += 1
+        is_bent = entity.dxftype() in ("LWPOLYLINE", "POLYLINE") and entity.has_arc
+        count += len(entity) if is_bent else 1  # each of its arcs takes as long as an entity
         if count > MAX_ENTITIES or depth > 20:
             why = f"it has more than {MAX_ENTITIES} curves, those of its blocks counted"
-            raise unreadable(why, "save the outline alone to a file of its own")
+            raise unreadable(why, ALONE_HELP)
         layer = str(entity.dxf.get("layer", "0"))
         if layer == "0" and block_layer is not None:  # as CAD programs show it
             layer = block_layer

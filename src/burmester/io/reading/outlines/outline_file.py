@@ -20,6 +20,7 @@ import numpy as np
 
 from burmester.errors import Advice, InputError
 from burmester.geometry.regions import MAX_CORNERS, Polygon
+from burmester.io.files import open_plain
 from burmester.io.reading.outlines.curves import (
     FLATNESS,
     JOINT,
@@ -151,7 +152,7 @@ def _content(file: OutlineFile, folder: str) -> bytes:
     _require_drawing(file)
     path = file.path if os.path.isabs(file.path) else os.path.join(folder, file.path)
     try:
-        with open(path, "rb") as opened:
+        with open_plain(path, "rb") as opened:
             return opened.read(MAX_BYTES + 1)
     except (OSError, ValueError) as error:  # ValueError: a null character in the path
         why = getattr(error, "strerror", None) or str(error)

@@ -11,6 +11,7 @@ import io
 import math
 import re
 from collections.abc import Iterator
+from itertools import islice
 from typing import Any, Final
 from xml.etree import ElementTree
 
@@ -25,12 +26,23 @@ __all__ = ["read_svg"]
 PER_INCH: Final = 96.0  # pixels, as CSS has them
 MILLIMETRES: Final = {"mm": 1.0, "cm": 10.0, "q": 0.25, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6}
 FAR: Final = 1e60  # pixels; no coordinate of a drawing is as great
-MAX_ELEMENTS: Final = 20_000  # shapes, each as often as it is used
+# What a drawing has at most, each element as often as it is used, in straight pieces: an element
+# takes as long as ten of them, a curve or an arc as 5 for each of its numbers.  All take 5 s.
+MAX_PIECES: Final = 200_000
+MAX_STYLE: Final = 100_000  # characters of style sheets; the time grows as their square
+MAX_TRANSFORM: Final = 10_000  # characters of a transform; the same
+MAX_ATTRIBUTES: Final = 2_000_000  # characters of attributes that are no coordinates
 MAX_DEPTH: Final = 200  # of groups in groups
 MAX_CHORDS: Final = 1000  # of one arc or spline
 LABEL: Final = "{http://www.inkscape.org/namespaces/inkscape}label"
 HREF: Final = "{http://www.w3.org/1999/xlink}href"
 PLAIN: Final = "save it as plain SVG, the outline alone"
+MOST: Final = 2 * MAX_PIECES  # numbers of a command that are counted
+CURVED: Final = frozenset("aAcCqQsStT")  # commands of a path that are no straight lines
+ARCS: Final = frozenset({"circle", "ellipse", "rect"})  # elements with four arcs or fewer
+COORDINATES: Final = frozenset({"d", "points"})
+_COMMAND = re.compile(r"[A-DF-Za-df-z][^A-DF-Za-df-z]*|[^A-DF-Za-df-z]+")
+_NUMBER = re.compile(r"[0-9]+\.?[0-9]*|\.[0-9]+")
 _LENGTH = re.compile(r"\s*([0-9.eE+-]+)\s*([a-zA-Z%]*)\s*")
 
 
@@ -92,17 +104,17 @@ def _root(data: bytes) -> ElementTree.Element:
 def _require_few(root: ElementTree.Element) -> None:
     """Refuse what is used too often, and what uses itself: E170."""
     by_id = {each.get("id"): each for each in root.iter() if each.get("id")}
-    counts: dict[int, int] = {}
+    counts: dict[int, float] = {}
     pending: set[int] = set()
 
-    def count(element: ElementTree.Element, depth: int) -> int:
+    def count(element: ElementTree.Element, depth: int) -> float:
         key = id(element)
         if key in counts:
             return counts[key]
         if key in pending or depth > 3 * MAX_DEPTH:
             raise unreadable("an element uses itself", PLAIN)
         pending.add(key)
-        total = 1 + sum(count(child, depth + 1) for child in element)
+        total = _pieces(element) + sum(count(child, depth + 1) for child in element)
         if element.tag.rpartition("}")[2] == "use":
             target = by_id.get((element.get("href") or element.get(HREF) or "").removeprefix("#"))
             if target is not None:
@@ -111,9 +123,31 @@ def _require_few(root: ElementTree.Element) -> None:
         counts[key] = total
         return total
 
-    if count(root, 0) > MAX_ELEMENTS:
-        why = f"it has more than {MAX_ELEMENTS} elements, each as often as it is used"
+    if count(root, 0) > MAX_PIECES:
+        why = f"it is as much as {MAX_PIECES} straight pieces, each as often as it is used"
         raise unreadable(why, PLAIN)
+    sheets = sum(len(each.text or "") for each in root.iter() if each.tag.endswith("style"))
+    named = (pair for each in root.iter() for pair in each.items())
+    attributes = sum(len(n) + len(v) for n, v in named if n not in {*COORDINATES, "href", HREF})
+    transform = max(len(each.get("transform") or "") for each in root.iter())
+    if sheets > MAX_STYLE or attributes > MAX_ATTRIBUTES or transform > MAX_TRANSFORM:
+        why = f"it has {sheets} characters of style sheets, {attributes} of attributes"
+        raise unreadable(f"{why} and {transform} of one transform", PLAIN)
+
+
+def _pieces(element: ElementTree.Element) -> float:
+    """How much an element is by itself, in straight pieces; counted until it is too much."""
+    kind, total = element.tag.rpartition("}")[2], 10.0
+    if kind in ARCS:
+        total += 60
+    for name in COORDINATES:
+        for command in _COMMAND.finditer(element.get(name) or ""):
+            letter, numbers = command[0][0], _NUMBER.finditer(command[0])
+            total += 20 if letter in "zZ" else 0.5  # each looks for the last move before it
+            total += (5 if letter in CURVED else 0.5) * sum(1 for _ in islice(numbers, MOST))
+            if total > MAX_PIECES:
+                return total
+    return total
 
 
 def _with_size(root: ElementTree.Element) -> str:
@@ -175,7 +209,7 @@ def _curves(svgelements: Any, chosen: list[Any], scale: float) -> Iterator[Curve
         raise unreadable("it has a coordinate that is not finite, or too large", PLAIN)
     tolerance = FLATNESS * float(np.hypot(*np.ptp(xy, axis=0))) if len(xy) else 0.0
     for path, kind, names in chosen:
-        corners: list[FloatArray] = []
+        corners: list[FloatArray] = []  # in blocks (n, 2)
         closed = False
         for segment in [*path, None]:
             if segment is None or isinstance(segment, svgelements.Move):
@@ -183,7 +217,7 @@ def _curves(svgelements: Any, chosen: list[Any], scale: float) -> Iterator[Curve
                     yield Curve(_upwards(corners, scale), closed, kind, names)
                 corners, closed = [], False
                 if segment is not None:
-                    corners = [_pair(segment.end)]
+                    corners = [_pair(segment.end)[None]]
             elif isinstance(segment, svgelements.Close):
                 closed = True
                 if len(corners) > 1:
@@ -201,19 +235,19 @@ def _control_points(svgelements: Any, path: Any) -> Iterator[tuple[float, float]
 
 
 def _flattened(svgelements: Any, segment: Any, tolerance: float) -> list[FloatArray]:
-    """The points behind the first one, of chords that leave a segment by no more."""
+    """The points behind the first one, in blocks, of chords that leave a segment by no more."""
     if isinstance(segment, svgelements.Arc):
-        return [p for each in segment.as_cubic_curves() for p in _chords(each, tolerance)]
-    return _chords(segment, tolerance)
+        return [_chords(each, tolerance) for each in segment.as_cubic_curves()]
+    return [_chords(segment, tolerance)]
 
 
-def _chords(segment: Any, tolerance: float) -> list[FloatArray]:
+def _chords(segment: Any, tolerance: float) -> FloatArray:
     """Chords of a line or of a Bézier curve: h²/8 of its second derivative is their error."""
     names = ("start", "control", "control1", "control2", "end")
     given = [getattr(segment, name, None) for name in names]
     p = np.array([_pair(point) for point in given if point is not None])
     if len(p) <= 2:
-        return [p[-1]]
+        return p[-1:]
     degree = len(p) - 1
     bend = degree * (degree - 1) * float(np.hypot(*np.diff(p, 2, axis=0).T).max())
     count = MAX_CHORDS
@@ -223,7 +257,7 @@ def _chords(segment: Any, tolerance: float) -> list[FloatArray]:
     terms = [
         math.comb(degree, k) * t**k * (1 - t) ** (degree - k) * p[k] for k in range(degree + 1)
     ]
-    return list(np.sum(terms, axis=0))
+    return np.asarray(np.sum(terms, axis=0))
 
 
 def _pair(point: Any) -> FloatArray:
@@ -231,4 +265,4 @@ def _pair(point: Any) -> FloatArray:
 
 
 def _upwards(corners: list[FloatArray], scale: float) -> FloatArray:
-    return np.asarray(np.array(corners) * [scale, -scale] + 0.0)  # no -0
+    return np.asarray(np.concatenate(corners) * [scale, -scale] + 0.0)  # no -0

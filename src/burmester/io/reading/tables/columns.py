@@ -30,6 +30,7 @@ __all__ = ["LENGTHS", "MAX_NAMES", "Columns", "has_poses", "is_header", "read_co
 
 _WITH_DIRECTION = (*NUMERIC[:2], *DIRECTION)
 _PASSED_OVER = ("time", "frame", "remark")
+_PLAIN = re.compile(r"#?\w{1,30}")
 MAX_NAMES = 12  # names of columns that an error lists, or compares with known ones
 _KNOWN = (
     "the known names are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad (or cos and sin of "
@@ -126,11 +127,14 @@ def read_columns(
     names: Sequence[str],
     where: Callable[[int | None], str],
     ignore: str = 'name it "#{}" (with the quotes)',
+    *,
+    may_be_named: bool = False,
 ) -> Columns:
     """What columns of these names hold; raises E105, E107 and E108.
 
     where: the location of one of the names, or of all.
     ignore: how to have a column ignored, with {} for its name.
+    may_be_named: whether --columns may name them.
     """
     indices: dict[str, int] = {}
     units: dict[str, str | None] = {}
@@ -148,7 +152,8 @@ def read_columns(
             raise InputError("E108", message, where=where(i), help=help)
         elif word.role != IGNORED:
             indices[word.role], units[word.role] = i, word.unit
-    lengths = _require_poses(names, indices, unknown, where)
+    option = _named(names, indices, unknown) if may_be_named else None
+    lengths = _require_poses(names, indices, unknown, where, option)
     if unknown:
         raise _unknown(names, unknown[0], where, ignore)
     tolerances = [role for role in TOLERANCE_ROLES[:2] if units.get(role) is not None]
@@ -177,6 +182,7 @@ def _require_poses(
     indices: dict[str, int],
     unknown: list[int],
     where: Callable[[int | None], str],
+    option: str | None,
 ) -> tuple[str, ...]:
     """The roles of lengths, if the columns make poses; raises E105 and E108."""
     points = [role for role in POINTS if role in indices]
@@ -211,6 +217,7 @@ def _require_poses(
             if direction:
                 help = "name the columns x, y, cos and sin, for the cosine and sine of the angle"
             help += "".join(f"; {role} may be {WORDS[role]}" for role in missing if role != "y")
+            help = f"pass {option} if that is their order, or {help}" if option else help
         if of_unit := next(filter(None, (_units(names[i]) for i in unknown[:MAX_NAMES])), None):
             why += f"; {of_unit}"
         near = {names[i]: _nearest(names[i]) for i in unknown[:MAX_NAMES]}
@@ -220,6 +227,19 @@ def _require_poses(
             help = f"write {' and '.join(edits)}"
         raise InputError("E105", message, where=where(None), why=why, help=help)
     return POINTS if points else NUMERIC[:2]
+
+
+def _named(names: Sequence[str], indices: dict[str, int], unknown: list[int]) -> str | None:
+    """--columns with names for what is unknown, in the order of the roles that are missing."""
+    missing = iter([role for role in ("x", "y", "angle_deg") if role.split("_")[0] not in indices])
+    known = {names[index].strip() for role, index in indices.items() if role != "number"}
+    given = [
+        next(missing, f"#{i + 1}") if i in unknown else name if name in known else f"#{i + 1}"
+        for i, name in enumerate(map(str.strip, names))
+    ]
+    good = {*POINTS, *DIRECTION}.isdisjoint(indices) and all(map(_PLAIN.fullmatch, given))
+    text = f'"{",".join(given)}"' if "#" in "".join(given) else ",".join(given)
+    return f"--columns {text}" if good and not next(missing, None) else None
 
 
 def _nearest(name: str) -> str | None:

@@ -113,7 +113,10 @@ def read_header(source: Source, given: str | None) -> Header:
 
     _require_header(source, line, where(None))
     columns = read_columns(
-        names, where, 'name it "#{}"' + " (with the quotes)" * (not source.sheet)
+        names,
+        where,
+        'name it "#{}"' + " (with the quotes)" * (not source.sheet),
+        may_be_named=True,
     )
     angle = where(columns.indices["angle"], "angle") if "angle" in columns.indices else where(None)
     notes = () if line is first else (_passed_over(source, first, line, "above the header"),)

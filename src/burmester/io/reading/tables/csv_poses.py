@@ -47,6 +47,7 @@ __all__ = ["BLOCK", "read_csv", "require_one_mark"]
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
 
 _MARK = f"(?i:{'|'.join(filter(None, pose_table.MARKS))})?"
+_TINY = re.compile("[eE]-0*[0-9]{3}|0{300}")  # exponents and decimals that may be beyond a double
 _SECONDS = {"s": 1.0, "ms": 1e-3, "min": 60.0}
 
 
@@ -130,6 +131,8 @@ def _plain_rows(block: str, header: Header, marks: dict[str, str]) -> Rows | Non
             columns[role] = [cell.replace(",", ".") for cell in column]
         elif header.source.sheet is None and any("." in cell for cell in column):
             marks["."] = ""
+    if _TINY.search(block):
+        return None
     try:  # of these characters alone, float() takes exactly what plain_number() does
         rows = Rows.read(columns)
     except ValueError:

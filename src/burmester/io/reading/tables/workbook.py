@@ -2,7 +2,9 @@
 
 Numbers have all the digits that are stored, not those that are shown; formulas are read by the
 values stored with them.  Only the parts of the file that hold cells are opened, after a look at
-their size: XML with a document type is refused, so no entity is ever expanded.
+their size; XML with a document type is refused, so no entity is ever expanded.  openpyxl reads
+which sheets and styles there are.  Cells are read here, one after the other: openpyxl would make
+an object of every cell in a range that is merged or linked.
 """
 
 from __future__ import annotations
@@ -13,16 +15,19 @@ import io
 import re
 import warnings
 import zipfile
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Callable, Iterator
+from typing import Any, Final
+from xml.parsers import expat
 
 from burmester.errors import Advice, InputError
 from burmester.io.reading.pose_table import (
+    NUMBER,
     SHEET_HEAD,
     Sheet,
     Source,
     brief,
     cell_name,
+    is_held,
     no_poses,
     shown,
 )
@@ -30,18 +35,25 @@ from burmester.wording import listed, shortened
 
 __all__ = ["may_hold", "read_sheet"]
 
-MAX_TAGS = 1_500_000  # tags of XML; 100,000 poses have 900,000, and take 12 s and 250 MB
-MAX_BYTES = 200_000_000  # bytes of XML, unpacked
-MAX_CELLS = 20_000_000  # cells of the table, empty ones counted
-MAX_MERGED = 100_000  # cells that are merged with others
-MAX_NAMED = 6  # rows or sheets that a message names
+MAX_BYTES: Final = 60_000_000  # of XML, unpacked
+MAX_TAGS: Final = 2_200_000  # of XML; 100,000 poses with names have 2,000,000
+MAX_OUTLINE: Final = (5_000_000, 50_000)  # bytes and tags of what is neither cells nor texts
+MAX_ATTRIBUTE: Final = 1000  # characters of an attribute there
+MAX_CELLS: Final = 20_000_000  # cells of the table, empty ones counted
+MAX_TEXT: Final = 30_000_000  # characters of all cells, and of texts that cells share
+MAX_CELL: Final = 100_000  # characters of a cell; programs allow 32,767
+MAX_MERGED: Final = 100_000  # cells that are merged with others
+LAST: Final = (1_048_576, 16_384)  # row and column of a sheet
+MAX_NAMED: Final = 6  # rows or sheets that a message names
 
 _PARTS = re.compile(  # those that hold cells: no pictures, charts, links, queries and macros
     r"\[Content_Types\]\.xml|_rels/\.rels|xl/(workbook|styles|sharedStrings)\.xml"
     r"|xl/_rels/workbook\.xml\.rels|xl/worksheets/[^/]+\.xml",
     re.IGNORECASE,
 )
-_CSV = "save the sheet as CSV and read that"
+_CELLS = re.compile(r"xl/(sharedStrings|worksheets/[^/]+)\.xml", re.IGNORECASE)
+_CORNER = re.compile(r"\$?([A-Za-z]{1,3})\$?([0-9]{1,7})")
+_CSV: Final = "save the sheet as CSV and read that"
 
 
 def read_sheet(label: str, data: bytes, sheet: str | None) -> Source:
@@ -51,32 +63,29 @@ def read_sheet(label: str, data: bytes, sheet: str | None) -> Source:
     openpyxl.
     """
     parts = _sheet_parts(data)
-    values = _open(parts, values=True)
-    formulas = None
-    if any(b"<f" in text for name, text in parts.items() if "worksheets" in name.lower()):
-        formulas = _open(parts, values=False)
-    chosen, notes = _chosen(values, sheet)
-    rows = list(_rows(chosen, formulas[chosen.title] if formulas else None))
+    workbook = _outline(parts)
+    chosen, notes = _chosen(workbook, sheet)
+    cells = _Cells(workbook)
+    for name, text in parts.items():
+        if name.lower() == "xl/sharedstrings.xml":
+            cells.read(name, text)
+    cells.read(chosen._worksheet_path, parts[chosen._worksheet_path])
+    rows = {row: texts for row, texts in cells.rows.items() if texts}
     if not rows:
-        others = [each.title for each in values.worksheets if each is not chosen]
+        others = [each.title for each in workbook.worksheets if each is not chosen]
         error = no_poses(f"the sheet {shown(chosen.title)} is empty")
         if others:
             error.help = f"read another sheet, such as --sheet {brief(_quoted(others[0]), '2')}"
         raise error
-    width = max(len(cells) for _, cells in rows)
-    if rows[-1][0] + len(rows) * width > MAX_CELLS:
+    width, last = max(map(max, rows.values())), max(rows)
+    if last + len(rows) * width > MAX_CELLS:
         raise _too_large(f"{len(rows)} rows of {width} cells")
-    lines = [""] * rows[-1][0]
-    for number, cells in rows:
-        lines[number - 1] = "\t".join(cells) + "\t" * (width - len(cells))
-    merged = {
-        (row, column): cell_name(area.min_row, area.min_col)
-        for area in chosen.merged_cells.ranges
-        for row, column in _covered(area)
-    }
-    hidden = _hidden(chosen, [number for number, _ in rows], width)
+    lines = [""] * last
+    for row, texts in rows.items():
+        lines[row - 1] = "\t".join(texts.get(column, "") for column in range(1, width + 1))
+    hidden = cells.hidden(sorted(rows), width)
     return Source(
-        label, SHEET_HEAD + "\n".join(lines), (*notes, *hidden), Sheet(chosen.title, merged)
+        label, SHEET_HEAD + "\n".join(lines), (*notes, *hidden), Sheet(chosen.title, cells.merged)
     )
 
 
@@ -98,9 +107,12 @@ def _sheet_parts(data: bytes) -> dict[str, bytes]:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             wanted = [info for info in archive.infolist() if _PARTS.fullmatch(info.filename)]
             if not any(info.filename.lower() == "xl/workbook.xml" for info in wanted):
-                raise _no_workbook("it has no xl/workbook.xml in it")
+                raise _other_archive(archive.namelist())
             if (size := sum(info.file_size for info in wanted)) > MAX_BYTES:
                 raise _too_large(f"{size} bytes unpacked")
+            outline = (info.file_size for info in wanted if not _CELLS.fullmatch(info.filename))
+            if (size := sum(outline)) > MAX_OUTLINE[0]:
+                raise _too_large(f"{size} bytes of names and styles")
             for info in wanted:
                 if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
                     raise _no_workbook(f"{info.filename} is packed in an unusual way")
@@ -116,25 +128,11 @@ def _sheet_parts(data: bytes) -> dict[str, bytes]:
         encoding = re.match(rb"(?:\xef\xbb\xbf)?\s*<\?xml[^>]*encoding\s*=\s*[\"']([^\"']*)", text)
         if b"\0" in text or (encoding and encoding[1].lower() not in (b"utf-8", b"us-ascii")):
             raise _no_workbook(f"{name} is not UTF-8")
-        if b"<!DOCTYPE" in text or b"<!ENTITY" in text:
-            raise _no_workbook(f"{name} declares a document type")
-        areas = re.findall(rb"mergeCell[^>]*ref\s*=\s*[\"']([A-Z]+)([0-9]+):([A-Z]+)([0-9]+)", text)
-        if sum(map(_area, areas)) > MAX_MERGED:
-            raise _too_large("more merged cells than a table of poses")
     return parts
 
 
-def _area(corners: tuple[bytes, bytes, bytes, bytes]) -> int:
-    """The number of cells between two corners, such as (b"A", b"1", b"C", b"2")."""
-    left, top, right, bottom = (corner.decode() for corner in corners)
-    columns = [
-        functools.reduce(lambda n, c: 26 * n + ord(c) - 64, name, 0) for name in (left, right)
-    ]
-    return (abs(columns[1] - columns[0]) + 1) * (abs(int(bottom[:9]) - int(top[:9])) + 1)
-
-
-def _open(parts: dict[str, bytes], *, values: bool) -> Any:
-    """The workbook of these parts; with the values of formulas, or with their text."""
+def _outline(parts: dict[str, bytes]) -> Any:
+    """The workbook of these parts without its cells: which sheets and styles there are."""
     try:
         import openpyxl
     except ImportError:
@@ -144,16 +142,54 @@ def _open(parts: dict[str, bytes], *, values: bool) -> Any:
             why="it cannot be imported",
             help='pip install "burmester[data]"',
         ) from None
+    tags = 0
+
+    def count(_: str, attributes: dict[str, str]) -> None:
+        nonlocal tags
+        tags += 1
+        if tags > MAX_OUTLINE[1]:
+            raise _too_large(f"more than {MAX_OUTLINE[1]} names and styles")
+        if max(map(len, attributes.values()), default=0) > MAX_ATTRIBUTE:
+            raise _too_large(f"a name or a style of more than {MAX_ATTRIBUTE} characters")
+
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name, text in parts.items():
-            archive.writestr(name, text)
+            if _CELLS.fullmatch(name):
+                archive.writestr(name, "<worksheet/>")
+            else:
+                _parse(name, text, count)
+                archive.writestr(name, text)
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # of styles and validations, which do not matter
-            return openpyxl.load_workbook(packed, data_only=values, keep_links=False)
+            warnings.simplefilter("ignore")  # of styles, which do not matter
+            return openpyxl.load_workbook(packed, read_only=True, keep_links=False)
     except Exception as error:  # of many kinds, for files that are damaged
         raise _no_workbook(str(error).partition("\n")[0][:200] or type(error).__name__) from None
+
+
+def _parse(
+    name: str,
+    text: bytes,
+    start: Callable[[str, dict[str, str]], None],
+    end: Callable[[str], None] | None = None,
+    characters: Callable[[str], None] | None = None,
+) -> None:
+    """Go through the XML of a part; raises E101."""
+
+    def declared(*_: object) -> None:
+        raise _no_workbook(f"{name} declares a document type")
+
+    parser = expat.ParserCreate()
+    parser.buffer_text = True
+    parser.StartElementHandler = start
+    parser.EndElementHandler = end
+    parser.CharacterDataHandler = characters
+    parser.StartDoctypeDeclHandler = declared
+    try:
+        parser.Parse(text, True)
+    except (expat.ExpatError, LookupError, ValueError, OverflowError) as error:
+        raise _no_workbook(f"{name} is damaged: {error}") from None
 
 
 def _chosen(workbook: Any, given: str | None) -> tuple[Any, tuple[Advice, ...]]:
@@ -191,38 +227,163 @@ def _chosen(workbook: Any, given: str | None) -> tuple[Any, tuple[Advice, ...]]:
     )
 
 
-def _rows(sheet: Any, formulas: Any | None) -> Iterator[tuple[int, list[str]]]:
-    """The rows with something in them: their numbers from 1, and the texts of their cells."""
-    rows: dict[int, dict[int, str]] = {}
-    # Only the cells in the file: iter_rows() would make all others up to the last one.
-    for (row, column), cell in sheet._cells.items():
-        formula = formulas._cells.get((row, column)) if formulas is not None else None
-        if text := _text(cell, formula):
-            rows.setdefault(row, {})[column] = text
-    for row in sorted(rows):
-        cells = rows[row]
-        yield row, [cells.get(column, "") for column in range(1, max(cells) + 1)]
+class _Cells:
+    """The cells of a sheet as texts, as they would stand in a CSV file with tabs.
 
-
-def _text(cell: Any, formula: Any | None) -> str:
-    """A cell as text, as it would stand in a CSV file with tabs.
-
-    formula: the same cell with its formula, if there are any.
+    rows: the texts that are not blank, by row and column from 1; merged: as in `Sheet`.
     """
-    value = cell.value
-    if value is None:
-        # A formula whose value is an empty text has the type of a text.
-        if formula is not None and formula.data_type == "f" and cell.data_type == "n":
-            text = getattr(formula.value, "text", formula.value)
-            return _quoted_cell(f"={str(text).lstrip('=')}")
-        return ""
-    if isinstance(value, bool):
-        return str(value).upper()
-    if isinstance(value, int | float):
-        return repr(value).removesuffix(".0")
-    if isinstance(value, datetime.timedelta):
-        return f"a time of {value}"
-    return _quoted_cell(str(value))
+
+    def __init__(self, workbook: Any) -> None:
+        self.rows: dict[int, dict[int, str]] = {}
+        self.merged: dict[tuple[int, int], str] = {}
+        self._workbook = workbook
+        self._shared: list[str] = []  # texts that cells name by their number
+        self._row = self._column = 0
+        self._kind, self._style = "n", 0
+        self._found: dict[str, list[str]] | None = None  # pieces in the cell: v, f and t
+        self._pieces: list[str] | None = None  # those of the element that is gone through
+        self._phonetic = False  # how a text is read aloud is no part of it
+        self._size = self._length = 0  # characters of all cells, and of the element
+        self._hidden_rows: set[int] = set()
+        self._hidden_columns: list[int] = []
+
+    def read(self, name: str, text: bytes) -> None:
+        """Go through a sheet, or through the shared texts, which come first; raises E101."""
+        _parse(name, text, self._begin, self._end, self._add)
+        for row, column in self.merged:  # no program shows what is below the first of them
+            self.rows.get(row, {}).pop(column, None)
+
+    def _begin(self, name: str, given: dict[str, str]) -> None:
+        match name.rpartition(":")[2]:
+            case "v" | "f" | "t" as kind:
+                if self._found is not None and not self._phonetic:
+                    self._pieces, self._length = self._found.setdefault(kind, []), 0
+            case "c":
+                self._place(given.get("r"))
+                self._kind, self._style = given.get("t", "n"), int(given.get("s", 0))
+                self._found = {}
+            case "si":
+                self._found = {}
+            case "rPh":
+                self._phonetic = True
+            case "row":
+                self._row, self._column = int(float(given.get("r", self._row + 1))), 0
+                if given.get("hidden") in ("1", "true"):
+                    self._hidden_rows.add(self._row)
+            case "col":
+                if given.get("hidden") in ("1", "true"):
+                    self._hidden_columns.append(int(given["min"]))
+            case "mergeCell":
+                self._merge(given["ref"])
+
+    def _add(self, text: str) -> None:
+        if self._pieces is not None:
+            self._length += len(text)
+            if self._length > MAX_CELL:
+                raise _too_large(f"a cell of more than {MAX_CELL} characters")
+            self._pieces.append(text)
+
+    def _end(self, name: str) -> None:
+        match name.rpartition(":")[2]:
+            case "v" | "f" | "t":
+                self._pieces = None
+            case "rPh":
+                self._phonetic = False
+            case "si" if self._found is not None:
+                text = "".join(self._found.get("t", ())).replace("x005F_", "")
+                self._shared.append(self._counted(text))
+                self._found = None
+            case "c" if self._found is not None:
+                if text := self._text({kind: "".join(each) for kind, each in self._found.items()}):
+                    self.rows.setdefault(self._row, {})[self._column] = self._counted(text)
+                self._found = None
+
+    def _counted(self, text: str) -> str:
+        self._size += len(text) + 1
+        if self._size > MAX_TEXT:
+            raise _too_large(f"more than {MAX_TEXT / 1e6:.0f} million characters")
+        return text
+
+    def _place(self, name: str | None) -> None:
+        """Go on to the cell of a name, or to the next one."""
+        if name is None:
+            self._column += 1
+        else:
+            self._row, self._column = _corner(name)
+        if not (0 < self._row <= LAST[0] and self._column <= LAST[1]):
+            where = f"row {self._row:g} and column {self._column}"
+            raise ValueError(f"a sheet has no cell in {where}")
+
+    def _merge(self, area: str) -> None:
+        first, _, last = area.partition(":")
+        (top, left), (bottom, right) = _corner(first), _corner(last or first)
+        rows, columns = range(top, bottom + 1), range(left, right + 1)
+        if len(self.merged) + len(rows) * len(columns) > MAX_MERGED:
+            raise _too_large("more merged cells than a table of poses")
+        named = cell_name(top, left)
+        self.merged |= {(row, column): named for row in rows for column in columns}
+        self.merged.pop((top, left), None)
+
+    def _text(self, found: dict[str, str]) -> str:
+        """The cell that was gone through as text."""
+        stored = found.get("v", "")
+        match self._kind:
+            case "inlineStr":
+                return _quoted_cell(found.get("t", ""))
+            case "n" if not stored and "f" in found:  # one that is an empty text is of type str
+                return _quoted_cell(f"={found['f'].lstrip('=')}")
+            case "n" if stored:
+                return self._number(stored.strip())
+            case "s" if stored:
+                if not 0 <= int(stored) < len(self._shared):
+                    raise ValueError(f"there is no text {shown(stored)}")
+                return _quoted_cell(self._shared[int(stored)])
+            case "b" if stored:
+                return str(bool(int(stored))).upper()
+        return _quoted_cell(stored)
+
+    def _number(self, text: str) -> str:
+        if not NUMBER.fullmatch(text):
+            return _quoted_cell(text)
+        value = float(text)
+        if self._style in self._workbook._date_formats:
+            from openpyxl.utils.datetime import from_excel
+
+            length = self._style in self._workbook._timedelta_formats
+            try:
+                when = from_excel(value, self._workbook.epoch, timedelta=length)
+            except (OverflowError, ValueError):
+                return "#VALUE!"
+            is_time = isinstance(when, datetime.timedelta)
+            return f"a time of {when}" if is_time else _quoted_cell(str(when))
+        if "." not in text and "e" not in text.lower():
+            return text
+        # What a double cannot hold stays as it is written, to be refused.
+        return repr(value).removesuffix(".0") if is_held(text) else text
+
+    def hidden(self, rows: list[int], width: int) -> Iterator[Advice]:
+        """W213, for rows and columns that are hidden, and read all the same."""
+        lines = [f"{row}" for row in rows if row in self._hidden_rows]
+        columns = [cell_name(1, k)[:-1] for k in self._hidden_columns if k <= width]
+        for what, named in (("row", lines), ("column", columns)):
+            if named:
+                many = len(named) > 1
+                yield Advice(
+                    "W213",
+                    f"{what}{'s' * many} {listed(shortened(named, MAX_NAMED))} of the sheet "
+                    f"{'are' if many else 'is'} hidden, and read like the others",
+                    "show what is hidden, or delete it",
+                )
+
+
+@functools.lru_cache(maxsize=100_000)
+def _corner(name: str) -> tuple[int, int]:
+    """Row and column of a cell by its name, as $B$7 too."""
+    if not (found := _CORNER.fullmatch(name)):
+        raise ValueError(f"{shown(name)} is no name of a cell")
+    return int(found[2]), functools.reduce(
+        lambda number, letter: 26 * number + ord(letter) - 64, found[1].upper(), 0
+    )
 
 
 def _quoted_cell(text: str) -> str:
@@ -236,36 +397,20 @@ def _quoted_cell(text: str) -> str:
     return text
 
 
-def _covered(area: Any) -> Iterator[tuple[int, int]]:
-    """The cells of a merged area that show the first one's content."""
-    for row in range(area.min_row, area.max_row + 1):
-        for column in range(area.min_col, area.max_col + 1):
-            if (row, column) != (area.min_row, area.min_col):
-                yield row, column
-
-
-def _hidden(sheet: Any, numbers: list[int], width: int) -> Iterator[Advice]:
-    """W213, for rows and columns that are hidden, and read all the same."""
-    rows = [f"{k}" for k in numbers if k in sheet.row_dimensions and sheet.row_dimensions[k].hidden]
-    columns = [
-        each.index
-        for each in sheet.column_dimensions.values()
-        if each.hidden and (each.min or 1) <= width
-    ]
-    for what, named in (("row", rows), ("column", columns)):
-        if named:
-            many = len(named) > 1
-            yield Advice(
-                "W213",
-                f"{what}{'s' * many} {listed(shortened(named, MAX_NAMED))} of the sheet "
-                f"{'are' if many else 'is'} hidden, and read like the others",
-                "show what is hidden, or delete it",
-            )
-
-
 def _quoted(name: str) -> str:
     """A sheet's name as an option is written on a command line."""
     return name if re.fullmatch(r"[\w.-]+", name) else f'"{name}"'
+
+
+def _other_archive(names: list[str]) -> InputError:
+    """The error for an archive without a workbook: what it is, if it is one that people have."""
+    kinds = {
+        "word/": "it is a Word document (.docx)",
+        "ppt/": "it is a presentation (.pptx)",
+        "content.xml": "it is an OpenDocument file, such as .ods or .odt",
+    }
+    found = (kind for start, kind in kinds.items() if any(n.startswith(start) for n in names))
+    return _no_workbook(next(found, "it has no xl/workbook.xml in it"))
 
 
 def _no_workbook(why: str) -> InputError:

@@ -5,13 +5,22 @@ Nothing is taken for what it seems to mean: a number that has to be guessed is r
 
 from __future__ import annotations
 
+import math
 import re
 import unicodedata
 from decimal import Decimal
 from fractions import Fraction
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import NOT_FINITE, NUMBER, UNITS, brief, plain_number, shown
+from burmester.io.reading.pose_table import (
+    NOT_FINITE,
+    NUMBER,
+    UNITS,
+    brief,
+    plain_number,
+    shown,
+    unheld,
+)
 from burmester.wording import in_unit
 
 __all__ = ["not_a_number"]
@@ -42,7 +51,9 @@ def not_a_number(
     of = in_unit(unit and UNITS.get(unit, unit))
     help = f"give a number{of}, such as -12.5 or 3e-4, or delete the row"
     if NUMBER.fullmatch(plain):
-        why = f"{shown(cell)} is beyond 1.8e308, the largest representable number"
+        why = unheld(plain)
+        if math.isfinite(float(plain)):
+            fault, help = "a value that is too small", "write 0 if that is meant, or delete the row"
     elif not cell:
         code, fault = "E104", "an empty cell where a number belongs"
         help += "; for a component that is free, add the column free and write x, y or angle into "

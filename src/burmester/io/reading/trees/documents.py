@@ -14,13 +14,17 @@ from decimal import Decimal, InvalidOperation
 from typing import Any
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import PoseTable, Source, shown
+from burmester.io.reading.pose_table import PoseTable, Source, held_float, shown
 from burmester.io.reading.trees.locations import LONG, SHORT, UNCLOSED, Document, duplicate_key
 
 __all__ = ["read_json", "read_toml"]
 
+MAX_KEYS = 1000  # keys of a table, and tables: no task has as many
 MAX_KEY_PARTS = 100  # parts of a dotted TOML key; the parsing time grows as their square
 _PART = rf"(?:[\w-]++|{SHORT})"
+_HEAD_OR_KEY = re.compile(  # the lines of TOML in which tables and keys begin
+    r"^[ \t]*(?:(\[\[?[^][,\n]*\]\]?)[ \t]*(?:#|$)|[\w\"'.-][^=\n]*=)", re.MULTILINE
+)
 _KEYS = re.compile(rf"{LONG}|#[^\n]*+|({_PART}(?:[ \t]*\.[ \t]*{_PART})*)|{UNCLOSED}")
 
 
@@ -34,6 +38,8 @@ def read_json(source: Source) -> PoseTable:
         raise InputError("E103", f"{constant} is not a finite number", where=where, help=help)
 
     def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        if len(pairs) > MAX_KEYS:
+            raise _many_keys(source.label)
         tree = dict(pairs)
         if len(tree) < len(pairs):
             raise _twice(source, pairs)
@@ -41,8 +47,8 @@ def read_json(source: Source) -> PoseTable:
 
     parse = functools.partial(
         json.loads,
-        parse_float=_exact,
-        parse_int=_exact,
+        parse_float=functools.partial(_exact, source),
+        parse_int=functools.partial(_exact, source),
         parse_constant=refuse,
         object_pairs_hook=distinct_keys,
     )
@@ -53,16 +59,55 @@ def read_json(source: Source) -> PoseTable:
     return read_tree(tree, Document(source, "JSON"), example)
 
 
-def read_toml(source: Source) -> PoseTable:
-    """`poses = [[x, y, angle], ...]` or tables `[[poses]]`; raises E103 to E110."""
+def read_toml(source: Source, others: tuple[str, ...] = ()) -> PoseTable:
+    """`poses = [[x, y, angle], ...]` or tables `[[poses]]`; raises E103 to E110.
+
+    others: names of further tables, which are not looked at.
+    """
     import tomllib
 
-    document = Document(source, "TOML")
+    document = Document(source, "TOML", others=others)
+    _require_few_keys(source)
     _require_short_keys(source)
-    tree = _tree(document, functools.partial(tomllib.loads, parse_float=_exact))
+    tree = _tree(
+        document, functools.partial(tomllib.loads, parse_float=functools.partial(_exact, source))
+    )
+    _require_narrow(tree, source.label)
     from burmester.io.reading.trees.pose_tree import read_tree
 
     return read_tree(tree, document, 'angle_unit = "deg" above poses = [[0.5, 2, 30], ...]')
+
+
+def _require_few_keys(source: Source) -> None:
+    """Refuse more keys and tables than a task has, before the parser takes seconds: E107."""
+    if source.text.count("=") + source.text.count("[") <= MAX_KEYS:
+        return
+    heads: set[str] = set()
+    keys = 0
+    for found in _HEAD_OR_KEY.finditer(source.text):
+        keys = 0 if found[1] else keys + 1
+        if found[1]:
+            heads.add(found[1])
+        if max(keys, len(heads)) > MAX_KEYS:
+            raise _many_keys(source.where(found.start()))
+
+
+def _require_narrow(tree: Any, label: str) -> None:
+    """The same of a tree, for tables that are written in one line."""
+    stack = [tree]
+    while stack:
+        each = stack.pop()
+        if isinstance(each, dict):
+            if len(each) > MAX_KEYS:
+                raise _many_keys(label)
+            stack += each.values()
+        elif isinstance(each, list):
+            stack += each
+
+
+def _many_keys(where: str) -> InputError:
+    message, why = "there are too many keys", f"a task has no table of more than {MAX_KEYS}"
+    return InputError("E107", message, where=where, why=why, help="delete those that are none")
 
 
 def _require_short_keys(source: Source) -> None:
@@ -124,8 +169,14 @@ def _too_long(source: Source) -> InputError:
     return InputError("E103", message, where=source.where(start, end - start), why=why, help=help)
 
 
-def _exact(number: str) -> Decimal:
-    """A number with the decimals it is printed with, which a float would forget."""
+def _exact(source: Source, number: str) -> Decimal:
+    """A number with the decimals it is printed with, which a float would forget; raises E103."""
+    try:
+        held_float(number)
+    except InputError as error:
+        found = re.search(rf"(?<![\w.]){re.escape(number)}", source.text)
+        error.where = source.where(found.start(), len(number)) if found else source.label
+        raise
     try:
         return Decimal(number)
     except InvalidOperation:  # its exponent has twenty digits

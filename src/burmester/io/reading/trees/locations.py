@@ -60,6 +60,7 @@ class Document(NamedTuple):
     language: Language
     root: Path = ()
     bare: bool = False  # whether the tree is the list of poses itself
+    others: tuple[str, ...] = ()  # tables at the top that somebody else reads
 
     def named(self, *path: str | int) -> str:
         """The path of a value in the task, as a message names it."""
@@ -107,11 +108,11 @@ def dotted(path: Path) -> str:
     return out.removeprefix(".")
 
 
-def close_match(word: str, known: Iterable[str]) -> str | None:
-    """The one of the known words that is nearly the same, if one is."""
+def close_match(word: str, known: Iterable[str], least: float = 0.75) -> str | None:
+    """The one of the known words that is nearly the same, if one is; least: of likeness, to 1."""
     from difflib import get_close_matches
 
-    found = get_close_matches(word.lower(), list(known), 1, 0.75)
+    found = get_close_matches(word.lower(), list(known), 1, least)
     return found[0] if found else None
 
 

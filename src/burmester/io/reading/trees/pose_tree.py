@@ -1,7 +1,7 @@
 """Poses in the tree of a JSON or TOML file, and the keys beside them.
 
 At the top of a task other keys may stand (title, author, notes ...) and are not looked at, unless
-they are known ones misspelt or belong elsewhere.
+they are known ones misspelt, belong elsewhere, or are tables of TOML.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import POINTS, PoseTable, Rows
-from burmester.io.reading.specification import LIMIT_KEYS, TOP_KEYS, Specification
+from burmester.io.reading.specification import LIMIT_KEYS, TABLES, TOP_KEYS, Specification
 from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
 from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES, DefaultTolerance
@@ -23,6 +23,7 @@ from burmester.io.reading.trees.locations import Document, close_match
 from burmester.io.reading.trees.path_tree import read_path
 from burmester.io.reading.trees.plain_poses import POINT_KEYS, XY_ANGLE_KEYS, plain_poses
 from burmester.tasks.pose_tolerances import COMPONENTS
+from burmester.wording import listed
 
 __all__ = ["read_tree"]
 
@@ -186,17 +187,26 @@ def _specification(tree: dict[str, Any], document: Document) -> Specification:
 
 def _require_known(document: Document, tree: dict[str, Any]) -> None:
     """Refuse what stands beside the poses and is misspelt, or belongs elsewhere."""
-    for key in tree:
-        if key in TOP_KEYS or key in LIMIT_KEYS or key in REQUIREMENT_KEYS:
+    for key, value in tree.items():
+        if key in (*TOP_KEYS, *LIMIT_KEYS, *REQUIREMENT_KEYS, *document.others):
             continue
         if key in _MISPLACED:
             message = f"{document.named(key)} stands beside the poses, where it has no effect"
             help = f"{_MISPLACED[key]}, or delete it"
         elif near := close_match(key, TOP_KEYS):
             message, help = f"{document.named(key)} is not known", f"write {near} in its place"
+        elif document.language == "TOML" and dict in (type(value), *map(type, _items(value))):
+            message = f"the table {document.named(key)} is not known"
+            near = close_match(key, TABLES, 0.5)
+            help = f"write {near} if that is meant, or delete it; tables are {listed(TABLES)}"
+            help = help if near else f"delete it; the tables of a task are {listed(TABLES)}"
         else:
             continue
         raise InputError("E107", message, where=document.where(key, key=True), help=help)
+
+
+def _items(value: Any) -> list[Any]:
+    return value if isinstance(value, list) else []
 
 
 def _tracked(document: Document, tree: Any) -> bool:
