@@ -9,6 +9,7 @@ import numpy as np
 
 from benchmarks.field.linkage import FourBar, Kind
 from benchmarks.field.task import FieldTask
+from benchmarks.field.tools import generators
 from benchmarks.field.tools.closure import (
     Free,
     Scaled,
@@ -18,6 +19,7 @@ from benchmarks.field.tools.closure import (
     pose_errors,
     runs_well,
 )
+from benchmarks.field.tools.coupler_curves import is_dense, searched
 
 TITLE = "SciPy least squares, many starts"
 PACKAGE = "scipy"
@@ -25,7 +27,12 @@ CALLED = (
     "`scipy.optimize.least_squares` on each dyad's closure (link, slider, slot) with exact "
     "derivatives from 280 starts, then on the pose errors of each pair of the best dyads as a "
     "whole; limits as bounds or as fewer unknowns; for paths on both closures with the body's "
-    "angles as unknowns, from up to 500 starts; linkages that run through the poses in order first"
+    "angles as unknowns, from up to 500 starts; for paths of ten points or more, closed or timed, "
+    "on all dimensions and crank angles, from the random cranks whose curves lie best over the "
+    "path (by Fourier transform where it is closed), then again with weights towards the least "
+    "greatest distance; for functions on the output's error from random linkages, then "
+    "`minimize(method=\"SLSQP\")` on the greatest error; linkages that run through the poses in "
+    "order first"
 )
 STARTS: dict[Kind, int] = {"RR": 200, "PR": 40, "RP": 40}
 KEPT: dict[Kind, int] = {"RR": 9, "PR": 2, "RP": 2}
@@ -41,6 +48,8 @@ def refuses(task: FieldTask) -> str | None:
 
 
 def solve(task: FieldTask, seconds: float) -> list[FourBar]:
+    if task.is_function:
+        return _functions(task, seconds)
     return _paths(task, seconds) if task.is_path else _guides(task, seconds)
 
 
@@ -225,7 +234,41 @@ def path_polished(
     return float(abs(away).max()), x, angle
 
 
+def _functions(task: FieldTask, seconds: float) -> list[FourBar]:
+    """Least squares from random linkages for half of the time, then the best by SLSQP."""
+    from scipy.optimize import least_squares
+
+    begun, rng = time.process_time(), np.random.default_rng(0)
+    found: list[tuple[float, np.ndarray, float]] = []
+    while time.process_time() - begun < 0.5 * seconds:
+        side = float(rng.choice([-1, 1]))
+        end = least_squares(
+            generators.errors,
+            generators.start(rng, side, task.rows),
+            generators.by_parameters,
+            args=(side, task.rows),
+            method="lm",
+            max_nfev=200,
+        )
+        if all(abs(end.x - other).max() > 1e-5 for _, other, _ in found):
+            found.append((float(end.cost), end.x, side))
+    found.sort(key=lambda each: each[0])
+    out: list[tuple[float, FourBar]] = []
+    for _, v, side in found:
+        if time.process_time() - begun > 0.85 * seconds:
+            break
+        error, better = generators.minimax(v, side, task.rows)
+        out.append((error, generators.four_bar(better)))
+    out.sort(key=lambda each: each[0])
+    return [four_bar for _, four_bar in out[:ANSWERS]]
+
+
 def _paths(task: FieldTask, seconds: float) -> list[FourBar]:
+    if is_dense(task):
+        scaled = Scaled(task)
+        fits = list(searched(task, scaled, 0.85 * seconds, FAR))
+        fits.sort(key=lambda fit: (not fit.in_order(task), fit.error))
+        return [fit.four_bar(scaled) for fit in fits[:ANSWERS]]
     begun, rng = time.process_time(), np.random.default_rng(0)
     scaled, count = Scaled(task), len(task.rows)
     free = (Free("RR", scaled.pivots, 0), Free("RR", scaled.pivots, 1))
