@@ -33,9 +33,7 @@ def _heart() -> np.ndarray:
 def _airfoil() -> np.ndarray:
     """The symmetric section NACA 0018, its trailing edge shut."""
     x = (1 - np.cos(np.linspace(0, np.pi, 80))) / 2
-    half = 0.9 * (
-        0.2969 * np.sqrt(x) - 0.126 * x - 0.3516 * x**2 + 0.2843 * x**3 - 0.1036 * x**4
-    )
+    half = 0.9 * (0.2969 * np.sqrt(x) - 0.126 * x - 0.3516 * x**2 + 0.2843 * x**3 - 0.1036 * x**4)
     return np.concatenate([(x + 1j * half)[::-1], (x - 1j * half)[1:-1]])
 
 
@@ -74,7 +72,8 @@ OPEN_SHAPES = {
 # Function, range of x, degrees of the input and of the output, and where it is from.
 TABLE = "the table of benchmarks/function_requirements.py"
 PAGE = "docs/functions.md"
-FUNCTION_TASKS: dict[str, tuple[Callable[[np.ndarray], np.ndarray], float, float, int, int, str]] = {
+Values = Callable[[np.ndarray], np.ndarray]
+FUNCTION_TASKS: dict[str, tuple[Values, float, float, int, int, str]] = {
     "log10(x), 1 to 2": (np.log10, 1, 2, 60, 60, PAGE),
     "log(x), 1 to 2": (np.log, 1, 2, 90, 90, PAGE),
     "log10(x), 1 to 10": (np.log10, 1, 10, 90, 90, TABLE),

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -230,7 +231,8 @@ def trace(four_bar: FourBar, task: FieldTask) -> Trace:
             if task.closed and not branch.closed:
                 continue
             away = strays(task, branch.body(refined)[0]) if task.is_path else errors
-            for part, gaps in _senses(refined, errors, away, nearest, branch.closed, task.closed):
+            turns = "and returns" if task.closed else "once" if branch.closed else "no"
+            for part, gaps in _senses(refined, errors, away, nearest, turns):
                 if bound < in_order:
                     in_order = min(in_order, _ascending(part))
                 if task.is_path and not follows and bound <= task.tolerance:
@@ -280,22 +282,22 @@ def _senses(
     errors: np.ndarray,
     others: np.ndarray,
     nearest: np.ndarray,
-    turns: bool,
-    returns: bool,
+    turns: Literal["no", "once", "and returns"],
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Errors (N, K) and other rows (·, K) along the drive, in both senses, from every cut.
 
-    turns: whether the drive turns fully.  returns: whether it has to, and to come back to the first
-    row, which is the last one then as well.
+    turns: whether the drive turns fully, and if it has to come back to the first row, which is the
+    last one then as well.
     """
     shifts = [0]
+    returns = turns == "and returns"
     if returns:
         first = errors[0]
         low = (first <= np.roll(first, 1)) & (first <= np.roll(first, -1))
         starts = np.flatnonzero(low)
         shifts = [-int(k) for k in starts[np.argsort(first[starts], kind="stable")][:CUTS]]
         errors = np.concatenate([errors, errors[:1]])
-    elif turns:
+    elif turns == "once":
         # A turn has no beginning: it is cut between places where poses are nearest, wide gaps
         # first.
         gaps = np.diff(np.concatenate([nearest, nearest[:1] + 2 * np.pi]))
@@ -352,11 +354,11 @@ def _timed(four_bar: FourBar, task: FieldTask) -> Trace:
                 return missed(task, np.arange(len(turned)), *body).max(axis=1)
 
             begins, errors = _begins(branch, turned, worst)
-            best = min(best, errors.min(initial=np.inf))
+            best = min(best, float(errors.min(initial=np.inf)))
             for begin in begins[errors <= task.tolerance]:
                 away = strays(task, branch.body((begin + parts).ravel())[0])
                 follows = follows or not away.reshape(len(away), *parts.shape)[gap, gap].any()
-    return Trace(best, best, best, follows)
+    return Trace(best, best, best, bool(follows))
 
 
 def _function_error(four_bar: FourBar, task: FieldTask) -> float:
@@ -376,7 +378,7 @@ def _function_error(four_bar: FourBar, task: FieldTask) -> float:
             made = np.angle(d + np.exp(1j * phi) * second.moving - second.fixed)
             return np.ptp(np.unwrap(made - outputs, axis=1), axis=1) / 2 / task.span
 
-        best = min(best, _begins(branch, inputs, worst)[1].min(initial=np.inf))
+        best = min(best, float(_begins(branch, inputs, worst)[1].min(initial=np.inf)))
     return best
 
 

@@ -14,8 +14,8 @@ TITLE = "burmester"
 PACKAGE = "burmester"
 CALLED = (
     "`burmester.synthesize(task, length_per_radian=...)`, with ground pivots as `Limits` where the "
-    "task has some; points of a path as poses whose angle is free, with `TracedPath` where the path "
-    "is closed or timed; for functions `burmester.synthesize_function(pairs, minimax=True)`; the "
+    "task has some; points of a path as poses whose angle is free, with `TracedPath` where it is "
+    "closed or timed; for functions `burmester.synthesize_function(pairs, minimax=True)`; the "
     "linkages of the result in their order"
 )
 

@@ -20,9 +20,14 @@ from benchmarks.field.tools.closure import Scaled
 
 LEAST_DENSE = 10  # points of an open path
 STEPS, SHARES = 96, 64  # of a curve; of the arc at which curves are compared
-BATCH = 2000
-REACH = 1.3  # of the logarithms of lengths
+BATCH, BATCHES = 2000, 30
+FITS, AGAIN = 400, 80  # cranks that are fitted, and again towards the least greatest distance
+MOST_BULGE = 0.5  # of the step between points, by which a curve may leave the path
+GAP = 9  # places from one point to the next, both included
+REACH, BODY = 1.3, 2.5  # of the logarithms of lengths; of the coupler point, in couplers
+TRIES = 60  # evaluations of a fit
 ROUNDS, POWER = 4, 8  # towards the least greatest distance: the norm of that power
+SHUT, STIFF = 0.995, 2.0  # the cosine beyond which a linkage opens, and what it costs
 DEAD = 1e-3  # least sine between coupler and rocker that is divided by
 
 
@@ -52,15 +57,20 @@ class Fit:
             Dyad("RR", complex(m + s * complex(x[2], x[3])), s * (x[5] - hand), s * abs(x[6])),
         )
 
-    def in_order(self, task: FieldTask) -> bool:
-        """Whether the crank turns one way from point to point, once round at most."""
-        angles = self.angles
+    def faults(self, task: FieldTask, scaled: Scaled) -> int:
+        """How many of three it has: the crank turns back, it is open, the curve leaves the path."""
+        angles, way = self.angles, scaled.places
         if task.closed:
-            way = np.sign(angles[-1] - angles[0])
-            angles = np.append(angles, angles[0] + 2 * np.pi * way)
-        steps = np.diff(angles)
-        one_way = bool((steps >= -1e-9).all() or (steps <= 1e-9).all())
-        return one_way and abs(steps.sum()) < 2 * np.pi + 1e-9
+            full = angles[0] + 2 * np.pi * np.sign(angles[-1] - angles[0])
+            angles, way = np.append(angles, full), np.append(way, way[0])
+        steps, chord = np.diff(angles), np.diff(way)
+        back = not ((steps >= -1e-9).all() or (steps <= 1e-9).all())
+        around = abs(steps.sum()) > 2 * np.pi + 1e-9
+        between = angles[:-1, None] + steps[:, None] * np.linspace(0, 1, GAP)
+        points, _, _, cosine = _traced(self.x, between.ravel(), self.side)
+        along = (points.reshape(between.shape) - way[:-1, None]) / chord[:, None]
+        bulge = abs(along - np.clip(along.real, 0, 1)).max()
+        return sum(map(bool, (back or around, abs(cosine).max() >= 1, bulge > MOST_BULGE)))
 
 
 def drawn(rng: np.random.Generator, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -192,8 +202,11 @@ def _arc(points: np.ndarray) -> np.ndarray:
 
 def _traced(
     x: np.ndarray, angles: np.ndarray, side: float
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Coupler points (N,), their derivatives (N, 9) by the dimensions and (N,) by the angles."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Coupler points (N,), their derivatives (N, 9) by the dimensions and (N,) by the angles.
+
+    And the cosine between diagonal and coupler, beyond 1 where the linkage is open.
+    """
     a, c, r, hand = *x[4:7], complex(x[7], x[8])
     crank = np.exp(1j * angles)
     pin = complex(x[0], x[1]) + a * crank
@@ -215,36 +228,68 @@ def _traced(
     by_x = own + by_turn[:, None] * turned / lever[:, None]
     along = 1j * a * crank
     by_angle = along - by_turn * (bar * along).real / lever
-    return pin + hand * turn, by_x, by_angle
+    return pin + hand * turn, by_x, by_angle, cosine
 
 
-def fitted(
-    x: np.ndarray, angles: np.ndarray, side: float, laid: Laid, rounds: int, tries: int
-) -> Fit:
+def _openness(x: np.ndarray, angles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """By how much a linkage opens at crank angles (K,), and the derivatives (K, 9) of that."""
+    a, c, r = x[4:7]
+    crank = np.exp(1j * angles)
+    to = complex(x[2] - x[0], x[3] - x[1]) - a * crank
+    length = np.maximum(abs(to), 1e-12)
+    cosine = (c**2 + length**2 - r**2) / (2 * c * length)
+    over = np.maximum(abs(cosine) - SHUT, 0)
+    one, zero = np.ones_like(crank), np.zeros_like(crank)
+    moves = np.stack([-one, -1j * one, one, 1j * one, -crank, *4 * [zero]], axis=1)
+    slope = (np.conj(to)[:, None] * moves).real / length[:, None]
+    slope *= (1 / c - cosine / length)[:, None]
+    slope[:, 5], slope[:, 6] = 1 / length - cosine / c, -r / (c * length)
+    return STIFF * over, STIFF * np.where(over > 0, np.sign(cosine), 0)[:, None] * slope
+
+
+def of_shape(shape: np.ndarray, side: float, window: np.ndarray, laid: Laid) -> Fit:
+    """A crank as it is laid over the path."""
+    x, angles = laid.start(shape, side, window)
+    away = _traced(x, angles, side)[0] - laid.scaled.places
+    return Fit(float(abs(away).max()), x, angles, side)
+
+
+def fitted(start: Fit, laid: Laid, rounds: int = ROUNDS) -> Fit:
     """All dimensions and crank angles by least squares; then the greatest distance made less."""
     from scipy.optimize import least_squares
 
+    x, angles, side = start.x, start.angles, start.side
     places, turned = laid.scaled.places, laid.task.crank
     weights = np.ones(len(places))
 
     def parts(u: np.ndarray) -> np.ndarray:
         return u[9:] if turned is None else u[9] + turned
 
+    def between(u: np.ndarray) -> np.ndarray:
+        """Crank angles from the first point to the last, at even steps."""
+        angles = parts(u)
+        if laid.task.closed:
+            angles = np.append(angles, angles[0] + 2 * np.pi * np.sign(angles[-1] - angles[0]))
+        at = np.linspace(0, len(angles) - 1, STEPS)
+        return np.interp(at, np.arange(len(angles)), angles)
+
     def value(u: np.ndarray) -> np.ndarray:
         away = weights * (_traced(u[:9], parts(u), side)[0] - places)
-        return np.concatenate([away.real, away.imag])
+        return np.concatenate([away.real, away.imag, _openness(u[:9], between(u))[0]])
 
     def slope(u: np.ndarray) -> np.ndarray:
-        _, by_x, by_angle = _traced(u[:9], parts(u), side)
+        _, by_x, by_angle, _ = _traced(u[:9], parts(u), side)
         last = np.diag(by_angle) if turned is None else by_angle[:, None]
         rows = weights[:, None] * np.concatenate([by_x, last], axis=1)
-        return np.concatenate([rows.real, rows.imag])
+        kept = np.zeros((STEPS, len(u)))
+        kept[:, :9] = _openness(u[:9], between(u))[1]
+        return np.concatenate([rows.real, rows.imag, kept])
 
     u = np.concatenate([x, angles if turned is None else [angles[0] - turned[0]]])
     method = "lm" if 2 * len(places) >= len(u) else "trf"
     best = Fit(np.inf, x, angles, side)
     for number in range(rounds):
-        found = least_squares(value, u, slope, method=method, max_nfev=tries, xtol=1e-10)
+        found = least_squares(value, u, slope, method=method, max_nfev=TRIES, xtol=1e-10)
         u = found.x
         away = abs(_traced(u[:9], parts(u), side)[0] - places)
         if away.max() < best.error:
@@ -257,25 +302,28 @@ def fitted(
 
 
 def searched(task: FieldTask, scaled: Scaled, seconds: float, far: float) -> Iterator[Fit]:
-    """Fits from the random cranks that lie best: a quarter of the time for drawing them."""
+    """Fits from the random cranks that lie best over the path; the best of them fitted again."""
     begun, rng, laid = time.process_time(), np.random.default_rng(0), Laid(task, scaled)
     pool: list[tuple[float, np.ndarray, float, np.ndarray]] = []
-    while time.process_time() - begun < 0.25 * seconds:
+    for _ in range(BATCHES):
         shapes, side = drawn(rng, BATCH)
         window = rng.random((BATCH, laid.windows))
         error = laid.of(curves(shapes, side, laid.angles(window)))[0]
-        best = np.argsort(error)[:60]
+        best = np.argsort(error)[:FITS]
         pool += [(float(error[k]), shapes[k], float(side[k]), window[k]) for k in best]
-        pool = sorted(pool, key=lambda each: each[0])[:600]
+        pool = sorted(pool, key=lambda each: each[0])[:FITS]
+        if time.process_time() - begun > 0.3 * seconds:
+            break
     found = []
     for _, shape, one, where in pool:
         if time.process_time() - begun > 0.75 * seconds:
             break
-        fit = fitted(*laid.start(shape, one, where), one, laid, 1, 60)
+        fit = fitted(of_shape(shape, one, where, laid), laid, 1)
         if np.isfinite(fit.error) and abs(fit.x).max() < far:
             found.append(fit)
-    found.sort(key=lambda fit: (not fit.in_order(task), fit.error))
-    for fit in found:
-        if time.process_time() - begun > seconds:
-            break
-        yield fitted(fit.x, fit.angles, fit.side, laid, ROUNDS, 60)
+    found.sort(key=lambda fit: (fit.faults(task, scaled), fit.error))
+    for number, fit in enumerate(found):
+        if number < AGAIN and time.process_time() - begun < seconds:
+            yield fitted(fit, laid)
+        else:
+            yield fit

@@ -36,7 +36,7 @@ def errors(v: np.ndarray, side: float, pairs: np.ndarray) -> np.ndarray:
 
 def by_parameters(v: np.ndarray, side: float, pairs: np.ndarray) -> np.ndarray:
     """The derivatives (N, 5) of these errors."""
-    a, r, b = np.exp(v[:3])
+    r, b = np.exp(v[1:3])
     _, cosine, to, sine = made(v, side, pairs[:, 0])
     size = np.maximum(abs(to), 1e-12)
     pin = to + 1
@@ -74,7 +74,7 @@ def minimax(v: np.ndarray, side: float, pairs: np.ndarray) -> tuple[float, np.nd
     def slope(u: np.ndarray) -> np.ndarray:
         by = by_parameters(u[:5], side, pairs)
         one = np.ones((len(by), 1))
-        a, r, b = np.exp(u[:3])
+        r, b = np.exp(u[1:3])
         _, cosine, to, _ = made(u[:5], side, pairs[:, 0])
         size, pin = np.maximum(abs(to), 1e-12), to + 1
         by_size = 1 / b - cosine / size

@@ -28,10 +28,11 @@ CALLED = (
     "derivatives from 280 starts, then on the pose errors of each pair of the best dyads as a "
     "whole; limits as bounds or as fewer unknowns; for paths on both closures with the body's "
     "angles as unknowns, from up to 500 starts; for paths of ten points or more, closed or timed, "
-    "on all dimensions and crank angles, from the random cranks whose curves lie best over the "
-    "path (by Fourier transform where it is closed), then again with weights towards the least "
-    "greatest distance; for functions on the output's error from random linkages, then "
-    "`minimize(method=\"SLSQP\")` on the greatest error; linkages that run through the poses in "
+    "on all dimensions and crank angles, from the 400 of 60,000 random cranks whose curves lie "
+    "best over the path (by Fourier transform where it is closed), then again with weights "
+    "towards the least greatest distance; for functions on the output's error from 400 random "
+    "linkages, then "
+    '`minimize(method="SLSQP")` on the greatest error; linkages that run through the poses in '
     "order first"
 )
 STARTS: dict[Kind, int] = {"RR": 200, "PR": 40, "RP": 40}
@@ -41,6 +42,7 @@ FAR = 100.0  # spans
 EXACT = 1e-10
 ANSWERS = 50
 PATH_STARTS = 500
+FUNCTION_STARTS = 400
 
 
 def refuses(task: FieldTask) -> str | None:
@@ -235,12 +237,14 @@ def path_polished(
 
 
 def _functions(task: FieldTask, seconds: float) -> list[FourBar]:
-    """Least squares from random linkages for half of the time, then the best by SLSQP."""
+    """Least squares from random linkages, then the best ones by SLSQP."""
     from scipy.optimize import least_squares
 
     begun, rng = time.process_time(), np.random.default_rng(0)
     found: list[tuple[float, np.ndarray, float]] = []
-    while time.process_time() - begun < 0.5 * seconds:
+    for _ in range(FUNCTION_STARTS):
+        if time.process_time() - begun > 0.6 * seconds:
+            break
         side = float(rng.choice([-1, 1]))
         end = least_squares(
             generators.errors,
@@ -254,20 +258,20 @@ def _functions(task: FieldTask, seconds: float) -> list[FourBar]:
             found.append((float(end.cost), end.x, side))
     found.sort(key=lambda each: each[0])
     out: list[tuple[float, FourBar]] = []
-    for _, v, side in found:
+    for _, v, side in found[:ANSWERS]:
         if time.process_time() - begun > 0.85 * seconds:
             break
         error, better = generators.minimax(v, side, task.rows)
         out.append((error, generators.four_bar(better)))
     out.sort(key=lambda each: each[0])
-    return [four_bar for _, four_bar in out[:ANSWERS]]
+    return [four_bar for _, four_bar in out]
 
 
 def _paths(task: FieldTask, seconds: float) -> list[FourBar]:
     if is_dense(task):
         scaled = Scaled(task)
         fits = list(searched(task, scaled, 0.85 * seconds, FAR))
-        fits.sort(key=lambda fit: (not fit.in_order(task), fit.error))
+        fits.sort(key=lambda fit: (fit.faults(task, scaled), fit.error))
         return [fit.four_bar(scaled) for fit in fits[:ANSWERS]]
     begun, rng = time.process_time(), np.random.default_rng(0)
     scaled, count = Scaled(task), len(task.rows)
