@@ -70,8 +70,8 @@ OPEN_SHAPES = {
     "zigzag": np.array([0, 1 + 0.8j, 2, 3 + 0.8j, 4]),
 }
 # Function, range of x, degrees of the input and of the output, and where it is from.
-TABLE = "the table of benchmarks/function_requirements.py"
-PAGE = "docs/functions.md"
+TABLE = "`benchmarks/function_requirements.py`"
+PAGE = "[the page of functions](functions.md)"
 Values = Callable[[np.ndarray], np.ndarray]
 FUNCTION_TASKS: dict[str, tuple[Values, float, float, int, int, str]] = {
     "log10(x), 1 to 2": (np.log10, 1, 2, 60, 60, PAGE),

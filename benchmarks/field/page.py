@@ -206,7 +206,9 @@ def text(data: dict[str, Any]) -> str:
     """The page: `page.md` with what the results say."""
     results = Results(data)
     asked = [
-        f"- **{about['title']}**, {about['package']} {about['version']}: {about['called']}."
+        "\n  - ".join(
+            [f"**{about['title']}**, {about['package']} {about['version']}:", *about["called"]]
+        )
         for about in (data["tools"][name] for name in results.names)
     ]
     sources = [
@@ -222,7 +224,7 @@ def text(data: dict[str, Any]) -> str:
         times=TIMES.name,
         count=len(data["tasks"]),
         counts=_counts(results),
-        asked="\n".join(asked),
+        asked="\n".join(f"- {lines}" for lines in asked),
         sources="\n".join(sources),
         functions=_functions(results),
         limit=f"{data['limit']:g}",

@@ -134,7 +134,7 @@ def results(
             "title": chosen.TITLE,
             "package": chosen.PACKAGE,
             "version": version(chosen.PACKAGE),
-            "called": chosen.CALLED,
+            "called": list(chosen.CALLED),
         }
     heads = [
         {

@@ -14,7 +14,7 @@ from benchmarks.field.published import CASES, published
 from benchmarks.field.run import RESULTS, merged, results, run
 from benchmarks.field.scores import scores
 from benchmarks.field.task import DISC, EXACT, FieldTask, Pivots
-from benchmarks.field.tools import generators
+from benchmarks.field.tools import generators, tool
 from benchmarks.field.tools.closure import Scaled
 from benchmarks.field.tools.coupler_curves import Laid, curves, fitted, of_shape
 from benchmarks.field.tracer import trace
@@ -171,7 +171,7 @@ def test_a_closed_path_takes_a_full_turn_and_leads_back(sense):
     assert not most.follows
     mixed = trace(SLOT, circle(round_[[0, 1, 3, 2, *range(4, 12)]], closed=True))
     assert mixed.one_branch < NEAR
-    assert mixed.in_order > 0.1
+    assert mixed.in_order > 0.09  # half a step back, over the span
 
 
 def test_a_closed_path_is_none_of_a_crank_that_swings():
@@ -222,6 +222,8 @@ def test_every_task_goes_to_a_tool_and_back_as_it_is():
         assert np.array_equal(again.rows, task.rows)
         assert (again.closed, again.is_function) == (task.closed, task.is_function)
         assert (again.crank is None) == (task.crank is None)
+        assert (tool("pencil").refuses(task) is None) <= (task.rows.shape[1] == 3)
+        assert tool("fourbarhinge_fit").refuses(task) or not task.is_function
 
 
 def test_the_derivatives_that_scipy_gets_are_right():
@@ -364,7 +366,7 @@ def test_figures_that_are_not_measured_again_are_kept():
 
 def test_the_page_says_which_paths_were_followed_and_when_each_tool_ran():
     data = json.loads(RESULTS.read_text(encoding="utf-8"))
-    about = {"title": "x", "package": "x", "version": "1", "called": "x"}
+    about = {"title": "x", "package": "x", "version": "1", "called": ["x"]}
     data["tools"] = {page.OURS: about, "pencil": about}
     data["tasks"] = [{"name": name, "kind": page.PATH, "source": "generated"} for name in "ab"]
     won = {"solved": True, "best_error": 1e-3, "cpu": 1.0, "meets_points": 2}

@@ -13,10 +13,10 @@ from benchmarks.field.task import FieldTask
 TITLE = "burmester"
 PACKAGE = "burmester"
 CALLED = (
-    "`burmester.synthesize(task, length_per_radian=...)`, with ground pivots as `Limits` where the "
-    "task has some; points of a path as poses whose angle is free, with `TracedPath` where it is "
-    "closed or timed; for functions `burmester.synthesize_function(pairs, minimax=True)`; the "
-    "linkages of the result in their order"
+    "Poses: `burmester.synthesize(task, length_per_radian=...)`, ground pivots as `Limits`.",
+    "Paths: the same, with free angles; `TracedPath` where it is closed or timed.",
+    "Functions: `burmester.synthesize_function(pairs, minimax=True)`.",
+    "The linkages of the result in their order.",
 )
 
 

@@ -24,14 +24,13 @@ from benchmarks.field.tools.scipy_starts import path_fit, path_polished
 TITLE = "SciPy differential evolution"
 PACKAGE = "scipy"
 CALLED = (
-    "`scipy.optimize.differential_evolution` on the whole linkage (ground pivots within 3 spans, "
-    "strategy `currenttobest1bin`, 20 members a parameter, at most 600 generations, vectorised), "
-    "the crank driven from pose to pose: squared pose errors on one assembly, with penalties where "
-    "it cannot be put together or the crank turns back; up to four runs with two links, one with "
-    "a slot, one with a slider; each end made better by `least_squares`; for paths the curve of a "
-    "turning crank in 120 steps, until the time is over; for paths of ten points or more, closed "
-    "or timed, only the shape of the crank, its curve laid over the path as above; for functions "
-    'on the greatest error, then `minimize(method="SLSQP")`'
+    "Poses: `differential_evolution` on the whole linkage, driven from pose to pose.",
+    "It has penalties where a linkage opens or its crank turns back; up to six runs.",
+    "Ground pivots are within 3 spans; strategy `currenttobest1bin`, 20 members a parameter.",
+    "Each end is made better by `least_squares`.",
+    "Paths of up to nine points: on the curve of a turning crank in 120 steps.",
+    "Other paths: on the shape of the crank, its curve laid over the path, then fitted as above.",
+    'Functions: on the greatest error, then `minimize(method="SLSQP")`.',
 )
 GROUND, BODY = 3.0, 2.5  # spans: how far pivots are looked for
 RUNS: tuple[Kind, ...] = ("RR", "RR", "RP", "PR", "RR", "RR")

@@ -15,15 +15,15 @@ from benchmarks.field.tools.coupler_curves import is_dense
 TITLE = "fourbarhinge"
 PACKAGE = "fourbarhinge"
 CALLED = (
-    "`CouplerMotionSynthesis(track_p, track_q, LinkBounds(...)).solve()`, P the body's origin and "
-    "Q a quarter of the span from it, link lengths from a fiftieth of the span to 2 and to 5 spans "
-    "in turn, transmission angle free, given pivots as `ground_pivot_a` and "
-    "`ground_pivot_d`; for paths `CouplerPathSynthesis(points, ...).solve(n_starts=4, seed=0, 1, "
-    "...)` while there is time; of ten points or more 13 of them, in both orders and one start a "
-    "call, of closed paths the first again at the end, `max_input_step` such that the crank turns "
-    "half round in the mean, or once where the path is closed; for timed ones with "
-    "`theta_inputs` from begin to begin of the crank, then near the best one; the "
-    "result with the least greatest error first"
+    "Poses: `CouplerMotionSynthesis(track_p, track_q, LinkBounds(...)).solve()`.",
+    "P is the body's origin, Q a quarter of the span from it.",
+    "Link lengths are from a fiftieth of the span to 2 and to 5 spans in turn.",
+    "The transmission angle is free; given pivots are `ground_pivot_a` and `ground_pivot_d`.",
+    "Paths: `CouplerPathSynthesis(points, ...).solve(...)` with new seeds while there is time.",
+    "Of ten points or more it gets 13, in both orders; of closed paths the first again at the end.",
+    "`max_input_step` turns the crank half round in the mean, or once where the path is closed.",
+    "Timed paths: `theta_inputs` from 24 begins of the crank, then near the best one.",
+    "The result with the least greatest error comes first.",
 )
 SHORTEST = 0.02  # spans
 LONGEST = (2.0, 5.0)  # spans

@@ -21,15 +21,14 @@ from benchmarks.field.tools.coupler_curves import BODY, REACH, STEPS, Laid, is_d
 TITLE = "pylinkage"
 PACKAGE = "pylinkage"
 CALLED = (
-    "`motion_generation(poses, ground_pivot_a, ground_pivot_d, max_solutions=50, "
-    "require_grashof=False)` for three to five poses, for three without given pivots "
-    "`motion_generation_3_poses` as well; `path_generation(points, ..., max_solutions=10, "
-    "require_grashof=False)` for three to five points; for paths of ten points or more, closed or "
-    "timed, `differential_evolution_optimization`, then `minimize_linkage`, of a crank, an "
-    "`RRRDyad` and a `FixedDyad` (`step_fast` with numba), six times, on an objective of "
-    "ours: the curve laid over the path by turning, stretching and shifting; for functions "
-    "`function_generation(pairs, require_grashof=False)` with the zeros of both links on a grid, "
-    "then closer about the best, as `verify_function_generation` says"
+    "Poses, three to five: `motion_generation(poses, max_solutions=50, require_grashof=False)`.",
+    "For three without given pivots `motion_generation_3_poses` as well.",
+    "Paths of three to five points: `path_generation(points, require_grashof=False)`.",
+    "Paths of ten points or more, closed or timed: `differential_evolution_optimization`.",
+    "Then `minimize_linkage`; six runs. The objective is ours: the curve laid over the path.",
+    "Simulated are a crank, an `RRRDyad` and a `FixedDyad`, by `step_fast` with numba.",
+    "Functions: `function_generation(pairs, require_grashof=False)`, both zeros on a grid.",
+    "Then closer about the best, as `verify_function_generation` says.",
 )
 LEAST, MOST = 3, 5
 GRID, FINER = 30, 6  # steps of each zero round the circle; zeros from which finer ones are tried
