@@ -150,20 +150,27 @@ def better(data: dict[str, Any]) -> list[str]:
                 f"**{title}** solves by its first answer what burmester solves by a later one: "
                 f"{'; '.join(first)}."
             )
-        nearer = []
-        for task in results.tasks.values():
-            theirs, ours = (results.records.get((each, task["name"]), {}) for each in (name, OURS))
-            a, b = theirs.get("best_error"), ours.get("best_error")
-            if a is None or not (_solved(theirs) and _solved(ours)):
-                continue
-            if b > ROUNDING and a < NEARER * b:
-                nearer.append(f"{task['name']} ({a:.2g} beside {b:.2g})")
-        if nearer:
-            lines.append(f"**{title}** comes nearer, both solving: {'; '.join(nearer)}.")
+        for words, both in (("both solving", True), ("neither solving", False)):
+            nearer = _nearer(results, name, both)
+            if nearer:
+                lines.append(f"**{title}** comes nearer, {words}: {'; '.join(nearer)}.")
         quicker = _quicker(results, name)
         if quicker:
             lines.append(f"**{title}** is faster in the median: {'; '.join(quicker)}.")
     return lines
+
+
+def _nearer(results: Results, name: str, solving: bool) -> list[str]:
+    """Tasks that a tool and ours both solve, or both do not, and in which its error is smaller."""
+    out = []
+    for task in results.tasks:
+        theirs, ours = (results.records.get((each, task), {}) for each in (name, OURS))
+        a, b = theirs.get("best_error"), ours.get("best_error")
+        if a is None or b is None or {_solved(theirs), _solved(ours)} != {solving}:
+            continue
+        if b > ROUNDING and a < NEARER * b:
+            out.append(f"{task} ({a:.2g} beside {b:.2g})")
+    return out
 
 
 def _tasks(count: int) -> str:

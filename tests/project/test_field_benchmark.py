@@ -335,6 +335,7 @@ def test_where_another_tool_is_better_the_page_says_so():
         record(page.OURS, "a", **won),
         record(page.OURS, "b", **won),
         record(page.OURS, "c", **won | {"solved": False}),
+        record("pencil", "c", **won | {"solved": False, "best_error": 5e-4}),
         record("scipy_starts", "a", **won | {"best_error": 5e-4, "cpu": 3.0}),
         record("scipy_starts", "b", **won | {"best_error": 2e-3, "cpu": 3.0}),
         record("scipy_starts", "c", **won),
@@ -346,6 +347,7 @@ def test_where_another_tool_is_better_the_page_says_so():
     lines = page.better({"tools": about, "tasks": tasks, "records": records})
     assert lines == [
         "**Pencil** solves by its first answer what burmester solves by a later one: d.",
+        "**Pencil** comes nearer, neither solving: c (0.0005 beside 0.001).",
         "**Pencil** is faster in the median: noisy poses (0.1 s beside 1 s, 1 task).",
         "**Scipy_Starts** solves what burmester does not: c.",
         "**Scipy_Starts** comes nearer, both solving: a (0.0005 beside 0.001).",
