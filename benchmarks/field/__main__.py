@@ -20,15 +20,14 @@ def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="benchmarks.field", description=__doc__)
     parser.add_argument("--quick", action="store_true", help="one task of every kind, 5 s each")
     parser.add_argument("--tools", nargs="+", choices=NAMES, default=list(NAMES))
-    parser.add_argument("--tasks", nargs="+", metavar="NAME", help="tasks of these names only")
+    parser.add_argument("--tasks", nargs="+", metavar="NAME", help="of these names or kinds only")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--count", type=int, default=3, help="generated tasks of each kind")
     parser.add_argument("--limit", type=float, help="seconds of processor time, 15 if not given")
     parser.add_argument("--out", type=Path, help="results.json beside this module if not given")
     parser.add_argument("--page", action="store_true", help="only make the page from the results")
     given = parser.parse_args(arguments)
-    partial = given.quick or given.tasks
-    out = given.out or (None if partial else RESULTS)
+    out = given.out or (None if given.quick else RESULTS)
     if given.page:
         page.write(json.loads((out or RESULTS).read_text(encoding="utf-8")))
         return 0
@@ -36,11 +35,12 @@ def main(arguments: list[str] | None = None) -> int:
     for name in sorted(set(given.tools) - set(names)):
         print(f"{tool(name).PACKAGE} is not installed: {name} is left out", file=sys.stderr)
     every = tasks(given.seed, given.count, one_of_each=given.quick)
+    chosen = every
     if given.tasks:
-        every = [task for task in every if task.name in given.tasks]
+        chosen = [task for task in every if {task.name, task.kind} & {*given.tasks}]
     limit = given.limit or (QUICK if given.quick else LIMIT)
     before = None
-    if out is not None and out.exists() and len(names) < len(NAMES):
+    if out is not None and out.exists() and (given.tasks or len(names) < len(NAMES)):
         before = json.loads(out.read_text(encoding="utf-8"))
 
     def kept(records: list[dict[str, Any]]) -> dict[str, Any]:
@@ -50,7 +50,7 @@ def main(arguments: list[str] | None = None) -> int:
             save(data, out)
         return data
 
-    records = run(every, names, limit, lambda line: print(line, file=sys.stderr, flush=True), kept)
+    records = run(chosen, names, limit, lambda line: print(line, file=sys.stderr, flush=True), kept)
     data = kept(records)
     print(page.table(data))
     if out == RESULTS:

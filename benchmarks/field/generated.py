@@ -26,7 +26,11 @@ BOX = "ground pivots within limits"
 GIVEN = "ground pivots given"
 SMOOTH = "motions that no four-bar makes"
 PATH = "paths: points without angles"
+CLOSED, OPEN = "closed shapes", "open shapes"
+TIMED = "paths timed by the crank"
+FUNCTIONS = "functions"
 KINDS = (FIVE, MANY, NOISY, PARALLEL, SMALL, SLIDERS, DEFECTS, FEW, BOX, GIVEN, SMOOTH, PATH)
+KINDS += (CLOSED, OPEN, TIMED, FUNCTIONS)
 
 
 def _point(rng: Rng, spread: float = 1.0) -> complex:

@@ -8,7 +8,8 @@ from statistics import median
 from string import Template
 from typing import Any
 
-from benchmarks.field.generated import KINDS, PATH
+from benchmarks.field.drawn import FUNCTION_TASKS, HAND
+from benchmarks.field.generated import CLOSED, FUNCTIONS, KINDS, OPEN, PATH, TIMED
 
 TEMPLATE = Template(Path(__file__).with_name("page.md").read_text(encoding="utf-8"))
 DOCS = Path(__file__).parents[2] / "docs"
@@ -23,6 +24,7 @@ SHORT = {
     "fourbarhinge_fit": "fourbarhinge",
     "pylinkage_motion": "pylinkage",
 }
+PATHS = (PATH, CLOSED, OPEN, TIMED)
 NEARER = 0.8  # of our error: what counts as a smaller one
 ROUNDING = 1e-8  # of the span: errors below it are alike
 
@@ -135,7 +137,7 @@ def better(data: dict[str, Any]) -> list[str]:
             and not _solved(results.records.get((OURS, task), {}))
         ]
         if more:
-            lines.append(f"**{title}** solves what burmester does not: {', '.join(more)}.")
+            lines.append(f"**{title}** solves what burmester does not: {'; '.join(more)}.")
         first = [
             task
             for task in results.tasks
@@ -146,22 +148,29 @@ def better(data: dict[str, Any]) -> list[str]:
         if first:
             lines.append(
                 f"**{title}** solves by its first answer what burmester solves by a later one: "
-                f"{', '.join(first)}."
+                f"{'; '.join(first)}."
             )
-        nearer = []
-        for task in results.tasks.values():
-            theirs, ours = (results.records.get((each, task["name"]), {}) for each in (name, OURS))
-            a, b = theirs.get("best_error"), ours.get("best_error")
-            if a is None or not (_solved(theirs) and _solved(ours)):
-                continue
-            if b > ROUNDING and a < NEARER * b:
-                nearer.append(f"{task['name']} ({a:.2g} beside {b:.2g})")
-        if nearer:
-            lines.append(f"**{title}** comes nearer, both solving: {', '.join(nearer)}.")
+        for words, both in (("both solving", True), ("neither solving", False)):
+            nearer = _nearer(results, name, both)
+            if nearer:
+                lines.append(f"**{title}** comes nearer, {words}: {'; '.join(nearer)}.")
         quicker = _quicker(results, name)
         if quicker:
-            lines.append(f"**{title}** is faster in the median: {', '.join(quicker)}.")
+            lines.append(f"**{title}** is faster in the median: {'; '.join(quicker)}.")
     return lines
+
+
+def _nearer(results: Results, name: str, solving: bool) -> list[str]:
+    """Tasks that a tool and ours both solve, or both do not, and in which its error is smaller."""
+    out = []
+    for task in results.tasks:
+        theirs, ours = (results.records.get((each, task), {}) for each in (name, OURS))
+        a, b = theirs.get("best_error"), ours.get("best_error")
+        if a is None or b is None or {_solved(theirs), _solved(ours)} != {solving}:
+            continue
+        if b > ROUNDING and a < NEARER * b:
+            out.append(f"{task} ({a:.2g} beside {b:.2g})")
+    return out
 
 
 def _tasks(count: int) -> str:
@@ -204,10 +213,16 @@ def text(data: dict[str, Any]) -> str:
     """The page: `page.md` with what the results say."""
     results = Results(data)
     asked = [
-        f"- **{about['title']}**, {about['package']} {about['version']}: {about['called']}."
+        "\n  - ".join(
+            [f"**{about['title']}**, {about['package']} {about['version']}:", *about["called"]]
+        )
         for about in (data["tools"][name] for name in results.names)
     ]
-    published = [task for task in data["tasks"] if task["source"] != "generated"]
+    sources = [
+        f"- `{task['name']}`: {task['source']}."
+        for task in data["tasks"]
+        if task["source"] not in ("generated", HAND) and task["kind"] != FUNCTIONS
+    ]
     trouble = "\n".join(f"- {line}" for line in troubles(data))
     return TEMPLATE.substitute(
         answer=_answer(results),
@@ -215,10 +230,10 @@ def text(data: dict[str, Any]) -> str:
         shares=SHARES.name,
         times=TIMES.name,
         count=len(data["tasks"]),
-        published_count=len(published),
-        seed=data["seed"],
-        asked="\n".join(asked),
-        sources="\n".join(f"- `{task['name']}`: {task['source']}." for task in published),
+        counts=_counts(results),
+        asked="\n".join(f"- {lines}" for lines in asked),
+        sources="\n".join(sources),
+        functions=_functions(results),
         limit=f"{data['limit']:g}",
         ahead="\n".join(f"- {line}" for line in better(data)) or "Nowhere in these results.",
         trouble=f"\nWhat crashed or ran out of time:\n\n{trouble}\n" if trouble else "",
@@ -236,41 +251,62 @@ def _answer(results: Results) -> str:
     rest = [f"{SHORT[name]} {_share(parts[name])}" for name in ranked]
     return (
         f"burmester solves {_share(ours)} tasks. The median task takes {_seconds(ours):.2g} s of "
-        f"processor time. The others, of the tasks that they take: {'; '.join(rest)}. The authors "
+        f"processor time. The others, of the tasks that they take: {'; '.join(rest)}. The same "
+        "script lists [where other tools are better](#where-other-tools-are-better). The authors "
         "of burmester wrote this page. A judge that shares no code with any tool decides what is "
-        "solved. The same script lists [where other tools are better]"
-        "(#where-other-tools-are-better)."
+        "solved."
     )
 
 
 def _paths(results: Results) -> str:
-    """Whether paths are followed between their points: of the tools for which it was scored."""
-    lines, without = [], []
+    """A row for each tool: how many paths it meets at the points, and follows between them."""
+    lines = ["| tool | meets the points | follows the path, too |", "|---|--:|--:|"]
     for name in results.names:
-        part = [record for record in results.of(name, PATH) if record["status"] == "answered"]
-        if not part:
-            continue
-        if any("follows" not in record for record in part):
-            without.append(SHORT[name])
-            continue
-        number = sum(record["follows"] > 0 for record in part)
-        lines.append(
-            f"{SHORT[name]} solves {_share(part)} paths at their points, and follows {number} of "
-            "them between the points, too."
-        )
-    if without:
-        lines.append(f"Not scored there, as their figures are older: {'; '.join(without)}.")
-    return " ".join(lines)
+        part = [each for kind in PATHS for each in results.of(name, kind)]
+        if part:
+            met, number = sum(each.get("meets_points", 0) > 0 for each in part), len(part)
+            solved = sum(map(_solved, part))
+            lines.append(f"| {SHORT[name]} | {met} of {number} | {solved} of {number} |")
+    return "\n".join(lines)
 
 
 def _dates(results: Results) -> str:
-    """When each tool was run."""
-    tools = results.data["tools"]
-    by_date: dict[str, list[str]] = {}
+    """When tools were run: of every day those whose figures are of that day."""
+    by_date: dict[str, dict[str, int]] = {}
     for name in results.names:
-        by_date.setdefault(tools[name]["date"], []).append(SHORT[name])
-    newest_first = sorted(by_date.items(), reverse=True)
-    return "\n".join(f"- {date}: {'; '.join(names)}." for date, names in newest_first)
+        for record in results.of(name):
+            day = by_date.setdefault(record["date"], {})
+            day[name] = day.get(name, 0) + 1
+    if len(by_date) == 1:
+        return f"All figures are of {next(iter(by_date))}."
+    lines = []
+    for date, numbers in sorted(by_date.items(), reverse=True):
+        tools = [f"{SHORT[name]} ({_tasks(number)})" for name, number in numbers.items()]
+        lines.append(f"- {date}: {'; '.join(tools)}.")
+    return "Figures are of these days:\n\n" + "\n".join(lines)
+
+
+def _counts(results: Results) -> str:
+    """How many tasks there are, by where they are from."""
+    tasks = results.tasks.values()
+    random = sum(task["source"] == "generated" for task in tasks)
+    shapes = sum(task["source"] == HAND for task in tasks)
+    functions = sum(task["kind"] == FUNCTIONS for task in tasks)
+    published = len(tasks) - random - shapes - functions
+    return (
+        f"There are {len(tasks)} tasks: {published} from papers and programs, {shapes} paths drawn "
+        f"by hand, {functions} functions, and {random} drawn at random from seed "
+        f"{results.data['seed']}."
+    )
+
+
+def _functions(results: Results) -> str:
+    """A row for each function: its ranges, and where it is from."""
+    lines = ["| function of x | input | output | from |", "|---|--:|--:|---|"]
+    for name, (_, _, _, turn, swing, source) in FUNCTION_TASKS.items():
+        if name in results.tasks:
+            lines.append(f"| {name} | {turn}° | {swing}° | {source} |")
+    return "\n".join(lines)
 
 
 def _share(part: list[Record]) -> str:
@@ -292,7 +328,7 @@ def pictures(data: dict[str, Any]) -> None:
             part = results.of(name, kind)
             if part:
                 share[i, j] = sum(map(_solved, part)) / len(part)
-    figure, axes = plt.subplots(figsize=(8.2, 5.2), layout="constrained")
+    figure, axes = plt.subplots(figsize=(8.2, 6.2), layout="constrained")
     colours = mpl.colormaps["YlGn"].with_extremes(bad="#eeeeee")
     axes.imshow(share, cmap=colours, vmin=0, vmax=1.25, aspect="auto")
     for i, kind in enumerate(results.kinds):

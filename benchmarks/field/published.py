@@ -39,7 +39,8 @@ def published() -> Iterator[FieldTask]:
         if rows.shape[1] == 3:  # poses, their angles in degrees
             rows[:, 2] = np.unwrap(np.radians(rows[:, 2]))
         names = (data["name"], data["kind"], data["source"])
-        yield FieldTask(*names, rows, data["tolerance"], pivots)
+        crank = np.radians(data["crank_deg"]) if "crank_deg" in data else None
+        yield FieldTask(*names, rows, data["tolerance"], pivots, crank=crank)
 
 
 def _pivots(data: dict[str, Any]) -> Pivots:

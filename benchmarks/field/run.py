@@ -14,6 +14,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
+from benchmarks.field.drawn import drawn
 from benchmarks.field.generated import MAKERS, generated
 from benchmarks.field.linkage import FourBar
 from benchmarks.field.published import published
@@ -31,11 +32,11 @@ ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 def tasks(seed: int, count: int, *, one_of_each: bool = False) -> list[FieldTask]:
-    """Published tasks, then so many generated ones of every kind; or the first of every kind."""
+    """Published tasks, drawn ones, so many generated ones of each kind; or one of every kind."""
     if not one_of_each:
-        return [*published(), *generated(seed, count)]
+        return [*published(), *drawn(), *generated(seed, count)]
     first: dict[str, FieldTask] = {}
-    for task in published():
+    for task in [*published(), *drawn()]:
         first.setdefault(task.kind, task)
     more = [make(seed, 0) for kind, make in MAKERS.items() if kind not in first]
     return [*first.values(), *more]
@@ -52,7 +53,8 @@ def run(
     out: list[dict[str, Any]] = []
     for number, task in enumerate(every, 1):
         for name in names:
-            record = {"task": task.name, "tool": name, **_record(task, name, limit)}
+            today = datetime.date.today().isoformat()
+            record = {"task": task.name, "tool": name, "date": today, **_record(task, name, limit)}
             out.append(record)
             words = "solved" if record.get("solved") else record["status"]
             tell(f"{number}/{len(every)} {task.name}: {name} {words} {record.get('cpu', '')}")
@@ -125,15 +127,14 @@ def results(
     seed: int,
 ) -> dict[str, Any]:
     """All that the page is made of."""
-    about, today = {}, datetime.date.today().isoformat()
+    about = {}
     for name in names:
         chosen = tool(name)
         about[name] = {
             "title": chosen.TITLE,
             "package": chosen.PACKAGE,
             "version": version(chosen.PACKAGE),
-            "called": chosen.CALLED,
-            "date": today,
+            "called": list(chosen.CALLED),
         }
     heads = [
         {
@@ -157,10 +158,11 @@ def results(
 
 
 def merged(old: dict[str, Any], new: dict[str, Any]) -> dict[str, Any]:
-    """New figures of some tools beside the old ones of the others, where the tasks are the same."""
+    """New figures in place of the old ones of the same tools and tasks, the others kept."""
     if (old["tasks"], old["limit"], old["seed"]) != (new["tasks"], new["limit"], new["seed"]):
         raise ValueError("these results are of other tasks or limits: run every tool again")
-    kept = [record for record in old["records"] if record["tool"] not in new["tools"]]
+    fresh = {(record["tool"], record["task"]) for record in new["records"]}
+    kept = [each for each in old["records"] if (each["tool"], each["task"]) not in fresh]
     return new | {"tools": old["tools"] | new["tools"], "records": kept + new["records"]}
 
 

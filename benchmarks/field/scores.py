@@ -19,21 +19,24 @@ def scores(task: FieldTask, answers: Sequence[FourBar]) -> dict[str, Any]:
     """The scores of a tool's answers to a task.
 
     solved, solved_first: whether one of the answers, or the first of them, meets every pose within
-    the tolerance, on one branch and in order, and has its ground pivots where they may be.
+    the tolerance, on one branch and in order, and has its ground pivots where they may be; for a
+    path, whether the curve follows it between the points as well.
     best_error: the least greatest error, in spans, of an answer whose pivots are right; None if
     none comes near.  one_branch, anywhere: the same without the order, and without the branch.
     known_found: how many of the known linkages are among the answers.
-    follows, for a path: how many of the answers solve it and follow it between its points, too.
+    meets_points, for a path: how many of the answers meet its points, whatever is between them.
     """
     counted = list(answers)[:COUNTED]
     traces = [trace(answer, task) for answer in counted]
     allowed = [_in_place(task, answer) for answer in counted]
-    solved = [
+    met = [
         good and each.in_order <= task.tolerance for each, good in zip(traces, allowed, strict=True)
     ]
+    solved = met
+    if task.is_path:
+        solved = [both and each.follows for each, both in zip(traces, met, strict=True)]
     kept = [each for each, good in zip(traces, allowed, strict=True) if good]
     found = sum(any(_same(task, known, answer) for answer in counted) for known in task.known)
-    followed = sum(each.follows and good for each, good in zip(traces, allowed, strict=True))
     return {
         "answers": len(answers),
         "solved": any(solved),
@@ -44,7 +47,7 @@ def scores(task: FieldTask, answers: Sequence[FourBar]) -> dict[str, Any]:
         "anywhere": _least([each.anywhere for each in kept]),
         "known": len(task.known),
         "known_found": found,
-        **({"follows": followed} if task.is_path else {}),
+        **({"meets_points": sum(met)} if task.is_path else {}),
     }
 
 

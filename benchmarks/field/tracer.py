@@ -8,8 +8,9 @@ ends nor turns over.  Near each pose the drive is searched further, by sections.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -23,6 +24,7 @@ SECTIONS = 34  # of the search for the nearest place; each shortens it to 0.62
 CUTS = 64  # at most, of a full turn into "first to last"
 SHUT = 1e-10  # of the gate: below it two places are one, and rounding decides
 LOOSE = 1e-9  # of a link's square: nearer to each other two links are one, and hold nothing
+BETWEEN = 21  # places from one crank angle to the next, both included
 GOLDEN = (np.sqrt(5) - 1) / 2
 BULGE = 0.5  # of the spacing of points: a curve that leaves their path by less follows it
 
@@ -199,6 +201,8 @@ class Trace:
     in_order: and one after the other, by a drive that never turns back.
     follows: for a path, whether they are met so within the tolerance and the curve between
     neighbouring points stays near their chord, as `strays` has it.
+    A closed path takes a full turn of the drive; a path with crank angles is met at these; of a
+    function the three errors are one.
     """
 
     anywhere: float
@@ -208,7 +212,11 @@ class Trace:
 
 
 def trace(four_bar: FourBar, task: FieldTask) -> Trace:
-    """How near a four-bar comes to the poses of a task."""
+    """How near a four-bar comes to the poses, the points or the angles of a task."""
+    if task.is_function:
+        return Trace(*3 * (_function_error(four_bar, task),))
+    if task.crank is not None:
+        return _timed(four_bar, task)
     count = len(task.rows)
     anywhere = np.full(count, np.inf)
     one_branch = in_order = np.inf
@@ -220,28 +228,29 @@ def trace(four_bar: FourBar, task: FieldTask) -> Trace:
             anywhere = np.minimum(anywhere, errors.min(axis=1))
             bound = errors.min(axis=1).max()
             one_branch = min(one_branch, bound)
-            if bound < in_order:
-                in_order = min(in_order, _in_order(refined, errors, nearest, branch.closed))
-            if task.is_path and not follows and bound <= task.tolerance:
-                away = strays(task, branch.body(refined)[0])
-                follows = any(
-                    _reaches(part <= task.tolerance, gaps)
-                    for part, gaps in _senses(refined, errors, away, nearest, branch.closed)
-                )
+            if task.closed and not branch.closed:
+                continue
+            away = strays(task, branch.body(refined)[0]) if task.is_path else errors
+            turns = "and returns" if task.closed else "once" if branch.closed else "no"
+            for part, gaps in _senses(refined, errors, away, nearest, turns):
+                if bound < in_order:
+                    in_order = min(in_order, _ascending(part))
+                if task.is_path and not follows and bound <= task.tolerance:
+                    follows = _reaches(part <= task.tolerance, gaps)
     return Trace(float(anywhere.max()), float(one_branch), float(in_order), follows)
 
 
 def strays(task: FieldTask, curve: np.ndarray) -> np.ndarray:
-    """Which places (K,) of a curve are too far from the chord of each gap of a path: (N - 1, K).
+    """Which places (K,) of a curve are too far from the chord of each gap of a path: (gaps, K).
 
     Too far is half the spacing of the points there (the longest of a gap's chord and its
     neighbours) and the tolerance.
     """
-    begin, chord = task.places[:-1, None], np.diff(task.places)[:, None]
+    begin, chord = task.way[:-1, None], np.diff(task.way)[:, None]
     size = abs(chord)
     along = (np.conj(chord) * (curve - begin)).real / np.maximum(size, 1e-300) ** 2
     away = abs(curve - begin - np.clip(along, 0, 1) * chord)
-    beside = np.pad(size[:, 0], 1, mode="edge")
+    beside = np.pad(size[:, 0], 1, mode="wrap" if task.closed else "edge")
     spacing = np.maximum(size[:, 0], np.maximum(beside[:-2], beside[2:]))
     return away > (BULGE * spacing + task.tolerance * task.span)[:, None]
 
@@ -268,17 +277,27 @@ def _errors(branch: Branch, task: FieldTask) -> tuple[np.ndarray, np.ndarray, np
     return refined, missed(task, poses, *branch.body(refined)), np.unique(nearest)
 
 
-def _in_order(at: np.ndarray, errors: np.ndarray, nearest: np.ndarray, closed: bool) -> float:
-    """The least greatest error with which a drive meets the poses one after the other."""
-    return min(_ascending(part) for part, _ in _senses(at, errors, errors, nearest, closed))
-
-
 def _senses(
-    at: np.ndarray, errors: np.ndarray, others: np.ndarray, nearest: np.ndarray, closed: bool
+    at: np.ndarray,
+    errors: np.ndarray,
+    others: np.ndarray,
+    nearest: np.ndarray,
+    turns: Literal["no", "once", "and returns"],
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
-    """Errors (N, K) and other rows (·, K) along the drive, in both senses, from every cut."""
+    """Errors (N, K) and other rows (·, K) along the drive, in both senses, from every cut.
+
+    turns: whether the drive turns fully, and if it has to come back to the first row, which is the
+    last one then as well.
+    """
     shifts = [0]
-    if closed:
+    returns = turns == "and returns"
+    if returns:
+        first = errors[0]
+        low = (first <= np.roll(first, 1)) & (first <= np.roll(first, -1))
+        starts = np.flatnonzero(low)
+        shifts = [-int(k) for k in starts[np.argsort(first[starts], kind="stable")][:CUTS]]
+        errors = np.concatenate([errors, errors[:1]])
+    elif turns == "once":
         # A turn has no beginning: it is cut between places where poses are nearest, wide gaps
         # first.
         gaps = np.diff(np.concatenate([nearest, nearest[:1] + 2 * np.pi]))
@@ -287,6 +306,8 @@ def _senses(
         shifts = [-int(np.searchsorted(at, cut)) for cut in cuts]
     for shift in shifts:
         a, b = np.roll(errors, shift, axis=1), np.roll(others, shift, axis=1)
+        if returns:
+            a, b = (np.concatenate([rows, rows[:, :1]], axis=1) for rows in (a, b))
         yield a, b
         yield a[:, ::-1], b[:, ::-1]
 
@@ -311,3 +332,68 @@ def _ascending(errors: np.ndarray) -> float:
     for row in errors[1:]:
         best = np.maximum(np.minimum.accumulate(best), row)
     return float(best.min())
+
+
+def _timed(four_bar: FourBar, task: FieldTask) -> Trace:
+    """How near the points of a path are at their crank angles, the best begin of the crank taken.
+
+    The curve follows the path if it does at places between neighbouring crank angles as well.
+    """
+    assert task.crank is not None
+    turned, best, follows = task.crank, np.inf, False
+    parts = np.linspace(turned[:-1], turned[1:], BETWEEN, axis=1)
+    gap = np.arange(len(parts))
+    pair = (four_bar.first, four_bar.second)
+    for driver, follower in (pair, pair[::-1]):
+        if driver.kind == "PR":
+            continue  # it does not turn
+        for branch in branches(driver, follower, task):
+
+            def worst(begin: np.ndarray, branch: Branch = branch) -> np.ndarray:
+                body = branch.body(begin[:, None] + turned)
+                return missed(task, np.arange(len(turned)), *body).max(axis=1)
+
+            begins, errors = _begins(branch, turned, worst)
+            best = min(best, float(errors.min(initial=np.inf)))
+            for begin in begins[errors <= task.tolerance]:
+                away = strays(task, branch.body((begin + parts).ravel())[0])
+                follows = follows or not away.reshape(len(away), *parts.shape)[gap, gap].any()
+    return Trace(best, best, best, bool(follows))
+
+
+def _function_error(four_bar: FourBar, task: FieldTask) -> float:
+    """The greatest error of the output link, the first dyad's link the input, in output ranges.
+
+    The zeros of both links are the best ones.  On the way the linkage stays on one branch.
+    """
+    first, second = four_bar.first, four_bar.second
+    if first.kind != "RR" or second.kind != "RR":
+        return np.inf
+    inputs, outputs = task.rows.T
+    best = np.inf
+    for branch in branches(first, second, task):
+
+        def worst(begin: np.ndarray, branch: Branch = branch) -> np.ndarray:
+            d, phi = branch.body(begin[:, None] + inputs)
+            made = np.angle(d + np.exp(1j * phi) * second.moving - second.fixed)
+            return np.ptp(np.unwrap(made - outputs, axis=1), axis=1) / 2 / task.span
+
+        best = min(best, float(_begins(branch, inputs, worst)[1].min(initial=np.inf)))
+    return best
+
+
+def _begins(
+    branch: Branch, turned: np.ndarray, worst: Callable[[np.ndarray], np.ndarray]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Begins (*,) of a drive that turns by given angles, and errors there, locally least."""
+    low, high = branch.at[0] - turned.min(), branch.at[-1] - turned.max()
+    if branch.closed:
+        low, high = 0.0, 2 * np.pi
+    if low >= high:
+        return np.empty(0), np.empty(0)
+    begins = np.linspace(low, high, STEPS + 1)
+    wide = np.pad(worst(begins), 1, constant_values=np.inf)
+    (least,) = np.nonzero(wide[1:-1] <= np.minimum(wide[:-2], wide[2:]))
+    beside = begins[np.maximum(least - 1, 0)], begins[np.minimum(least + 1, STEPS)]
+    refined = _least(worst, *beside)
+    return refined, worst(refined)

@@ -7,12 +7,16 @@ from itertools import combinations
 import numpy as np
 import pytest
 from benchmarks.field import page
+from benchmarks.field.drawn import drawn
 from benchmarks.field.known import dyads_of_five, solving
 from benchmarks.field.linkage import Dyad, FourBar
 from benchmarks.field.published import CASES, published
 from benchmarks.field.run import RESULTS, merged, results, run
 from benchmarks.field.scores import scores
 from benchmarks.field.task import DISC, EXACT, FieldTask, Pivots
+from benchmarks.field.tools import generators, tool
+from benchmarks.field.tools.closure import Scaled
+from benchmarks.field.tools.coupler_curves import Laid, curves, fitted, of_shape
 from benchmarks.field.tracer import trace
 
 NEAR = 1e-6
@@ -146,8 +150,105 @@ def test_a_path_is_followed_between_its_points_or_not(degrees, follows):
     assert met.in_order < NEAR
     assert met.follows == follows
     counted = scores(points, [SLOT, SLOT])
-    assert (counted["solving"], counted["follows"]) == (2, 2 * follows)
-    assert "follows" not in scores(poses, [SLOT])
+    assert (counted["meets_points"], counted["solving"]) == (2, 2 * follows)
+    assert counted["solved"] == counted["solved_first"] == follows
+    assert "meets_points" not in scores(poses, [SLOT])
+
+
+def circle(degrees, size=1, **more):
+    d = size * np.exp(1j * np.radians(degrees))
+    return FieldTask("", "", "", np.column_stack([d.real, d.imag]), EXACT, **more)
+
+
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_closed_path_takes_a_full_turn_and_leads_back(sense):
+    round_ = sense * np.arange(100, 460, 30)
+    met = trace(SLOT, circle(round_, closed=True))
+    assert met.in_order < NEAR
+    assert met.follows
+    most = trace(SLOT, circle(round_[:6], closed=True))  # the longer way back, not straight
+    assert most.in_order < NEAR
+    assert not most.follows
+    mixed = trace(SLOT, circle(round_[[0, 1, 3, 2, *range(4, 12)]], closed=True))
+    assert mixed.one_branch < NEAR
+    assert mixed.in_order > 0.09  # half a step back, over the span
+
+
+def test_a_closed_path_is_none_of_a_crank_that_swings():
+    """The ground, 3, and the shortest link, 1.4, are longer than the other two: none turns."""
+    rocking = FourBar(Dyad("RR", 0j, 0j, 2.0), Dyad("RR", 3 + 0j, 2 + 0j, 1.4))
+    degrees = np.array([30, 40, 50, 60, 50, 40])
+    assert trace(rocking, circle(degrees[:4], size=2)).in_order < NEAR
+    closed = trace(rocking, circle(degrees, size=2, closed=True))
+    assert closed.in_order == np.inf
+    assert not closed.follows
+
+
+def test_a_timed_path_is_met_at_its_crank_angles():
+    degrees = np.array([20, 30, 60, 80])
+    for begin in (0, 70):
+        met = trace(SLOT, circle(degrees, crank=np.radians(degrees - begin)))
+        assert met.in_order < NEAR
+        assert met.follows
+    for turned in (-degrees, 2 * degrees, degrees**2 / 50):
+        assert trace(SLOT, circle(degrees, crank=np.radians(turned))).in_order > 0.03
+    around = circle(degrees, crank=np.radians([20, 30, 60, 440]))
+    assert trace(SLOT, around).in_order < NEAR
+    assert not trace(SLOT, around).follows  # once round between the last two points
+
+
+def test_the_error_of_a_function_is_that_of_the_output_angle():
+    turned = np.linspace(0, 1.2, 13)
+
+    def task(outputs):
+        return FieldTask("", "", "", np.column_stack([turned, outputs]), 0.01, is_function=True)
+
+    # The links of a parallelogram turn alike, wherever their zeros are.
+    assert trace(PARALLEL, task(turned + 0.4)).in_order < NEAR
+    off = turned.copy()
+    off[6] += 0.06
+    assert trace(PARALLEL, task(off)).in_order == pytest.approx(0.03 / 1.2, rel=1e-3)
+    assert trace(PARALLEL, task(np.sin(9 * turned))).in_order > 0.3
+    # One whose input link swings, and passes the ground on neither side.
+    wide = np.column_stack([2 * np.pi * turned / 1.2, turned])
+    assert trace(SWINGING, replace(task(turned), rows=wide)).in_order == np.inf
+    assert scores(task(turned), [PARALLEL])["solved_first"]
+    assert not scores(task(2 * turned), [PARALLEL])["solved"]
+
+
+def test_every_task_goes_to_a_tool_and_back_as_it_is():
+    for task in (*published(), *drawn()):
+        again = FieldTask.from_json(json.loads(json.dumps(task.to_json())))
+        assert np.array_equal(again.rows, task.rows)
+        assert (again.closed, again.is_function) == (task.closed, task.is_function)
+        assert (again.crank is None) == (task.crank is None)
+        assert (tool("pencil").refuses(task) is None) <= (task.rows.shape[1] == 3)
+        assert tool("fourbarhinge_fit").refuses(task) or not task.is_function
+
+
+def test_the_derivatives_that_scipy_gets_are_right():
+    """Central differences say so: of a coupler point, of an opening linkage, of a generator."""
+    rng, step = np.random.default_rng(0), 1e-6
+    pairs = np.column_stack([np.linspace(0, 1, 9), np.linspace(0, 1, 9) ** 2])
+    side = 1.0
+    v = generators.start(rng, side, pairs)
+    slope = generators.by_parameters(v, side, pairs)
+    for k, h in enumerate(step * np.eye(5)):
+        ahead, back = (generators.errors(v + sign * h, side, pairs) for sign in (1, -1))
+        assert slope[:, k] == pytest.approx((ahead - back) / (2 * step), abs=1e-6)
+    shape = closed_shape()
+    laid = Laid(shape, Scaled(shape))
+    known = np.array([-0.4, 0.1, 0.0, 0.3, -0.2])
+    start = of_shape(known, side, np.empty(0), laid)
+    assert fitted(start, laid).error < NEAR
+
+
+def closed_shape():
+    """Points of the curve of a crank, turned, stretched and shifted."""
+    shapes, side = np.array([[-0.4, 0.1, 0.0, 0.3, -0.2]]), np.ones(1)
+    turned = np.linspace(0, 2 * np.pi, 24, endpoint=False) + 0.3
+    z = 3 * np.exp(0.7j) * curves(shapes, side, turned[None])[0] + 2 - 1j
+    return FieldTask("", "", "", np.column_stack([z.real, z.imag]), EXACT, closed=True)
 
 
 def test_five_published_poses_have_the_published_dyads_and_one_circuit_defect(shelf):
@@ -222,7 +323,7 @@ def test_what_crashes_or_takes_too_long_is_recorded(shelf):
 
 
 def record(tool, task, status="answered", **more):
-    return {"tool": tool, "task": task, "status": status, **more}
+    return {"tool": tool, "task": task, "status": status, "date": "2026-02-02", **more}
 
 
 def test_where_another_tool_is_better_the_page_says_so():
@@ -234,6 +335,7 @@ def test_where_another_tool_is_better_the_page_says_so():
         record(page.OURS, "a", **won),
         record(page.OURS, "b", **won),
         record(page.OURS, "c", **won | {"solved": False}),
+        record("pencil", "c", **won | {"solved": False, "best_error": 5e-4}),
         record("scipy_starts", "a", **won | {"best_error": 5e-4, "cpu": 3.0}),
         record("scipy_starts", "b", **won | {"best_error": 2e-3, "cpu": 3.0}),
         record("scipy_starts", "c", **won),
@@ -245,41 +347,43 @@ def test_where_another_tool_is_better_the_page_says_so():
     lines = page.better({"tools": about, "tasks": tasks, "records": records})
     assert lines == [
         "**Pencil** solves by its first answer what burmester solves by a later one: d.",
+        "**Pencil** comes nearer, neither solving: c (0.0005 beside 0.001).",
         "**Pencil** is faster in the median: noisy poses (0.1 s beside 1 s, 1 task).",
         "**Scipy_Starts** solves what burmester does not: c.",
         "**Scipy_Starts** comes nearer, both solving: a (0.0005 beside 0.001).",
     ]
 
 
-def test_figures_of_one_tool_are_kept_beside_those_of_the_others():
+def test_figures_that_are_not_measured_again_are_kept():
     old = {"tasks": [1], "limit": 5, "seed": 0, "tools": {"a": 1, "b": 1}}
-    new = old | {"tools": {"b": 2}, "records": [{"tool": "b", "n": 2}]}
-    old["records"] = [{"tool": "a", "n": 1}, {"tool": "b", "n": 1}]
+    new = old | {"tools": {"b": 2}, "records": [{"tool": "b", "task": "x", "n": 2}]}
+    old["records"] = [{"tool": tool, "task": task, "n": 1} for tool, task in ("ax", "bx", "by")]
     both = merged(old, new)
     assert both["tools"] == {"a": 1, "b": 2}
-    assert [(each["tool"], each["n"]) for each in both["records"]] == [("a", 1), ("b", 2)]
+    told = [(each["tool"], each["task"], each["n"]) for each in both["records"]]
+    assert told == [("a", "x", 1), ("b", "y", 1), ("b", "x", 2)]
     with pytest.raises(ValueError, match="other tasks"):
         merged(old | {"limit": 9}, new)
 
 
 def test_the_page_says_which_paths_were_followed_and_when_each_tool_ran():
-    about = {"title": "x", "package": "x", "version": "1", "called": "x"}
     data = json.loads(RESULTS.read_text(encoding="utf-8"))
-    data["tools"] = {
-        page.OURS: about | {"date": "2026-02-02"},
-        "pencil": about | {"date": "2026-01-01"},
-    }
+    about = {"title": "x", "package": "x", "version": "1", "called": ["x"]}
+    data["tools"] = {page.OURS: about, "pencil": about}
     data["tasks"] = [{"name": name, "kind": page.PATH, "source": "generated"} for name in "ab"]
-    won = {"solved": True, "best_error": 1e-3, "cpu": 1.0}
+    won = {"solved": True, "best_error": 1e-3, "cpu": 1.0, "meets_points": 2}
     data["records"] = [
-        record(page.OURS, "a", **won, follows=2),
-        record(page.OURS, "b", **won, follows=0),
-        record("pencil", "a", **won),
+        record(page.OURS, "a", **won),
+        record(page.OURS, "b", **won | {"solved": False}),
+        record("pencil", "a", **won | {"solved": False, "meets_points": 0}),
     ]
     text = page.text(data)
-    assert "burmester solves 2 of 2 paths at their points, and follows 1 of them" in text
-    assert "Not scored there, as their figures are older: pencil" in text
-    assert text.index("- 2026-02-02: burmester.") < text.index("- 2026-01-01: pencil")
+    assert "| burmester | 2 of 2 | 1 of 2 |" in text
+    assert "| pencil of the paper | 0 of 1 | 0 of 1 |" in text
+    assert "All figures are of 2026-02-02." in text
+    data["records"][2]["date"] = "2026-01-01"
+    text = page.text(data)
+    assert text.index("- 2026-02-02: burmester (2 tasks).") < text.index("- 2026-01-01: pencil")
 
 
 def test_the_page_is_that_of_the_results():

@@ -29,7 +29,7 @@ class Tool(Protocol):
 
     TITLE: str
     PACKAGE: str
-    CALLED: str
+    CALLED: Sequence[str]  # sentences
 
     @staticmethod
     def refuses(task: FieldTask) -> str | None: ...

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,9 +13,10 @@ from benchmarks.field.task import FieldTask
 TITLE = "burmester"
 PACKAGE = "burmester"
 CALLED = (
-    "`burmester.synthesize(task, length_per_radian=...)`, with ground pivots as `Limits` where the "
-    "task has some; points of a path as poses whose angle is free; the linkages of the result in "
-    "their order"
+    "Poses: `burmester.synthesize(task, length_per_radian=...)`, ground pivots as `Limits`.",
+    "Paths: the same, with free angles; `TracedPath` where it is closed or timed.",
+    "Functions: `burmester.synthesize_function(pairs, minimax=True)`.",
+    "The linkages of the result in their order.",
 )
 
 
@@ -25,11 +27,18 @@ def refuses(task: FieldTask) -> str | None:
 def solve(task: FieldTask, seconds: float) -> list[FourBar]:
     import burmester
     from burmester.tasks.pose_tolerances import PoseTolerances
+    from burmester.tasks.traced_path import TracedPath
 
+    if task.is_function:
+        made = burmester.synthesize_function(task.rows, angle_unit="rad", minimax=True)
+        pairs = [_four_bar(each.linkage(made.synthesis.task)) for each in made.generators]
+        return [four_bar for four_bar in pairs if four_bar is not None]
     count, points = len(task.rows), task.is_path
+    traced = TracedPath(task.closed, task.crank) if task.closed or task.crank is not None else None
     rows = np.column_stack([task.rows, np.full(count, np.nan)]) if points else task.rows
     free = PoseTolerances.uniform(count, 0, 0, np.inf) if points else None
     given = burmester.Task.from_rows(rows, angle_unit="rad", limits=_limits(task), tolerances=free)
+    given = given if traced is None else replace(given, path=traced)
     radian = None if points else task.disc
     # A time limit is one of the clock; this one ends searches only, and the limit here is CPU time.
     result = burmester.synthesize(given, length_per_radian=radian, time_limit=0.9 * seconds)

@@ -8,23 +8,35 @@ import numpy as np
 
 from benchmarks.field.linkage import FourBar, Kind
 from benchmarks.field.task import DISC, FieldTask
+from benchmarks.field.tools import generators
 from benchmarks.field.tools.closure import Free, Scaled, pose_errors, runs_well
+from benchmarks.field.tools.coupler_curves import (
+    REACH,
+    Fit,
+    Laid,
+    curves,
+    fitted,
+    is_dense,
+    of_shape,
+)
 from benchmarks.field.tools.scipy_starts import path_fit, path_polished
 
 TITLE = "SciPy differential evolution"
 PACKAGE = "scipy"
 CALLED = (
-    "`scipy.optimize.differential_evolution` on the whole linkage (ground pivots within 3 spans, "
-    "strategy `currenttobest1bin`, 20 members a parameter, at most 600 generations, vectorised), "
-    "the crank driven from pose to pose: squared pose errors on one assembly, with penalties where "
-    "it cannot be put together or the crank turns back; up to four runs with two links, one with "
-    "a slot, one with a slider; each end made better by `least_squares`; for paths the curve of a "
-    "turning crank in 120 steps, until the time is over"
+    "Poses: `differential_evolution` on the whole linkage, driven from pose to pose.",
+    "It has penalties where a linkage opens or its crank turns back; up to six runs.",
+    "Ground pivots are within 3 spans; strategy `currenttobest1bin`, 20 members a parameter.",
+    "Each end is made better by `least_squares`.",
+    "Paths of up to nine points: on the curve of a turning crank in 120 steps.",
+    "Other paths: on the shape of the crank, its curve laid over the path, then fitted as above.",
+    'Functions: on the greatest error, then `minimize(method="SLSQP")`.',
 )
 GROUND, BODY = 3.0, 2.5  # spans: how far pivots are looked for
 RUNS: tuple[Kind, ...] = ("RR", "RR", "RP", "PR", "RR", "RR")
 MEMBERS, GENERATIONS = 20, 600
 BETWEEN = 3  # places between poses at which it has to hold together
+DENSE_RUNS, FUNCTION_RUNS = 12, 8
 STEPS = 120  # of a crank that draws a path
 DONE = 1e-9
 
@@ -34,6 +46,10 @@ def refuses(task: FieldTask) -> str | None:
 
 
 def solve(task: FieldTask, seconds: float) -> list[FourBar]:
+    if task.is_function:
+        return _functions(task, seconds)
+    if is_dense(task):
+        return _dense(task, seconds)
     return _paths(task, seconds) if task.is_path else _guides(task, seconds)
 
 
@@ -258,3 +274,51 @@ def _paths(task: FieldTask, seconds: float) -> list[FourBar]:
             break
     found.sort(key=lambda each: each[:2])
     return [four_bar for _, _, four_bar in found]
+
+
+def _dense(task: FieldTask, seconds: float) -> list[FourBar]:
+    """The shape of a crank whose curve lies best over the path, run after run; then all fitted."""
+    begun, scaled = time.process_time(), Scaled(task)
+    laid, until = Laid(task, scaled), begun + 0.8 * seconds
+    low = np.array([-REACH] * 3 + [-BODY] * 2 + [0.0] * laid.windows)
+    high = np.array([REACH] * 3 + [BODY] * 2 + [1.0] * laid.windows)
+    found: list[Fit] = []
+    for seed in range(DENSE_RUNS):
+        if time.process_time() > until:
+            break
+        side = (-1.0) ** seed
+
+        def cost(v: np.ndarray, side: float = side) -> np.ndarray:
+            points = curves(v[:, :5], np.full(len(v), side), laid.angles(v[:, 5:]))
+            return laid.of(points)[0]
+
+        v = _run(cost, low, high, seed, until)
+        start = of_shape(v[:5], side, v[5:], laid)
+        found += [fitted(start, laid, 1), fitted(start, laid)]
+    found = [fit for fit in found if np.isfinite(fit.x).all()]
+    found.sort(key=lambda fit: (fit.faults(task, scaled), fit.error))
+    return [fit.four_bar(scaled) for fit in found]
+
+
+def _functions(task: FieldTask, seconds: float) -> list[FourBar]:
+    """The greatest error of the output, its zero the best, over lengths and the input's zero."""
+    begun, pairs = time.process_time(), task.rows
+    until = begun + 0.8 * seconds
+    found: list[tuple[float, FourBar]] = []
+    for seed in range(FUNCTION_RUNS):
+        if time.process_time() > until:
+            break
+        side = (-1.0) ** seed
+
+        def cost(v: np.ndarray, side: float = side) -> np.ndarray:
+            output, cosine, _, _ = generators.made(v, side, pairs[:, 0])
+            beyond = np.maximum(abs(cosine) - 1, 0).sum(axis=1)
+            return np.ptp(output - pairs[:, 1], axis=1) + beyond
+
+        v = _run(cost, np.array([-2.0] * 3 + [-np.pi]), np.array([2.0] * 3 + [np.pi]), seed, until)
+        off = generators.made(v, side, pairs[:, 0])[0] - pairs[:, 1]
+        v = np.append(v, (off.max() + off.min()) / 2)
+        error, better = generators.minimax(v, side, pairs)
+        found.append((error, generators.four_bar(better)))
+    found.sort(key=lambda each: each[0])
+    return [four_bar for _, four_bar in found]

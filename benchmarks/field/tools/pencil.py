@@ -11,15 +11,15 @@ from benchmarks.field.tools.burmester_synthesize import plain
 TITLE = "pencil of quadrics (Ge et al. 2012)"
 PACKAGE = "burmester"
 CALLED = (
-    "`fit_pencil(poses)` of burmester, the paper's method without the refinement that "
-    "`burmester.synthesize` adds; its two dyads are one linkage"
+    "Poses: `fit_pencil(poses)`, the paper's method, as burmester has it.",
+    "Its two dyads are one linkage. What `burmester.synthesize` adds is left out.",
 )
 LEAST = 6
 
 
 def refuses(task: FieldTask) -> str | None:
-    if task.is_path:
-        return "it takes no points without angles"
+    if task.is_path or task.is_function:
+        return "it takes poses only"
     if task.pivots is not None:
         return "it takes no limits"
     if len(task.rows) < LEAST:

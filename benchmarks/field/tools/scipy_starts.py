@@ -9,6 +9,7 @@ import numpy as np
 
 from benchmarks.field.linkage import FourBar, Kind
 from benchmarks.field.task import FieldTask
+from benchmarks.field.tools import generators
 from benchmarks.field.tools.closure import (
     Free,
     Scaled,
@@ -18,14 +19,20 @@ from benchmarks.field.tools.closure import (
     pose_errors,
     runs_well,
 )
+from benchmarks.field.tools.coupler_curves import is_dense, searched
 
 TITLE = "SciPy least squares, many starts"
 PACKAGE = "scipy"
 CALLED = (
-    "`scipy.optimize.least_squares` on each dyad's closure (link, slider, slot) with exact "
-    "derivatives from 280 starts, then on the pose errors of each pair of the best dyads as a "
-    "whole; limits as bounds or as fewer unknowns; for paths on both closures with the body's "
-    "angles as unknowns, from up to 500 starts; linkages that run through the poses in order first"
+    "Poses: `least_squares` on each dyad's closure, with exact derivatives, from 280 starts.",
+    "Then on the pose errors of each pair of the best dyads; limits as bounds or fewer unknowns.",
+    "Paths of up to nine points: on both closures, the angles unknown too, from 500 starts.",
+    "Other paths: 60,000 random cranks are laid over the path, closed ones by Fourier transform.",
+    "The best 400 are fitted, all dimensions and crank angles at once, with exact derivatives.",
+    "The best 80 of these again, with weights towards the least greatest distance.",
+    "Functions: on the output's error, from 400 random linkages.",
+    'Then `minimize(method="SLSQP")` on the greatest error of the best 50.',
+    "Linkages that run through the poses in order come first.",
 )
 STARTS: dict[Kind, int] = {"RR": 200, "PR": 40, "RP": 40}
 KEPT: dict[Kind, int] = {"RR": 9, "PR": 2, "RP": 2}
@@ -34,6 +41,7 @@ FAR = 100.0  # spans
 EXACT = 1e-10
 ANSWERS = 50
 PATH_STARTS = 500
+FUNCTION_STARTS = 400
 
 
 def refuses(task: FieldTask) -> str | None:
@@ -41,6 +49,8 @@ def refuses(task: FieldTask) -> str | None:
 
 
 def solve(task: FieldTask, seconds: float) -> list[FourBar]:
+    if task.is_function:
+        return _functions(task, seconds)
     return _paths(task, seconds) if task.is_path else _guides(task, seconds)
 
 
@@ -132,7 +142,7 @@ def _guides(task: FieldTask, seconds: float) -> list[FourBar]:
     pairs.sort(key=lambda pair: max(pair[0][0], pair[1][0]))
     found: list[tuple[bool, float, FourBar]] = []
     for (e, kind, x), (f, other, y) in pairs:
-        if time.process_time() - begun > 0.85 * seconds:
+        if time.process_time() - begun > 0.75 * seconds:
             break
         kinds, free = (kind, other), [Free(kind, scaled.pivots), Free(other, scaled.pivots, two)]
         z = np.concatenate([x, y])
@@ -225,7 +235,43 @@ def path_polished(
     return float(abs(away).max()), x, angle
 
 
+def _functions(task: FieldTask, seconds: float) -> list[FourBar]:
+    """Least squares from random linkages, then the best ones by SLSQP."""
+    from scipy.optimize import least_squares
+
+    begun, rng = time.process_time(), np.random.default_rng(0)
+    found: list[tuple[float, np.ndarray, float]] = []
+    for _ in range(FUNCTION_STARTS):
+        if time.process_time() - begun > 0.6 * seconds:
+            break
+        side = float(rng.choice([-1, 1]))
+        end = least_squares(
+            generators.errors,
+            generators.start(rng, side, task.rows),
+            generators.by_parameters,
+            args=(side, task.rows),
+            method="lm",
+            max_nfev=200,
+        )
+        if all(abs(end.x - other).max() > 1e-5 for _, other, _ in found):
+            found.append((float(end.cost), end.x, side))
+    found.sort(key=lambda each: each[0])
+    out: list[tuple[float, FourBar]] = []
+    for _, v, side in found[:ANSWERS]:
+        if time.process_time() - begun > 0.85 * seconds:
+            break
+        error, better = generators.minimax(v, side, task.rows)
+        out.append((error, generators.four_bar(better)))
+    out.sort(key=lambda each: each[0])
+    return [four_bar for _, four_bar in out]
+
+
 def _paths(task: FieldTask, seconds: float) -> list[FourBar]:
+    if is_dense(task):
+        scaled = Scaled(task)
+        fits = list(searched(task, scaled, 0.85 * seconds, FAR))
+        fits.sort(key=lambda fit: (fit.faults(task, scaled), fit.error))
+        return [fit.four_bar(scaled) for fit in fits[:ANSWERS]]
     begun, rng = time.process_time(), np.random.default_rng(0)
     scaled, count = Scaled(task), len(task.rows)
     free = (Free("RR", scaled.pivots, 0), Free("RR", scaled.pivots, 1))
