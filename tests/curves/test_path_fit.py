@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import minimize
 
 from burmester.curves.path_fit import PathSearch
 from tests.oracles.coupler_curves import (
@@ -96,3 +97,19 @@ def test_random_starts_of_another_descent_find_nothing_better():
         z, side = random_crank(rng)
         found = refined_from(z, side, rng.choice([-1, 1]) * t + rng.uniform(0, 6), points)
         assert found > best * (1 - 1e-3)
+
+
+@pytest.mark.parametrize("closed", [True, False])
+def test_the_greatest_distance_is_as_small_as_nelder_and_meads_search_makes_it(closed):
+    t = np.linspace(0, 2 * np.pi if closed else 3.0, 24, endpoint=not closed)
+    points, _, _ = path(1, t, noise=0.03)
+    found = PathSearch.of(points, closed=closed).nearest()
+
+    def greatest(z):
+        return np.nan_to_num(distances(dyads_of(z), points), nan=9.0).max()
+
+    every = np.array([greatest(z) for z in found.linkages.dimensions])
+    assert every.min() < 0.9 * every[0]  # the first has the least sum of squares
+    for z in found.linkages.dimensions[[0, every.argmin()]]:
+        searched = minimize(greatest, z, method="Nelder-Mead", options={"maxiter": 300})
+        assert every.min() < 1.03 * searched.fun

@@ -54,6 +54,10 @@ LOWER, MARGIN, WIDE_MARGIN, RATIO_MARGIN = 15.0, 0.2, 1.0, 0.01
 # Of bulges that make no stray, where points are met, and at most: these are exceeded a little.
 ALLOWED_SHARE, MOST_SHARE = 0.98, 0.94
 KEPT = 12  # different curves that are given back
+# Of the curves that come nearest, so many are refined towards the least greatest distance: rounds
+# in which points weigh more by their distances, steps of each, and the least share of such weights.
+TOWARDS_WORST, WEIGHINGS, WEIGHED_STEPS, LEAST_WEIGHT = 4, 20, 10, 1e-3
+PASSED = 1e-9  # radii of gyration; points missed by less are passed
 
 
 @final
@@ -127,7 +131,8 @@ class PathSearch:
 
         starts: further linkages (k,) to start from, with crank angles (k, N) near the points.
         Their crank angles are those of the nearest places, or the given ones; their cost is the
-        weighted sum of squared distances, in the task's unit.  The nearest come first.
+        weighted sum of squared distances, in the task's unit.  The nearest by it come first, and
+        behind them those of the least greatest distance.
         """
         whole, part = self.whole, self.part
         fits, number = [self._started()], self._starts()
@@ -153,11 +158,14 @@ class PathSearch:
         last = descend(take(fit, slice(0, LAST)), whole, LAST_STEPS)
         fit = _best(concatenate([last, take(fit, slice(LAST, None))]), len(fit.cost))
         fit = _different(fit, whole, most)
+        nearer = _towards_worst(take(fit, slice(0, TOWARDS_WORST)), whole)
         if len(whole.points) < len(self.every.points):
-            fit = _at_others(fit, self.fitted, np.arange(len(self.every.points)))
+            every = np.arange(len(self.every.points))
+            fit, nearer = (_at_others(each, self.fitted, every) for each in (fit, nearer))
             steps = int(np.clip(FEET_BY_ALL // len(self.every.points), *STEPS_BY_ALL))
             fit = _best(descend(fit, self.every, steps), len(fit.cost))
-        return self._in_unit(fit)
+        nearer = descend(nearer, self.every, 0)  # to the feet
+        return self._in_unit(concatenate([fit, _best(nearer, len(nearer.cost))]))
 
     def like_path(self) -> CurveFit:
         """Linkages whose curves are like the path, hardly refined, so that they stay different.
@@ -199,7 +207,7 @@ class PathSearch:
             for steps, number_kept in ROUNDS_OF_LEVEL:
                 fit = _best(descend(fit, target, steps, settled=NEARLY_SETTLED), number_kept)
             if len(fit.cost):
-                kept[ratio].append(_different(fit, part, most))
+                kept[ratio].append(_towards_worst(_different(fit, part, most), target))
         fits = concatenate(sum(kept.values(), [take(start, slice(0, 0))]))
         fits = _at_others(fits, self.searched, np.arange(len(self.every.points)))
         return self._in_unit(descend(fits, self.every, 0))  # to the feet
@@ -269,6 +277,35 @@ def _timed(fit: CurveFit, target: PathTarget) -> CurveFit:
     every = concatenate([fit, CurveFit(linkages, t, np.zeros(len(t)))])
     phase = np.angle(np.exp(1j * (every.t - target.timing)).mean(axis=-1))
     return every._replace(t=phase[:, None] + target.timing)
+
+
+def _towards_worst(fit: CurveFit, target: PathTarget) -> CurveFit:
+    """Fits (k,) of lesser greatest distances, or the same: what is far weighs more each time.
+
+    Lawson's way to a Chebyshev fit, by weighted least squares (PhD thesis, UCLA, 1961).
+    """
+
+    def away(fit: CurveFit) -> FloatArray:
+        return np.asarray(np.abs(fit.linkages.at(fit.t).point - target.points)[0])
+
+    out = [take(fit, slice(0, 0))]
+    for k in range(len(fit.cost)):
+        best = here = take(fit, [k])
+        far, weight = away(here), target.share**2
+        least = far.max()
+        for _ in range(WEIGHINGS):
+            if not far.max() > PASSED:
+                break
+            weight = weight * (far / far.max() + LEAST_WEIGHT)
+            weight /= weight.mean()
+            here = descend(here, target._replace(share=np.sqrt(weight)), WEIGHED_STEPS)
+            if not np.isfinite(here.cost[0]):
+                break
+            far = away(here)
+            if far.max() < least:
+                best, least = here, far.max()
+        out.append(best)
+    return concatenate(out)
 
 
 def _best(fit: CurveFit, most: int) -> CurveFit:
