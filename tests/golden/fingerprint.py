@@ -22,7 +22,7 @@ RELATIVE, ABSOLUTE, GREATEST = 1e-6, 1e-8, 1e15
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:[eE][+-]?\d+)?")
 # What may be otherwise in two runs: the version, dates, and how long something took.
 MOVING = re.compile(
-    r'burmester[ -]\d+\.\d+\.\d+\S*|\d{4}-\d\d-\d\d\S*|"seconds": ?[\d.e+-]+|[\d.]+ m?s\b'
+    r'burmester[ -]\d+\.\d+\.\d+\S*|\d{4}-\d\d-\d\d\S*|"seconds": ?[\d.e+-]+|[\d.e+-]+ m?s\b'
 )
 PAGE_DATA = re.compile(r'<script type="application/json"[^>]*>(.*?)</script>', re.DOTALL)
 ACROSS = 8  # pixels of a frame, shrunk

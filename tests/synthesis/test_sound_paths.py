@@ -116,13 +116,14 @@ def test_an_ellipse_has_a_sound_linkage_though_the_nearest_comes_a_hundred_times
     figures = [(missed(each, points), *witnessed(each)) for each in found.usable]
     assert min(figures)[0] < 2e-4
     sane = [(miss, angle) for miss, angle, ratio in figures if ratio <= 10]
-    assert min(sane)[0] < 0.01
-    assert min(sane)[1] > 44
+    assert min(sane)[0] < 0.0075
+    assert min(sane)[1] > 43
+    assert any(miss < 0.0125 and angle > 50 for miss, angle in sane)
 
 
 @pytest.mark.parametrize(
     "asked",
-    [Requirements(transmission_deg=40), Requirements(within=0.005), Requirements(link_ratio=1.5)],
+    [Requirements(transmission_deg=40), Requirements(within=0.004), Requirements(link_ratio=1.5)],
 )
 def test_what_a_path_is_advised_is_true(asked):
     """Each option in a piece of help is typed, and gives what was promised."""

@@ -32,6 +32,7 @@ _WITH_DIRECTION = (*NUMERIC[:2], *DIRECTION)
 _PASSED_OVER = ("time", "frame", "remark")
 _PLAIN = re.compile(r"#?\w{1,30}")
 MAX_NAMES = 12  # names of columns that an error lists, or compares with known ones
+MOST_TYPED = 20  # names of columns that an option is told with
 _KNOWN = (
     "the known names are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad (or cos and sin of "
     "the angle), weight, exact and name, tol_x, tol_y, tol_angle, tol_axes and free, or px, py, "
@@ -230,7 +231,12 @@ def _require_poses(
 
 
 def _named(names: Sequence[str], indices: dict[str, int], unknown: list[int]) -> str | None:
-    """--columns with names for what is unknown, in the order of the roles that are missing."""
+    """--columns with names for what is unknown, in the order of the roles that are missing.
+
+    None where that does not help, or is longer than anybody types.
+    """
+    if len(names) > MOST_TYPED:
+        return None
     missing = iter([role for role in ("x", "y", "angle_deg") if role.split("_")[0] not in indices])
     known = {names[index].strip() for role, index in indices.items() if role != "number"}
     given = [
