@@ -131,6 +131,5 @@ SCENES = {
     "batch": Scene({"tasks.csv": MANY}, (
         "batch tasks.csv -o rows --workers 1", "batch tasks.csv -o dyads --depth dyads --workers 1",
         "batch --sample four-bars --count 3 -o drawn --workers 1 --depth pencil")),
-    "words": Scene({}, ("--help", "synthesize --help", "cases", "explain", "explain E103",
-                        "reproduce")),
+    "words": Scene({}, ("--help", "synthesize --help", "cases", "explain", "explain E103")),
 }  # fmt: skip
