@@ -123,10 +123,10 @@ def check_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
         assert line is not None
         assert moving is not None
         along = np.array([-math.sin(line[0]), math.cos(line[0])])
-        require_equal("the drive", drives, places.act(moving) @ along, 10 * tolerance)
+        require_equal("the drive", drives, places.act(moving) @ along, off * span)
         return
     turned = np.exp(1j * (np.radians(drives) - own))
-    require_equal("the drive", np.abs(turned - 1).max(), 0, 1e-8)
+    require_equal("the drive", np.abs(turned - 1).max(), 0, off)
 
 
 def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
