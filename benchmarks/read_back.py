@@ -128,6 +128,11 @@ def size_of(result):
     return float(getattr(result, "length", 1.0))
 
 
+def _judged(read, best):
+    """A linkage judged as the task was solved: an angle may weigh more or less."""
+    return burmester.judge(read.task, best, length_per_radian=read.options.length_per_radian)
+
+
 def faults_of(result, folder, rng, counts):
     """What is wrong with what is read back, in words."""
     read = burmester.read_result(result.save(folder / "r.json", force=True))
@@ -156,7 +161,7 @@ def faults_of(result, folder, rng, counts):
     elif isinstance(read, burmester.Result):
         if to == "pylinkage" and "RP" in (type(each.dyad).__name__ for each in best.dyads):
             to = "json"
-        export, judged = read.export, burmester.judge(read.task, best)
+        export, judged = read.export, _judged(read, best)
     else:
         export, judged = read.coupler_motion().export, None
     try:
