@@ -82,3 +82,19 @@ def test_what_is_allowed():
     assert not are_drawing(9, closed=False, timed=False)
     assert are_drawing(8, closed=True, timed=False)
     assert not are_drawing(8, closed=True, timed=True)
+
+
+def test_of_very_many_gaps_the_one_that_strays_is_measured_to_its_peak():
+    count, gap, height = 1000, 700, 0.01
+    t = np.linspace(0, 2 * np.pi, count, endpoint=False)
+    step = t[1]
+    points = np.column_stack([np.cos(t), np.sin(t)])
+
+    def curve(parameter):
+        away = (parameter - (gap + 0.6) * step) / (0.2 * step)
+        return (1 + height * np.exp(-(away**2))) * np.exp(1j * parameter)
+
+    gaps = PathGaps.of(points, closed=True)
+    bulges = gaps.bulges(curve, gaps.ends(t[None], 2 * np.pi))[0]
+    assert bulges.argmax() == gap
+    assert bulges[gap] == pytest.approx(height, rel=2e-3)

@@ -18,7 +18,7 @@ from burmester.api.table import as_line, dimensions_as_html
 from burmester.errors import InputError
 from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage import Positions
+from burmester.fourbar.linkage import Configuration
 from burmester.geometry.displacement import Displacement
 from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
@@ -107,7 +107,7 @@ class ResultLinkage(FoundLinkage):
             (written,) = export(self.saved(), to, path, Options(**dimensions), force)
         return written
 
-    def at(self, driver: ArrayLike) -> Positions:
+    def at(self, driver: ArrayLike) -> Configuration:
         """Where body and joints are for the driver's angle, or for an array of angles.
 
         Parameters
@@ -119,7 +119,7 @@ class ResultLinkage(FoundLinkage):
 
         Returns
         -------
-        Positions
+        Configuration
             The driver's values, the poses of the body, and its joints: "driver_fixed",
             "driver_moving", "follower_fixed" and "follower_moving", as far as there are pins.  Not
             a number where the driver cannot go.
@@ -148,9 +148,9 @@ class ResultLinkage(FoundLinkage):
         shaped = Displacement(
             places.translation.reshape(*given.shape, 2), places.angle.reshape(given.shape)
         )
-        return self._positions(given, shaped)
+        return self._configuration(given, shaped)
 
-    def motion(self, count: int = 100) -> Positions:
+    def motion(self, count: int = 100) -> Configuration:
         """So many places of body and joints from the first pose to the last, at even steps.
 
         See `at`.  Raises InputError E163 where it goes from no pose to another.
@@ -160,9 +160,9 @@ class ResultLinkage(FoundLinkage):
         motion = CouplerMotion.of(self.saved(), count)
         turns = motion.circuit.turns
         driver = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
-        return self._positions(driver, motion.places)
+        return self._configuration(driver, motion.places)
 
-    def _positions(self, driver: FloatArray, places: Displacement) -> Positions:
+    def _configuration(self, driver: FloatArray, places: Displacement) -> Configuration:
         """The joints at places (*,) of the body."""
         joints = dict[str, FloatArray]()
         dyads = self.driver_first.first, self.driver_first.second
@@ -172,7 +172,7 @@ class ResultLinkage(FoundLinkage):
                 joints[f"{name}_fixed"] = np.broadcast_to(dyad.fixed_pivot, shape)
             if isinstance(dyad, RR | PR):
                 joints[f"{name}_moving"] = places.act(dyad.moving_pivot)
-        return Positions(driver, places, joints)
+        return Configuration(driver, places, joints)
 
     def plot(self, ax: Axes | None = None) -> Figure:
         """The linkage at its poses, with the curve of the body's origin, by Matplotlib.

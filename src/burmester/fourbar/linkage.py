@@ -68,7 +68,7 @@ class Links(NamedTuple):
     follower: FloatArray
 
 
-class Positions(NamedTuple):
+class Configuration(NamedTuple):
     """Where a linkage is for values (*,) of its driver; nan where these are beyond a dead point.
 
     driver: (*,), degrees in F, or lengths along its line where the driver slides; body: the poses

@@ -20,7 +20,7 @@ __all__ = ["MOST_MET", "PointSet", "line_or_circle", "point_set"]
 FLAT: Final = 1e-7  # of the points' radius of gyration; points as near to a curve are on it
 WITHIN_DIGITS: Final = 2.0  # half of the last digit: x and y may both be off by it, and the curve
 LEAST_CIRCLE, LEAST_CONIC = 4, 6  # points that are not on such a curve as a rule
-MANY_ON_CONIC: Final = 8  # points of nine; then 10 of 1442 linkages are at infinity, of nine 104
+LEAST_OF_NINE: Final = 8  # points of nine; then 10 of 1442 linkages are at infinity, of nine 104
 MOST_MET: Final = 6  # points of a line, or a circle, that a coupler curve meets
 MOST_BESIDE: Final = 2  # points beside a line or a circle that holds the others
 FAR: Final = 20.0  # radii of gyration; a circle of a larger radius is told as no circle
@@ -49,7 +49,7 @@ def point_set(points: FloatArray, digits: float = 0.0) -> PointSet | None:
     if simple is not None or number < LEAST_CONIC:
         return simple
     some = [np.ones(number, dtype=bool)]
-    if number > MANY_ON_CONIC:
+    if number > LEAST_OF_NINE:
         some += list(~np.eye(number, dtype=bool))
     return next((PointSet("conic", on) for on in some if _is_conic(points[on], digits)), None)
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.fourbar.defect_messages import Defect
-from burmester.fourbar.linkage import Positions
+from burmester.fourbar.linkage import Configuration
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
@@ -117,16 +117,16 @@ class FoundSixBar:
         """The poses (*,) of the body when the driver is at angles (*,) in radians."""
         return poses_of(self.linkage, self._joints(np.asarray(drive, dtype=np.float64)))
 
-    def at(self, driver: ArrayLike) -> Positions:
+    def at(self, driver: ArrayLike) -> Configuration:
         """Where body and joints are for the driver's angle, or for an array of angles, in degrees.
 
         As `burmester.ResultLinkage.at`; the joints are A to H of the drawing.
         """
         given = real_numbers(driver, (...,), "the driver")
         drive = np.radians(given)
-        return Positions(given, self.body(drive), self.joints(drive))
+        return Configuration(given, self.body(drive), self.joints(drive))
 
-    def motion(self, count: int = 100) -> Positions:
+    def motion(self, count: int = 100) -> Configuration:
         """So many places of body and joints from the first pose to the last, at even steps."""
         return self.at(np.degrees(self.along(count)))
 

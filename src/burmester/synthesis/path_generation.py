@@ -130,13 +130,27 @@ def _judged(
     task, known = replace(task, poses=poses), None
     if len(task.poses.angle) > MOST_JUDGED:
         found, known = _by_sample(task, found, path, options)
+    given, told, base = _in_tolerance(task, found, path, options, known)
+    return given, told, [] if _stated(task, path) is not None else [_assumed(given, told, base)]
+
+
+def _in_tolerance(
+    task: Task,
+    found: PathLinkages,
+    path: TracedPath,
+    options: SynthesisOptions,
+    known: int | None = None,
+) -> tuple[Task, list[FoundLinkage], FoundLinkage | None]:
+    """The task with its tolerance, the linkages that are told by it, and the one that sets it.
+
+    None where the tolerance is stated, or none works.  known: the number of the one that sets it.
+    """
     if (stated := _stated(task, path)) is not None:
         given = replace(task, tolerances=_of_points(stated))
-        return given, _told(_evaluated(given, found, options), given), []
+        return given, _told(_evaluated(given, found, options), given), None
     by_known = None if known is None else _by_one(known, task, found, options)
     given, judged, base = by_known or _by_nearest(task, found, path, options)
-    told = _told(judged, given)
-    return given, told, [_assumed(given, told, base)]
+    return given, _told(judged, given), base
 
 
 def _by_one(
@@ -278,12 +292,7 @@ def _by_sample(
     sample = PoseSample.of_task(task, MOST_JUDGED)
     there = found._replace(places=found.places[:, sample.index])
     part = task.at(sample.index, sample.cells)
-    if (stated := _stated(part, path)) is not None:
-        given, base = replace(part, tolerances=_of_points(stated)), None
-        judged = _evaluated(given, there, options)
-    else:
-        given, judged, base = _by_nearest(part, there, path, options)
-    judged = _told(judged, given)
+    _, judged, base = _in_tolerance(part, there, path, options)
     if not any(each.usable for each in judged):
         return found, None
     index = [_number(each) for each in judged]

@@ -44,7 +44,7 @@ MOST_POINTS = 9  # of the body, at any angle, that a linkage can meet exactly
 MOST = 1e60  # beyond it, or all below its inverse, fourth powers leave a double's range
 MOST_TURN = 1e9  # radians; of an angle beyond it few digits say where the body points
 MOST_RATIO = 1e12  # of two weights; beyond it the lighter pose is lost in rounding
-NO_ROTATION = 1e-3  # printed matrices are that near to those of a rotation, entry by entry
+OFF_ROTATION = 1e-3  # printed matrices are that near to those of a rotation, entry by entry
 MOST_NAME = 500  # characters of the name of a pose, which messages repeat
 MOST_UNIT = 100  # characters of a unit
 LEAST_POSES = 2  # one pose is met by every linkage
@@ -397,7 +397,7 @@ def _of_matrices(rows: ArrayLike, angle_unit: object) -> Displacement:
         )
     matrix = real_numbers(rows, (None, 3, 3), "the poses")
     poses = Displacement.from_matrix(matrix)
-    off = np.abs(matrix - poses.as_matrix()).max(axis=(1, 2)) > NO_ROTATION
+    off = np.abs(matrix - poses.as_matrix()).max(axis=(1, 2)) > OFF_ROTATION
     if off.any():
         raise InputError(
             "E125",

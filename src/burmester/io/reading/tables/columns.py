@@ -205,7 +205,7 @@ def _require_poses(
     if missing == ["angle"] and not unknown:
         return NUMERIC[:2]
     if missing:
-        message = f"the header has no column for {' and '.join(missing)}"
+        message = f"the header has no column for {listed(missing)}"
         more = f" and {len(names) - MAX_NAMES} more" if len(names) > MAX_NAMES else ""
         why = f"it has: {', '.join(map(shown, names[:MAX_NAMES]))}{more}"
         help = (
