@@ -12,7 +12,6 @@ from typing import Any, final
 from burmester.errors import InputError
 from burmester.io.six_bar_data import TYPE
 from burmester.io.six_bar_file import DIMENSIONS, six_bar_of
-from burmester.sixbar.candidates import DRIVERS
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
 from burmester.synthesis.six_bar_judgement import judged_at_poses
@@ -74,7 +73,14 @@ def six_bars_again(
             raise _unlike(f"$.six_bars.found[{k}]", why)
         try:
             linkage = six_bar_of({key: each[key] for key in DIMENSIONS if key in each})
-            driver = next((side for side in DRIVERS if side == each.get("driver")), None)
+            driver = next(
+                (
+                    pivot
+                    for pivot in linkage.skeleton.drivers
+                    if linkage.driver_name(pivot) == each.get("driver")
+                ),
+                None,
+            )
             found = judged_at_poses(linkage, problem, driver)
         except InputError as error:
             why = f"{error.message}{(error.why and f': {error.why}') or ''}"

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.sixbar.added_dyads import FourBars, with_first_dyad, with_second_dyad
-from burmester.sixbar.motion import Sides, joints_at
+from burmester.sixbar.motion import Drive, Sides, joints_at
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.sixbar.travel import first_loop_works, least_transmission, travel
-from burmester.sixbar.watt import JOINTS, Drive, WattLinkage
+from burmester.sixbar.watt import WattLinkage
 from burmester.verdicts.standard import (
     LEAST_TRANSMISSION,
     LONGEST_LINK,
@@ -26,7 +26,9 @@ __all__ = [
     "WIDEST",
     "Candidates",
     "Conditions",
+    "box_diagonal",
     "candidates",
+    "excess",
     "extent_of",
     "joined",
 ]
@@ -79,17 +81,8 @@ class Candidates(NamedTuple):
         return self._replace(**picked, sides=sides)
 
     def excess(self, size: float) -> FloatArray:
-        """How far beyond the standard link ratio, lengths and extent are: (n,), logarithms.
-
-        Zero is within.  size: of the motion.
-        """
-        lengths = self.linkages.lengths() / size
-        least, most = lengths.min(axis=-1), lengths.max(axis=-1)
-        over = np.maximum(0, np.log(most / least / MOST_LINK_RATIO))
-        over += np.maximum(0, np.log(SHORTEST_LINK / least))
-        over += np.maximum(0, np.log(most / LONGEST_LINK))
-        over += np.maximum(0, np.log(self.extent / size / WIDEST))
-        return np.asarray(over)
+        """How far beyond the standard they are (`excess`): (n,); size: of the motion."""
+        return excess(self.linkages.lengths(), self.extent, size)
 
     def merit(self, size: float) -> FloatArray:
         """What a search climbs (n,): the least transmission angle in degrees, less `excess`."""
@@ -153,9 +146,27 @@ def extent_of(linkage: WattLinkage, drive: FloatArray, sides: Sides, driver: Dri
     """The diagonals (n,) of the boxes around all joints at places along the range."""
     low, high = drive.min(axis=-1)[:, None], drive.max(axis=-1)[:, None]
     steps = low + (high - low) * np.linspace(0, 1, PLACES)
-    joints = joints_at(linkage[:, None], steps, sides.at((slice(None), None)), driver)
-    joints = joints.reshape(len(joints), PLACES * len(JOINTS))
-    parts = joints.real, joints.imag
+    return box_diagonal(joints_at(linkage[:, None], steps, sides.at((slice(None), None)), driver))
+
+
+def box_diagonal(joints: ComplexArray) -> FloatArray:
+    """The diagonals (*,) of the boxes around joints (*, places, j)."""
     # An end of the range that is beside a dead point may be nan by rounding.
-    width, height = (np.fmax.reduce(p, axis=-1) - np.fmin.reduce(p, axis=-1) for p in parts)
+    width, height = (
+        np.fmax.reduce(part, axis=(-2, -1)) - np.fmin.reduce(part, axis=(-2, -1))
+        for part in (joints.real, joints.imag)
+    )
     return np.asarray(np.hypot(width, height))
+
+
+def excess(lengths: FloatArray, extent: FloatArray, size: float) -> FloatArray:
+    """How far beyond the standard link ratio, lengths and extent are: (*,), logarithms.
+
+    Zero is within.  lengths: (*, b), between joints of one link; size: of the motion.
+    """
+    least, most = lengths.min(axis=-1) / size, lengths.max(axis=-1) / size
+    over = np.maximum(0, np.log(most / least / MOST_LINK_RATIO))
+    over += np.maximum(0, np.log(SHORTEST_LINK / least))
+    over += np.maximum(0, np.log(most / LONGEST_LINK))
+    over += np.maximum(0, np.log(extent / size / WIDEST))
+    return np.asarray(over)

@@ -12,10 +12,11 @@ from burmester.fourbar.defect_messages import Defect
 from burmester.fourbar.linkage import Configuration
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.branches import Branch
+from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
-from burmester.sixbar.watt import Drive, WattLinkage
+from burmester.sixbar.kinds import SixBar
 from burmester.values import real_numbers
 from burmester.verdicts.requirement_check import Violation
 
@@ -33,15 +34,13 @@ class FoundSixBar:
         S1, S2, ..., by rank.
     linkage : WattLinkage
         Its dimensions; no leading axes.
-    driver : {"first", "second"}
-        Which crank drives.
+    branch : Branch
+        On which it goes through the poses, and about which pivot its driver turns.
     drive : (N,) array
         The driver's angle at the poses, in radians, in F, without jumps.
     room : (2,) array
         How far the driver goes on below and above the range of the poses before the linkage locks,
         in radians; infinite where the driver turns fully.
-    sides : Sides
-        On which side both loops are closed.
     transmission : float
         The least transmission angle of both loops over the range, in radians.
     extent : float
@@ -61,11 +60,10 @@ class FoundSixBar:
     """
 
     id: str
-    linkage: WattLinkage
-    driver: Drive
+    linkage: SixBar
+    branch: Branch
     drive: FloatArray
     room: FloatArray
-    sides: Sides
     transmission: float
     extent: float
     error: PoseError
@@ -108,12 +106,22 @@ class FoundSixBar:
     @property
     def driver_pivot(self) -> str:
         """The pivot on the ground about which the driver turns."""
-        return {"first": "A", "second": "B"}[self.driver]
+        return self.branch.pivot
+
+    @property
+    def driver(self) -> str:
+        """The driver as results name it: "first" or "second" of Watt's, else its pivot."""
+        return self.linkage.driver_name(self.driver_pivot)
+
+    @property
+    def sides(self) -> tuple[float, ...]:
+        """On which sides the loops are closed at the first pose, as its driver sees them."""
+        return self.linkage.sides(self._joints(self.drive[:1])[0], self.driver_pivot)
 
     @property
     def turns(self) -> int:
         """After how many turns of the driver all is as it was; 0 where it cannot turn fully."""
-        return int(self.turns_fully)
+        return self.branch.turns
 
     @property
     def drive_range(self) -> tuple[float, float]:
@@ -135,7 +143,7 @@ class FoundSixBar:
 
         nan beyond where the linkage locks.
         """
-        there = self._joints(np.asarray(drive, dtype=np.float64))
+        there = self._joints(drive)
         places = np.stack([there.real, there.imag], axis=-1)
         return {name: places[..., k, :] for k, name in enumerate(self.skeleton.joints)}
 
@@ -145,7 +153,7 @@ class FoundSixBar:
 
     def body(self, drive: FloatArray) -> Displacement:
         """The poses (*,) of the body when the driver is at angles (*,) in radians."""
-        return poses_of(self.linkage, self._joints(np.asarray(drive, dtype=np.float64)))
+        return body_of(self.linkage, self._joints(drive))
 
     def at(self, driver: ArrayLike) -> Configuration:
         """Where body and joints are for the driver's angle, or for an array of angles, in degrees.
@@ -165,7 +173,7 @@ class FoundSixBar:
 
         Both in radians.
         """
-        return transmission(self._joints(np.asarray(drive, dtype=np.float64)), self.driver)
+        return self.linkage.transmission(self._joints(drive), self.driver_pivot)
 
     def scaled(self, scale: float) -> FoundSixBar:
         """The same in another unit of length, `scale` of them for one."""
@@ -186,4 +194,4 @@ class FoundSixBar:
         return np.linspace(*ends, count)
 
     def _joints(self, drive: FloatArray) -> ComplexArray:
-        return joints_at(self.linkage, drive, self.sides, self.driver)
+        return self.branch.at(self.linkage, drive)

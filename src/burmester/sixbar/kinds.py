@@ -7,10 +7,12 @@ files hold it, whatever its class.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final
+from typing import Final, TypeAlias
 
 from burmester.sixbar.watt import WattLinkage
 
-__all__ = ["KINDS"]
+__all__ = ["KINDS", "SixBar"]
 
-KINDS: Final[Mapping[str, type[WattLinkage]]] = {WattLinkage.skeleton.name: WattLinkage}
+SixBar: TypeAlias = WattLinkage
+
+KINDS: Final[Mapping[str, type[SixBar]]] = {WattLinkage.skeleton.name: WattLinkage}

@@ -13,6 +13,7 @@ from burmester.geometry.regions import Line, Point, Polygon, Region, Segment
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.candidates import Conditions
 from burmester.sixbar.standard import least_bars
+from burmester.sixbar.watt import WATT_I
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, poses_in_words
@@ -80,7 +81,7 @@ class SearchSpace:
             lengths,
             size,
             conditions,
-            least_bars(problem),
+            least_bars(problem, WATT_I),
             tuple(assumed),
         )
 

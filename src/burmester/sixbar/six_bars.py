@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, final
 
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.fourbar.pose_error import PoseError
-from burmester.sixbar.candidates import DRIVERS
-from burmester.sixbar.chain_search import ChainSearch, search
+from burmester.sixbar.chain_search import search
 from burmester.sixbar.found import FoundSixBar
-from burmester.sixbar.motion import joints_at, poses_of
+from burmester.sixbar.judged import judged_six_bar
 from burmester.sixbar.search_space import SearchSpace
-from burmester.sixbar.standard import shortcomings
-from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
 
@@ -84,36 +80,19 @@ def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
     """The best six-bars of a random search; raises E195 and E196, as `SearchSpace.of`."""
     space = SearchSpace.of(problem)
     result = search(space, options.chains, options.seed, options.most)
-    order = range(len(result.best.chain))
+    best, found = result.best, list[FoundSixBar]()
+    for k, driver in enumerate(best.driver.tolist()):
+        pivot = best.linkages.skeleton.drivers[driver]
+        judged = judged_six_bar(best.linkages[k], problem, (pivot,))
+        if judged.usable:  # but for rounding, all are
+            id = f"S{len(found) + 1}"
+            found.append(replace(judged, id=id, chain=int(best.chain[k])))
     return SixBars(
-        tuple(_found(result, k, space, problem.given) for k in order),
+        tuple(found),
         result.chains,
         result.designs,
         result.working,
         options,
         space.assumed,
         5 - len(result.task_poses),
-    )
-
-
-def _found(result: ChainSearch, k: int, space: SearchSpace, task: Task) -> FoundSixBar:
-    """The k-th of a search; drives and errors are those at the task's poses."""
-    best, own = result.best, result.task_poses
-    linkage, driver = best.linkages[k], DRIVERS[int(best.driver[k])]
-    sides = best.sides.at(k)
-    drive = best.drive[k, own]
-    places = poses_of(linkage, joints_at(linkage, drive, sides, driver))
-    transmission, extent = float(best.transmission[k]), float(best.extent[k])
-    return FoundSixBar(
-        id=f"S{k + 1}",
-        linkage=linkage,
-        driver=driver,
-        drive=drive,
-        room=best.room[k],
-        sides=sides,
-        transmission=transmission,
-        extent=extent,
-        error=PoseError.at(places, task.poses),
-        shortcomings=shortcomings(linkage, transmission, extent, space.size, task),
-        chain=int(best.chain[k]),
     )

@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
+from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.candidates import WIDEST
-from burmester.sixbar.watt import BARS, WattLinkage
+from burmester.sixbar.kinds import SixBar
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle, length_of
 from burmester.tasks.problem import SynthesisProblem
@@ -25,7 +26,7 @@ __all__ = ["least_bars", "shortcomings"]
 
 
 def shortcomings(
-    linkage: WattLinkage, transmission: float, extent: float, size: float, task: Task
+    linkage: SixBar, transmission: float, extent: float, size: float, task: Task
 ) -> tuple[str, ...]:
     """Where a six-bar falls short of the standard of four-bars, or is large; in words."""
     out, lengths, asked = [], linkage.lengths().tolist(), task.requirements
@@ -44,11 +45,13 @@ def shortcomings(
     return tuple(out)
 
 
-def least_bars(problem: SynthesisProblem) -> FloatArray:
-    """The least distances (10,) between joints of one link, in the order of `BARS`.
+def least_bars(problem: SynthesisProblem, skeleton: Skeleton) -> FloatArray:
+    """The least distances (b,) between joints of one link, in the order of the skeleton's bars.
 
     A six-bar with a shorter one is degenerate (`verdicts.degeneracy`).
     """
-    least = dict.fromkeys(BARS, least_link(problem))
-    least["AC"], least["BD"] = least_cranks(problem)
+    least = dict.fromkeys(skeleton.bars, least_link(problem))
+    arms = [skeleton.arm(pivot) for pivot in skeleton.drivers]
+    for arm, length in zip(arms, least_cranks(problem), strict=False):
+        least[arm if arm in least else arm[::-1]] = length
     return np.array(list(least.values()))

@@ -12,10 +12,11 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.sixbar.dead_points import FirstLoop, dead_points, turning_points
-from burmester.sixbar.motion import Sides, drive_of, joints_at, sides_of, transmission
-from burmester.sixbar.watt import Drive, WattLinkage
+from burmester.sixbar.dead_points import dead_points, turning_points
+from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at, sides_of, transmission
+from burmester.sixbar.watt import WattLinkage
 
 __all__ = ["Travel", "first_loop_works", "least_transmission", "travel"]
 
@@ -84,7 +85,8 @@ def first_loop_works(
     sides = Sides(at_poses.first[:, 0], at_poses.first[:, 0])
     same = (at_poses.first == sides.first[:, None]).all(axis=-1) & (sides.first != 0)
     a, b, c, d = joints[:, 0, :4].T
-    locked = FirstLoop.with_lengths(a, b, abs(c - a), abs(d - c), abs(d - b)).locked(driver)
+    loop = FourBarLoop.of(a, b, abs(c - a), abs(d - c), abs(d - b))
+    locked = loop.locked(first=driver == "first")
     return _along(drive_of(whole, driver), locked, same, sides, any_order).works
 
 

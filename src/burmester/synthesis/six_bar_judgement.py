@@ -13,7 +13,7 @@ from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
 from burmester.sixbar.search_space import FEWEST, POSES, require_kept
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
-from burmester.sixbar.watt import BARS, LINKS, Drive, WattLinkage
+from burmester.sixbar.watt import BARS, LINKS, WattLinkage
 from burmester.synthesis.judgement import exact_note
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
@@ -62,11 +62,11 @@ def judge_six_bar(
 
 
 def judged_at_poses(
-    linkage: WattLinkage, problem: SynthesisProblem, driver: Drive | None = None
+    linkage: WattLinkage, problem: SynthesisProblem, driver: str | None = None
 ) -> FoundSixBar:
     """A six-bar where it works, else where it is nearest; raises E112, E154 and E155.
 
-    driver: the crank that is to drive, where it works so.
+    driver: the pivot of the crank that is to drive, where it works so.
     """
     _require_links(linkage, problem)
     if driver is not None and (found := judged_six_bar(linkage, problem, (driver,))).usable:

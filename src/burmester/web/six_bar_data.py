@@ -90,7 +90,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
         "crank_joint": _pair(linkage.crank_joint),
         "floating_link": float(linkage.floating_link),
         "body": {"E": _pair(linkage.body_joint), "H": _pair(linkage.link_joint)},
-        "sides": [float(found.sides.first), float(found.sides.second)],
+        "sides": list(found.sides),
         "drive_deg": np.degrees(found.drive).tolist(),
         "ends_deg": list(ends),
         "turns_fully": found.turns_fully,
