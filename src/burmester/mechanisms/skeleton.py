@@ -60,6 +60,11 @@ class Skeleton(NamedTuple):
             )
         )
 
+    def held(self, carries: str) -> tuple[str, ...]:
+        """The names of links that have more than a length: ground, body, those of three joints."""
+        plain = (self.ground, carries)
+        return tuple(name for name, own in self.links.items() if name in plain or len(own) > 2)
+
     def links_of(self, joint: str) -> tuple[str, ...]:
         """The names of the links that a joint holds together."""
         return tuple(name for name, joints in self.links.items() if joint in joints)
