@@ -60,6 +60,11 @@ class Skeleton(NamedTuple):
             )
         )
 
+    def held(self, carries: str) -> tuple[str, ...]:
+        """The names of links that have more than a length: ground, body, those of three joints."""
+        plain = (self.ground, carries)
+        return tuple(name for name, own in self.links.items() if name in plain or len(own) > 2)
+
     def links_of(self, joint: str) -> tuple[str, ...]:
         """The names of the links that a joint holds together."""
         return tuple(name for name, joints in self.links.items() if joint in joints)
@@ -75,6 +80,95 @@ class Skeleton(NamedTuple):
     def axis(self, link: str) -> str:
         """The joint at the origin of a link's frame, and that on its x axis."""
         return self.along.get(link, self.links[link][:2])
+
+    @property
+    def tree(self) -> tuple[tuple[str, str, str], ...]:
+        """Each moving link, the link that it turns on, and the joint: as near the ground as can be.
+
+        A link stands before those that turn on it; these, and theirs, before the next one.
+        """
+        found = [(self.ground, "", "")]
+        for on, _, _ in found:
+            for joint in self.links[on]:
+                known = [name for name, _, _ in found]
+                found += [(each, on, joint) for each in self.links_of(joint) if each not in known]
+
+        def above(link: str) -> tuple[tuple[str, str, str], ...]:
+            return tuple(each for row in found if row[1] == link for each in (row, *above(row[0])))
+
+        return above(self.ground)
+
+    @property
+    def closures(self) -> tuple[tuple[str, str, str], ...]:
+        """The joints that close the loops which `tree` leaves open, with both their links."""
+        order = [link for link, _, _ in self.tree]
+        held = [{joint: {link, on}} for link, on, joint in self.tree]
+        out = []
+        for joint in self.joints:
+            links = set(self.links_of(joint))
+            if {joint: links} not in held:
+                one, other = sorted(links, key=order.index)
+                out.append((joint, one, other))
+        return tuple(out)
+
+    def legs(self, pivot: str) -> tuple[tuple[str, ...], ...]:
+        """Where a driver's motion is passed on: the groups of links beyond it, each by its legs.
+
+        A leg is two joints of a link, the first of which the driver and the groups before have put
+        in its place.  Two legs meet in a joint; three carry a link.
+        """
+        known = {*self.links[self.ground], *self.links[self.crank(pivot)]}
+        free = [each for each in self.moving if each != self.crank(pivot)]
+        groups = list[tuple[str, ...]]()
+
+        def leg(link: str, joint: str) -> str:
+            return next((at + joint for at in self.links[link] if at in known), "")
+
+        while free:
+            for joint in (each for each in self.joints if each not in known):
+                legs = tuple(leg(each, joint) for each in self.links_of(joint))
+                if all(legs):
+                    groups.append(legs)
+                    taken = self.links_of(joint)
+                    break
+            else:
+                held = [each for each in free if known & set(self.links[each])]
+                ends = [next(at for at in self.links[each] if at in known) for each in held]
+                if len(held) == 2:  # two links turn, and two others join them
+                    bars = ["".join(self.links[each]) for each in free if each not in held]
+                    turned = [bar if bar[0] in self.links[held[0]] else bar[::-1] for bar in bars]
+                    groups.append((*turned, ends[0] + ends[1]))
+                else:
+                    groups.append(
+                        tuple(
+                            end + self.links[each].replace(end, "")[0]
+                            for each, end in zip(held, ends, strict=True)
+                        )
+                    )
+                taken = tuple(free)
+            known |= {at for each in taken for at in self.links[each]}
+            free = [each for each in free if each not in taken]
+        return tuple(groups)
+
+    def corners(self, frames: Frames, body: str) -> dict[str, str]:
+        """The outline of each moving link as it is drawn: its joints, and M, the origin of M.
+
+        body: the link that carries the body, to whose outline M belongs unless it is inside.
+        """
+        out = {link: self.links[link] for link in self.moving}
+        own = {joint: complex(*frames[body][joint]) for joint in self.links[body]}
+        if len(own) == 2:
+            return {**out, body: self.links[body] + "M"}
+        points = [*own.values()]
+        turns = [
+            ((two - one) * -one.conjugate()).imag
+            for one, two in zip(points, points[1:] + points[:1], strict=True)
+        ]
+        if not (all(turn > 0 for turn in turns) or all(turn < 0 for turn in turns)):
+            own["M"] = 0j
+            middle = sum(own.values()) / len(own)
+            out[body] = "".join(sorted(own, key=lambda each: np.angle(own[each] - middle)))
+        return out
 
     def places(self, frames: Frames, joints: Joints) -> dict[str, Displacement]:
         """Where the frames of the links are, (*,) each, where the joints are (*, 2).
