@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.sixbar.found import FoundSixBar
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle, length_of, pose_labels
 from burmester.verdicts.explanation import meets_exactly, worst_miss
 from burmester.verdicts.tolerance_words import percent
 from burmester.wording import figure, listed
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = [
     "HEADS",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import final
 
 import numpy as np
@@ -16,6 +16,7 @@ from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
 from burmester.sixbar.watt import Drive, WattLinkage
+from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
 from burmester.verdicts.requirement_check import Violation
 
@@ -58,6 +59,8 @@ class FoundSixBar:
         The limits and requirements of the task that it does not keep.
     within_tolerance : (N, 3) array, optional
         How much of its tolerance each component of each pose uses, where the task has tolerances.
+    task : Task
+        The task of the answer that it belongs to, as it was given.
     """
 
     id: str
@@ -74,6 +77,17 @@ class FoundSixBar:
     defects: tuple[Defect, ...] = ()
     violations: tuple[Violation, ...] = ()
     within_tolerance: FloatArray | None = None
+    task: Task = field(kw_only=True)
+
+    @property
+    def type(self) -> str:
+        """What it is, in words."""
+        return self.skeleton.name
+
+    @property
+    def unit(self) -> str | None:
+        """The unit of lengths."""
+        return self.task.length_unit
 
     @property
     def usable(self) -> bool:

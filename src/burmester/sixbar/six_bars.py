@@ -116,4 +116,5 @@ def _found(result: ChainSearch, k: int, space: SearchSpace, task: Task) -> Found
         error=PoseError.at(places, task.poses),
         shortcomings=shortcomings(linkage, transmission, extent, space.size, task),
         chain=int(best.chain[k]),
+        task=task,
     )
