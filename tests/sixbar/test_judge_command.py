@@ -148,15 +148,13 @@ def test_what_is_saved_is_read_again(folder, capsys, poses):
         task([TURNING[k] for k in (0, 2, 1, 3, 4)] if code else TURNING), chosen
     )
     assert chosen.usable is judged.best.usable is not bool(code)
-    assert chosen.found.drive == pytest.approx(judged.best.drive, abs=1e-7)
+    assert chosen.drive == pytest.approx(judged.best.drive, abs=1e-7)
     for name in ("csv", "json"):
         done = run(capsys, "export", saved, "-o", f"{saved}.{name}")
         assert done[0] == 0
         assert ("not usable: `burmester judge`" in done[2]) == bool(code)
     again = json.loads((folder / f"{poses}.json.json").read_text())
-    assert dimensions(read_linkage(f"{saved}.json")) == pytest.approx(
-        dimensions(chosen.found.linkage)
-    )
+    assert dimensions(read_linkage(f"{saved}.json")) == pytest.approx(dimensions(chosen.linkage))
     assert len(again["places"]) == 5
     for change in ("usable", "outcome"):
         tree = copy.deepcopy(json.loads(saved.read_text()))

@@ -17,8 +17,6 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_file import read_linkage
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.progress import Listener
 from burmester.progress import shown as told
 from burmester.sixbar.found import FoundSixBar
@@ -34,8 +32,8 @@ from burmester.verdicts.found_linkage import FoundLinkage
 __all__ = ["judge"]
 
 Pivots: TypeAlias = tuple[ArrayLike, ArrayLike]
-FourBar: TypeAlias = Linkage | FoundLinkage | SavedLinkage | Sequence[Dyad | Pivots]
-SixBar: TypeAlias = WattLinkage | FoundSixBar | SavedSixBar
+FourBar: TypeAlias = Linkage | FoundLinkage | Sequence[Dyad | Pivots]
+SixBar: TypeAlias = WattLinkage | FoundSixBar
 LinkageFile: TypeAlias = str | os.PathLike[str]
 
 
@@ -154,10 +152,8 @@ def _linkage(
     """What `judge_linkage` or `judge_six_bar` takes, or E153."""
     if isinstance(given, str | os.PathLike):
         return read_linkage(given, id, unit)
-    if isinstance(given, FoundLinkage | SavedLinkage):
+    if isinstance(given, FoundLinkage):
         return given.linkage
-    if isinstance(given, SavedSixBar):
-        return given.found.linkage
     if isinstance(given, FoundSixBar | WattLinkage):
         return _one_six_bar(given if isinstance(given, WattLinkage) else given.linkage)
     if isinstance(given, Linkage):

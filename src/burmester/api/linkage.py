@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -20,9 +20,7 @@ from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Configuration
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.still import still
@@ -38,7 +36,7 @@ __all__ = ["ResultLinkage"]
 @final
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ResultLinkage(FoundLinkage):
-    """A `FoundLinkage` that knows its task, so that it can be drawn and handed over.
+    """A `FoundLinkage` that can be drawn and handed over.
 
     Examples
     --------
@@ -48,16 +46,14 @@ class ResultLinkage(FoundLinkage):
     L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
     """
 
-    task: Task = field(kw_only=True)
-
     @classmethod
-    def of(cls, found: FoundLinkage, task: Task) -> Self:
-        """A linkage with the task that it belongs to."""
-        return cls(**{each.name: getattr(found, each.name) for each in fields(found)}, task=task)
+    def of(cls, found: FoundLinkage) -> Self:
+        """The same linkage."""
+        return cls(**{each.name: getattr(found, each.name) for each in fields(found)})
 
-    def saved(self) -> SavedLinkage:
-        """The linkage as it is handed to other programs, its driver first."""
-        return SavedLinkage.of(self, self.task)
+    def saved(self) -> Self:
+        """The linkage itself; exports take it as it is."""
+        return self
 
     def export(
         self,
@@ -104,7 +100,7 @@ class ResultLinkage(FoundLinkage):
                     help=f"choose among {', '.join(known)}",
                 )
         with in_python_words():
-            (written,) = export(self.saved(), to, path, Options(**dimensions), force)
+            (written,) = export(self, to, path, Options(**dimensions), force)
         return written
 
     def at(self, driver: ArrayLike) -> Configuration:
@@ -140,7 +136,7 @@ class ResultLinkage(FoundLinkage):
         from burmester.export.coupler_motion import CouplerMotion  # noqa: PLC0415
 
         given = real_numbers(driver, (...,), "the driver")
-        motion = CouplerMotion.of(self.saved(), 3)
+        motion = CouplerMotion.of(self, 3)
         middle = circuit_of(self.driver_first, motion.places[1], as_given=True)
         own = motion.circuit
         inputs = np.radians(given) if own.turns else given
@@ -157,7 +153,7 @@ class ResultLinkage(FoundLinkage):
         """
         from burmester.export.coupler_motion import CouplerMotion  # noqa: PLC0415
 
-        motion = CouplerMotion.of(self.saved(), count)
+        motion = CouplerMotion.of(self, count)
         turns = motion.circuit.turns
         driver = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
         return self._configuration(driver, motion.places)
@@ -189,7 +185,7 @@ class ResultLinkage(FoundLinkage):
         """
         from burmester.api.figure import linkage_figure  # noqa: PLC0415
 
-        return linkage_figure(self.saved(), ax)
+        return linkage_figure(self, ax)
 
     def animate(self, *, seconds: float = 4.0, width_px: int = 640) -> MovingPicture:
         """The linkage on its way through the poses, as a GIF that a notebook shows.
@@ -212,16 +208,14 @@ class ResultLinkage(FoundLinkage):
             return MovingPicture(path.read_bytes(), self._title())
 
     def _title(self) -> str:
-        saved = self.saved()
-        return f"{saved.id}, {with_article(saved.type)}, and {len(saved.task.poses.angle)} poses"
+        return f"{self.id}, {with_article(self.type)}, and {len(self.task.poses.angle)} poses"
 
     def _drawing(self) -> str:
-        saved = self.saved()
-        return still(saved.linkage, saved.error.places, saved.task, self._title())
+        return still(self.driver_first, self.error.places, self.task, self._title())
 
     def _repr_html_(self) -> str:
         caption = f"<figcaption>{escape(self._title())}</figcaption>"
-        return f"<figure>{self._drawing()}{caption}{dimensions_as_html(self.saved())}</figure>"
+        return f"<figure>{self._drawing()}{caption}{dimensions_as_html(self)}</figure>"
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
         """In a notebook: text, HTML without scripts, and the drawing alone."""
@@ -232,4 +226,4 @@ class ResultLinkage(FoundLinkage):
         }
 
     def __repr__(self) -> str:
-        return as_line(self.saved())
+        return as_line(self)

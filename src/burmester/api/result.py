@@ -50,9 +50,9 @@ class Result(Synthesis):
 
     @classmethod
     def of(cls, synthesis: Synthesis) -> Self:
-        """A synthesis whose linkages know their task."""
+        """A synthesis whose linkages can be drawn and handed over."""
         values = {each.name: getattr(synthesis, each.name) for each in fields(Synthesis)}
-        linkages = tuple(ResultLinkage.of(each, synthesis.task) for each in synthesis.linkages)
+        linkages = tuple(map(ResultLinkage.of, synthesis.linkages))
         return cls(**{**values, "linkages": linkages})
 
     def __iter__(self) -> Iterator[ResultLinkage]:
@@ -130,7 +130,7 @@ class Result(Synthesis):
         """The result in `LINES` lines at most: the answer, what came of the task, warnings."""
         outcome, linkages = self.outcome, self.linkages
         lines = [*answer, outcome.message, *warnings][:SENTENCES]
-        lines += as_text([each.saved() for each in linkages], LINES - len(lines) - 1)
+        lines += as_text(linkages, LINES - len(lines) - 1)
         return "\n".join(lines)
 
     def _html(self, answer: Sequence[str] = (), warnings: Sequence[str] = ()) -> str:
@@ -140,7 +140,7 @@ class Result(Synthesis):
         first: str = "".join(f"<p>{escape(each)}</p>" for each in sentences)
         if not linkages:
             return f"<div>{first}</div>"
-        table: str = as_html([each.saved() for each in linkages])
+        table: str = as_html(linkages)
         return f"<div>{first}{table}{linkages[0]._repr_html_()}</div>"
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:

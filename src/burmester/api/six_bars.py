@@ -20,7 +20,6 @@ from burmester.export import Options, export
 from burmester.geometry.displacement import Displacement
 from burmester.io import files
 from burmester.io.result import json_line, synthesis_data
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.progress import Listener, shown
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import CHAINS, SixBarOptions
@@ -122,9 +121,8 @@ class SixBarResult:
         options: those of `burmester.export.Options`, such as hole=4 or seconds=4.  Raises E130,
         E140, E141, E151, E161, E162, E163, E198.
         """
-        chosen = SavedSixBar(self[six_bar], self.task)
         with in_python_words():
-            [written] = export(chosen, to, path, Options(**options), force)
+            [written] = export(self[six_bar], to, path, Options(**options), force)
         return written
 
     def to_json(self) -> str:

@@ -10,8 +10,7 @@ from burmester.cli.options import Number
 from burmester.cli.output import EXIT_FOUND, console
 
 if TYPE_CHECKING:
-    from burmester.io.saved import SavedLinkage
-    from burmester.io.saved_six_bars import SavedSixBar
+    from burmester.synthesis.result import Candidate
 
 __all__ = ["export"]
 
@@ -121,7 +120,7 @@ def export(
 
     name = require_format(output, to)
     require_writable(output, force=force, source=result)
-    chosen: SavedLinkage | SavedSixBar
+    chosen: Candidate
     with working("reading the result"):
         data = read_source(result)
         if is_function_result(data):

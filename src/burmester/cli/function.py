@@ -15,8 +15,8 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 if TYPE_CHECKING:
     from burmester.functions.function_task import FunctionTask
     from burmester.io.function_result import FunctionResult
-    from burmester.io.saved import SavedLinkage
     from burmester.synthesis.function_generation import FunctionSynthesis
+    from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = [
     "check_function",
@@ -287,17 +287,15 @@ def check_function(task: FunctionTask, poses: str | None, *, as_json: bool) -> i
     return EXIT_NOTHING if findings else EXIT_FOUND
 
 
-def export_choice(result: FunctionResult, id: str | None) -> SavedLinkage:
+def export_choice(result: FunctionResult, id: str | None) -> FoundLinkage:
     """A linkage of a function's result as exports take it: the coupler is the body."""
     from dataclasses import replace
 
-    from burmester.io.saved import SavedLinkage
     from burmester.synthesis.function_generation import coupler_synthesis
 
     chosen = result.choose(id)
     judged = coupler_synthesis(result.synthesis.task, chosen)
-    saved = SavedLinkage.of(judged.linkages[0], judged.task)
-    return replace(saved, id=chosen.id, usable=chosen.usable)
+    return replace(judged.linkages[0], id=chosen.id, usable=chosen.usable)
 
 
 def judge_function(

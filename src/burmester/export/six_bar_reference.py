@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Self, final
+from typing import TYPE_CHECKING, Self, final
 
 import numpy as np
 
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.mechanisms.skeleton import Joints, Skeleton
-from burmester.sixbar.found import FoundSixBar
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["SixBarReference", "plates_of"]
 
@@ -42,10 +43,10 @@ class SixBarReference:
     scale: float
 
     @classmethod
-    def of(cls, chosen: SavedSixBar, options: Options, unit: str = "mm") -> Self:
+    def of(cls, chosen: FoundSixBar, options: Options, unit: str = "mm") -> Self:
         """The six-bar in a unit; raises E162."""
         scale = MILLIMETRES[unit_of(chosen, options)] / MILLIMETRES[unit]
-        found, poses = chosen.found.scaled(scale), chosen.task.poses
+        found, poses = chosen.scaled(scale), chosen.task.poses
         at = found.joints(found.drive)
         places = found.body(found.drive)
         points = np.concatenate([places.translation, *at.values()])

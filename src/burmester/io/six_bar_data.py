@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from burmester.io.linkage_data import defect_data, errors_data, shares_data, unmet_data
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import RULE, SixBars
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["six_bar_data", "six_bars_data"]
 

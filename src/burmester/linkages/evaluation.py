@@ -229,6 +229,7 @@ class Evaluation:
                 from_search=bool(candidates.from_search[k]),
                 clearance=clearance,
                 within_tolerance=None if shares is None else shares[k],
+                task=self.problem.given,
             )
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
         for k, strays in enumerate(stray_shortcomings(out, self.task)):

@@ -79,13 +79,6 @@ class Mechanism(Protocol):
         """
         ...
 
-    def transmission(self, joints: ComplexArray, pivot: str) -> FloatArray:
-        """The least transmission angle (*,) of all loops where the joints are (*, j), in radians.
-
-        pivot: of the driver.  It is zero at its dead points and nowhere else.
-        """
-        ...
-
 
 def drive_of(skeleton: Skeleton, joints: ComplexArray, pivot: str) -> FloatArray:
     """The angle (*,) of a driver where the joints are (*, j), in F, within half a turn."""

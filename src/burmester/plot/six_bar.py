@@ -21,12 +21,13 @@ from burmester.plot.style import (
     finish,
     label,
 )
-from burmester.sixbar.found import FoundSixBar
 from burmester.tasks.motion_task import Task
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["six_bar", "six_bar_figure"]
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import final
 
 import numpy as np
@@ -15,8 +15,10 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.branches import Branch
 from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.skeleton import Frames, Skeleton
+from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.sixbar.kinds import SixBar
+from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
 from burmester.verdicts.requirement_check import Violation
 
@@ -57,6 +59,8 @@ class FoundSixBar:
         The limits and requirements of the task that it does not keep.
     within_tolerance : (N, 3) array, optional
         How much of its tolerance each component of each pose uses, where the task has tolerances.
+    task : Task
+        The task of the answer that it belongs to, as it was given.
     """
 
     id: str
@@ -72,6 +76,17 @@ class FoundSixBar:
     defects: tuple[Defect, ...] = ()
     violations: tuple[Violation, ...] = ()
     within_tolerance: FloatArray | None = None
+    task: Task = field(kw_only=True)
+
+    @property
+    def type(self) -> str:
+        """What it is, in words."""
+        return self.skeleton.name
+
+    @property
+    def unit(self) -> str | None:
+        """The unit of lengths."""
+        return self.task.length_unit
 
     @property
     def usable(self) -> bool:
@@ -173,7 +188,7 @@ class FoundSixBar:
 
         Both in radians.
         """
-        return self.linkage.transmission(self._joints(drive), self.driver_pivot)
+        return least_transmission_angle(self.skeleton, self._joints(drive), self.driver_pivot)
 
     def scaled(self, scale: float) -> FoundSixBar:
         """The same in another unit of length, `scale` of them for one."""

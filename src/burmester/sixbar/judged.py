@@ -29,6 +29,7 @@ from burmester.mechanisms.branches import Branch, branches_of
 from burmester.mechanisms.circuits import circuits_of
 from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.nearest_places import least_along, minima_of, nearest_shares
+from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import weights_or_ones
 from burmester.refinement.tolerance_boxes import counted_error, shares_used
@@ -171,7 +172,7 @@ def _driven(
         combined=np.sqrt((off**2 @ weights) / weights.sum()),
         shares=used,
         out_of_order=order.back > np.maximum(REPEATED_POSE_STEP, order.slack),
-        at_poses=linkage.transmission(joints, branches[0].pivot),
+        at_poses=least_transmission_angle(linkage.skeleton, joints, branches[0].pivot),
         transmission=np.array([least for least, _ in ranged]),
         extent=np.array([extent for _, extent in ranged]),
     )
@@ -181,7 +182,7 @@ def _over_range(linkage: SixBar, branch: Branch, ends: FloatArray) -> tuple[floa
     """The least transmission angle between two drives, and the box around all joints."""
 
     def transmission(joints: ComplexArray) -> FloatArray:
-        return linkage.transmission(joints, branch.pivot)
+        return least_transmission_angle(linkage.skeleton, joints, branch.pivot)
 
     low, high = branch.share(linkage, ends).tolist()
     extent = box_diagonal(branch.at(linkage, np.linspace(ends[0], ends[1], PLACES)))
@@ -316,6 +317,7 @@ def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundS
         within_tolerance=None
         if task.tolerances is None
         else shares_used(driven.errors[k].places, task, problem.length),
+        task=task,
     )
 
 

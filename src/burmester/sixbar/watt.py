@@ -22,7 +22,7 @@ from burmester.mechanisms.contract import Locked
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.sixbar.dead_points import OF_FIRST_LOOP, dead_places, dead_points, first_loop
-from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at, sides_of, transmission
+from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at, sides_of
 
 __all__ = ["BARS", "FIGURES", "JOINTS", "LINKS", "WATT_I", "WattLinkage", "pairs_of"]
 
@@ -157,10 +157,6 @@ class WattLinkage:
     def still(self, pivot: str) -> ComplexArray:
         """The joints (m, 7) of one linkage at all dead points of a driver."""
         return dead_places(self, DRIVES[pivot])
-
-    def transmission(self, joints: ComplexArray, pivot: str) -> FloatArray:
-        """The lesser of both loops' transmission angles (*,) where the joints are (*, 7)."""
-        return transmission(joints, DRIVES[pivot])
 
     @staticmethod
     def driver_name(pivot: str) -> str:

@@ -16,12 +16,12 @@ from typing import Any, Final, NamedTuple, final
 
 import numpy as np
 
-from burmester.mechanisms.circles import acute_angle, meeting, side_of
+from burmester.mechanisms.circles import meeting, side_of
 from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.stephenson.triad import triad
 
-__all__ = ["EXCHANGED", "JOINTS", "TURNED_OVER", "Chain", "inserted", "transmission"]
+__all__ = ["EXCHANGED", "JOINTS", "TURNED_OVER", "Chain", "inserted"]
 
 JOINTS: Final = "ABCDEFG"
 EXCHANGED: Final = "BADCEFG"  # the joints of the exchanged chain, in the order of `JOINTS`
@@ -132,30 +132,3 @@ def inserted(joints: ComplexArray, own: str) -> ComplexArray:
     there = joints[..., own_order]
     a, b = there[..., :1], there[..., 1:2]
     return (there - a) * (np.abs(b - a) / (b - a))
-
-
-def transmission(joints: ComplexArray, driven: str) -> FloatArray:
-    """The least transmission angle (*,) where the angle at a joint drives, joints (*, 7).
-
-    At A to D two pairs of links follow, each with an angle where they meet.  At E to G a link with
-    three legs does: at the end of each, the angle to the line to where the other two meet.  All are
-    zero at a dead point together.
-    """
-    a, b, c, d, e, f, g = np.moveaxis(joints, -1, 0)
-    if driven in "ABCD":
-        loop = {"A": (d, c, b), "B": (c, d, a), "C": (b, a, d), "D": (a, b, c)}
-        tip, one, other = loop[driven]
-        return np.minimum(acute_angle(one - tip, other - tip), acute_angle(e - g, f - g))
-    legs = {
-        "F": ((a, c), (b, d), (g, e)),
-        "E": ((c, a), (d, b), (g, f)),
-        "G": ((a, c), (b, d), (f, e)),
-    }[driven]
-    angles = []
-    for k in range(3):
-        (_, tip), (p, q), (r, s) = legs[k], legs[k - 1], legs[k - 2]
-        u, v = q - p, s - r
-        apart = (u.conj() * v).imag
-        toward = (p - tip) * apart + u * ((r - p).conj() * v).imag
-        angles.append(acute_angle(toward, tip - legs[k][0]))
-    return np.asarray(np.minimum.reduce(angles))

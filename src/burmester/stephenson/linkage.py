@@ -15,7 +15,7 @@ import numpy as np
 from burmester.mechanisms.contract import Locked
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
-from burmester.stephenson.chain import EXCHANGED, JOINTS, TURNED_OVER, Chain, inserted, transmission
+from burmester.stephenson.chain import EXCHANGED, JOINTS, TURNED_OVER, Chain, inserted
 from burmester.stephenson.standstill import standstill
 
 __all__ = ["CLASSES", "StephensonClass", "StephensonLinkage"]
@@ -233,7 +233,7 @@ class StephensonLinkage:
         ends = tuple(self.skeleton.links[self.skeleton.ground][:2])
         near, far = (there[..., [self.skeleton.joints.index(end)]] for end in ends)
         start, end = self.ground[..., :1], self.ground[..., 1:]
-        turn = (end - start) / (far - near)
+        turn = (end - start) * (far - near).conj()
         return np.asarray(start + turn / np.abs(turn) * (there - near))
 
     def in_chain(self, joints: ComplexArray, driven: str = "A") -> ComplexArray:
@@ -276,10 +276,6 @@ class StephensonLinkage:
         if driven in "CDE":
             joints = inserted(joints, TURNED_OVER)
         return self._in_f(joints)
-
-    def transmission(self, joints: ComplexArray, pivot: str) -> FloatArray:
-        """The least transmission angle (*,) where the joints are (*, 7)."""
-        return transmission(self.in_chain(joints), self.kind.in_chain(pivot))
 
     def why_open(self) -> str:
         """Why one linkage that is open everywhere cannot be assembled, in words."""

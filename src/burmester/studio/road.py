@@ -157,7 +157,7 @@ class Road:
         chosen = saved.choose(linkage if isinstance(linkage, str) else None)
         options = options_of(given.get("options"), head.get("time_limit"))
         task = task_of(given.get("document"))
-        return _json(report_data(judge_linkage(task, chosen.linkage, options, improve=True)))
+        return _json(report_data(judge_linkage(task, chosen.driver_first, options, improve=True)))
 
     def solve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The whole road: the result as a file holds it first, then what the page draws."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, final
+from typing import TYPE_CHECKING, Any, TypeAlias, final
 
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice
@@ -18,10 +18,13 @@ if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to l
     from burmester.certificates.certificate import Certificate
     from burmester.families.family import Family
     from burmester.points.real_linkages import PointLinkages
+    from burmester.sixbar.found import FoundSixBar
     from burmester.sixbar.six_bars import SixBars
     from burmester.synthesis.loosening import Loosening
 
-__all__ = ["JUDGED", "Outcome", "Synthesis"]
+__all__ = ["JUDGED", "Candidate", "Outcome", "Synthesis"]
+
+Candidate: TypeAlias = "FoundLinkage | FoundSixBar"  # what files and pictures are made of
 
 JUDGED = ("R330", "R331")  # the outcomes of a linkage that was given
 

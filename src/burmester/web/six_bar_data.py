@@ -7,20 +7,22 @@ page works it out itself (`widget/six_bar.mjs`).  Angles are in degrees, lengths
 from __future__ import annotations
 
 import math
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from burmester.describe import six_bar_words
 from burmester.io.result import message_data
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import RULE, SixBars
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.notation import least_angle, length_of
 from burmester.web.data import poses_report, scene_of
 from burmester.web.image_space import chart_of
 from burmester.wording import figure
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["six_bar_report"]
 
@@ -77,7 +79,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
     ends = (middle - 180, middle + 180) if found.turns_fully else (low - below, high + above)
     return {
         "id": found.id,
-        "type": found.skeleton.name,
+        "type": found.type,
         "usable": found.usable,
         "sound": not found.shortcomings,
         "driver": found.driver,

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
-    from burmester.io.saved import SavedLinkage
+    from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["FourBarFilm"]
 
@@ -32,10 +32,10 @@ __all__ = ["FourBarFilm"]
 class FourBarFilm(Film):
     """A film of a four-bar, the driver its first dyad."""
 
-    chosen: SavedLinkage
+    chosen: FoundLinkage
 
     @classmethod
-    def of(cls, chosen: SavedLinkage, width: int, count: int) -> Self:
+    def of(cls, chosen: FoundLinkage, width: int, count: int) -> Self:
         """The film of a linkage."""
         return cls(chosen.id, chosen.type, chosen.task, width, count, chosen)
 
@@ -68,7 +68,7 @@ class FourBarFilm(Film):
 
     def followed(self, number: NDArray[np.intp]) -> FloatArray:
         """The driver's moving pivot, or the body's origin after an RP."""
-        places, first = self.places[number], self.chosen.linkage.first
+        places, first = self.places[number], self.chosen.driver_first.first
         return places.act(first.moving_pivot) if isinstance(first, RR | PR) else places.translation
 
     def drive_text(self, number: int) -> str:
@@ -80,12 +80,14 @@ class FourBarFilm(Film):
         return f"driver {degrees % 360 if motion.full_turn else degrees:5.1f}°"
 
     def drawn(self, ax: Axes, number: int) -> list[Artist]:
-        drawn = plot.linkage(ax, self.chosen.linkage, self.places[number], travel=(self.places,))
+        drawn = plot.linkage(
+            ax, self.chosen.driver_first, self.places[number], travel=(self.places,)
+        )
         own = [*drawn.links, drawn.coupler, *drawn.ground]
         return [*own, drawn.fixed_pivots, drawn.moving_pivots]
 
     def curve(self, ax: Axes) -> list[Line2D]:
-        curve = plot.coupler_curve(ax, self.chosen.linkage, only=self.motion.number)
+        curve = plot.coupler_curve(ax, self.chosen.driver_first, only=self.motion.number)
         for cross in curve.dead_points:
             cross.remove()
         return [each for lines in curve.circuits for each in lines]

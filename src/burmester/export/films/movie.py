@@ -28,11 +28,11 @@ from burmester.export.films.film import Film, Picture, blob, looks_of, require_f
 from burmester.export.films.four_bar_film import FourBarFilm
 from burmester.export.films.scene import marks, pictures
 from burmester.export.films.six_bar_film import SixBarFilm
-from burmester.io.saved_six_bars import SavedSixBar
+from burmester.synthesis.result import Candidate
+from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:
     from burmester.export.options import Options
-    from burmester.io.saved import SavedLinkage
 
 __all__ = ["check_gif", "check_mp4", "write_gif", "write_mp4"]
 
@@ -41,13 +41,13 @@ MAX_GIF_RATE: Final = 25.0  # pictures a second; more would only make the file l
 MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
 
 
-def write_gif(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write_gif(chosen: Candidate, path: Path, options: Options) -> None:
     """Write a film as an endless GIF of 25 pictures a second or fewer."""
     film, rate = _gif(chosen, options)
     plot.write_gif(path, pictures(film), seconds=1 / rate, force=True)
 
 
-def write_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     """Write a film as an MP4 that every player shows: H.264, yuv420p, made to begin at once."""
     ffmpeg = _ffmpeg()
     drawn = pictures(_mp4(chosen, options))
@@ -89,7 +89,7 @@ def write_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) 
         writer.close()
 
 
-def check_gif(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check_gif(chosen: Candidate, path: Path, options: Options) -> None:
     """Read a GIF back with Pillow; raises E160 unless it shows this linkage's motion."""
     film, rate = _gif(chosen, options)
     with Image.open(path) as image:
@@ -109,7 +109,7 @@ def check_gif(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) 
     _compare(film, looks, [shown[k] for k in at])
 
 
-def check_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     """Read an MP4 back with ffmpeg; raises E160 unless it shows this linkage's motion."""
     film, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
     report = subprocess.run(
@@ -136,20 +136,20 @@ def check_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) 
     _compare(film, looks, kept)
 
 
-def _gif(chosen: SavedLinkage | SavedSixBar, options: Options) -> tuple[Film, float]:
+def _gif(chosen: Candidate, options: Options) -> tuple[Film, float]:
     """What is drawn, and its rate: a GIF counts in hundredths of a second."""
     most = min(MAX_GIF_RATE, options.frames_per_second)
     rate = 100 / math.ceil(100 / most - 1e-9) if most > 0 else most
     return _film(chosen, options, require_film(options, rate, kept=True)), rate
 
 
-def _mp4(chosen: SavedLinkage | SavedSixBar, options: Options) -> Film:
+def _mp4(chosen: Candidate, options: Options) -> Film:
     rate = options.frames_per_second
     return _film(chosen, options, require_film(options, rate, kept=False))
 
 
-def _film(chosen: SavedLinkage | SavedSixBar, options: Options, count: int) -> Film:
-    if isinstance(chosen, SavedSixBar):
+def _film(chosen: Candidate, options: Options, count: int) -> Film:
+    if not isinstance(chosen, FoundLinkage):
         return SixBarFilm.of(chosen, options.width_px, count)
     return FourBarFilm.of(chosen, options.width_px, count)
 

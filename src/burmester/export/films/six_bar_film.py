@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
-    from burmester.io.saved_six_bars import SavedSixBar
     from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["SixBarFilm"]
@@ -33,9 +32,9 @@ class SixBarFilm(Film):
     found: FoundSixBar
 
     @classmethod
-    def of(cls, chosen: SavedSixBar, width: int, count: int) -> Self:
+    def of(cls, chosen: FoundSixBar, width: int, count: int) -> Self:
         """The film of a linkage."""
-        return cls(chosen.id, chosen.type, chosen.task, width, count, chosen.found)
+        return cls(chosen.id, chosen.type, chosen.task, width, count, chosen)
 
     @cached_property
     def parameter(self) -> FloatArray:

@@ -9,13 +9,16 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import combinations, product
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from burmester.export.parts.links import Arrangement, Hinge, LinkPlaces, Links, Spacing
 from burmester.export.six_bar_reference import plates_of
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.found import FoundSixBar
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["six_bar_links"]
 
