@@ -36,6 +36,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA, SEARCH_KEYS
 from burmester.printable import printable
 from burmester.refinement.tolerance_boxes import counted_error
+from burmester.requirements.table import Violation
 from burmester.sixbar.found import FoundSixBar
 from burmester.synthesis.given_linkage import OpenLink, require_linkage
 from burmester.synthesis.judgement import judged_again
@@ -48,7 +49,6 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
 from burmester.verdicts.found_linkage import FoundLinkage, Pair, Side
 from burmester.verdicts.quality import Quality
-from burmester.verdicts.requirement_check import Violation
 from burmester.wording import listed
 
 if TYPE_CHECKING:

@@ -13,10 +13,10 @@ from burmester.fourbar.linkage import Configuration
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.requirements.table import Violation
 from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
 from burmester.sixbar.watt import BARS, JOINTS, Drive, WattLinkage
 from burmester.values import real_numbers
-from burmester.verdicts.requirement_check import Violation
 
 __all__ = ["FoundSixBar"]
 
