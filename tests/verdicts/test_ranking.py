@@ -11,7 +11,7 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.requirements import Requirements
 from burmester.verdicts.ranking import digits_leave_open, is_trade, ranked
-from burmester.verdicts.standard import Standard
+from burmester.verdicts.standard import falls_short, standard_of
 from tests.oracles.hard_tasks import comes_by
 
 
@@ -159,7 +159,7 @@ def test_the_standard(synthesis, links, transmission, asked, short):
     task = type(synthesis.task).from_rows(rows, angle_unit="deg")
     task = replace(task, requirements=Requirements(**asked))
     found = four_bar(synthesis.usable[0], links, transmission)
-    assert " and ".join(Standard.of(task).shortcomings(found, task)) == short
+    assert " and ".join(falls_short(found, task, standard_of(task))) == short
 
 
 @pytest.mark.slow

@@ -632,7 +632,7 @@ def run_judgement(
         lengths_and_limits,
         require_one_source,
     )
-    from burmester.sixbar.watt import WattLinkage
+    from burmester.mechanisms.contract import Mechanism
     from burmester.synthesis.judgement import judge_linkage
     from burmester.tasks.options import SynthesisOptions
 
@@ -645,7 +645,7 @@ def run_judgement(
             one: Linkage | Sequence[GivenDyad] = dyads_from_options(dyad, lengths)
         else:
             given_one = read_linkage(linkage, id, task.length_unit)
-            if isinstance(given_one, WattLinkage):
+            if isinstance(given_one, Mechanism):
                 from burmester.synthesis.six_bar_judgement import judge_six_bar
 
                 _refuse_options(_NOT_FOR_JUDGED_SIX_BARS, "take a four-bar")

@@ -30,6 +30,7 @@ from burmester.refinement.tolerance_boxes import (
     poses_counted,
     shares_used,
 )
+from burmester.requirements.table import Violation
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
@@ -40,8 +41,8 @@ from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.possible_types import links_covariance, possible_types
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
-from burmester.verdicts.requirement_check import Violation, places_between, violations
-from burmester.verdicts.standard import Standard
+from burmester.verdicts.requirement_check import places_between, violations
+from burmester.verdicts.standard import falls_short, standard_of
 from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
 from burmester.verdicts.tracing import stray_defects, stray_shortcomings
@@ -193,7 +194,7 @@ class Evaluation:
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
         if self.target.path is not None:
             combined = np.array([each.worst for each in errors])
-        standard = Standard.of(self.task)
+        standard = standard_of(self.task)
         distance = np.abs(own.distances(self.task.poses))
         rms, worst = np.sqrt((distance**2).mean(axis=-1)).tolist(), distance.max(axis=-1).tolist()
         sides = np.tile(np.arange(2), (len(own), 1))
@@ -231,7 +232,7 @@ class Evaluation:
                 within_tolerance=None if shares is None else shares[k],
                 task=self.problem.given,
             )
-            out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
+            out.append(replace(found, shortcomings=falls_short(found, self.task, standard)))
         for k, strays in enumerate(stray_shortcomings(out, self.task)):
             if strays:
                 out[k] = replace(out[k], shortcomings=(*out[k].shortcomings, *strays))

@@ -16,7 +16,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.refinement.defect_free_search import driving_sides, refined_on_branch
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.standard import Standard
+from burmester.verdicts.standard import with_standard
 
 __all__ = ["sound_linkages"]
 
@@ -39,7 +39,7 @@ def sound_linkages(
         else they lack.
     """
     asked = evaluation.task.requirements
-    required = Standard.of(evaluation.task).requirements(asked)
+    required = with_standard(asked)
     if transmission_deg:
         least = max(asked.transmission_deg, min(transmission_deg, STEEPEST))
         required = replace(required, transmission_deg=least)

@@ -129,6 +129,8 @@ class Branch(NamedTuple):
 def branches_of(mechanism: Mechanism, circuits: Circuits, pivot: str) -> tuple[Branch, ...]:
     """The branches of one mechanism with a driver, circuit by circuit."""
     out = list[Branch]()
+    if not len(circuits.first):
+        return ()
     own = pivot == mechanism.generator
     dead = None
     if not own:

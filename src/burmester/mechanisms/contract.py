@@ -8,7 +8,7 @@ and Stephenson's six-bars two.
 
 from __future__ import annotations
 
-from typing import ClassVar, NamedTuple, Protocol
+from typing import ClassVar, NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ class Locked(NamedTuple):
     loop: NDArray[np.intp]
 
 
+@runtime_checkable
 class Mechanism(Protocol):
     """One mechanism, or many: leading axes (*,) are theirs.
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import final
+from typing import Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -17,10 +17,10 @@ from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.sixbar.kinds import SixBar
+from burmester.requirements.table import Violation
+from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
-from burmester.verdicts.requirement_check import Violation
 
 __all__ = ["FoundSixBar"]
 
@@ -131,7 +131,8 @@ class FoundSixBar:
     @property
     def sides(self) -> tuple[float, ...]:
         """On which sides the loops are closed at the first pose, as its driver sees them."""
-        return self.linkage.sides(self._joints(self.drive[:1])[0], self.driver_pivot)
+        linkage: Any = self.linkage  # Watt's, of which pages ask it
+        return tuple(linkage.sides(self._joints(self.drive[:1])[0], self.driver_pivot))
 
     @property
     def turns(self) -> int:
@@ -196,7 +197,7 @@ class FoundSixBar:
             link: {name: at * scale for name, at in joints.items()}
             for link, joints in self.frames.items()
         }
-        linkage = self.linkage.of(self.carries, frames)
+        linkage = KINDS[self.skeleton.name].of(self.carries, frames)
         return replace(self, linkage=linkage, extent=self.extent * scale)
 
     def along(self, count: int) -> FloatArray:

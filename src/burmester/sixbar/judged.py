@@ -33,7 +33,8 @@ from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import weights_or_ones
 from burmester.refinement.tolerance_boxes import counted_error, shares_used
-from burmester.sixbar.candidates import box_diagonal, excess
+from burmester.requirements.table import Violation
+from burmester.sixbar.candidates import box_diagonal, figures_of, merit_of
 from burmester.sixbar.defects import ELSEWHERE, Course, defects_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.kinds import SixBar
@@ -43,8 +44,6 @@ from burmester.sixbar.standard import least_bars, shortcomings
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import too_short
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
-from burmester.verdicts.requirement_check import Violation
-from burmester.verdicts.standard import LEAST_TRANSMISSION
 
 __all__ = ["judged_six_bar"]
 
@@ -271,11 +270,11 @@ def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProb
     )
     shares = None if driven.shares is None else driven.shares[k]
     size, least = problem.motion_size, float(driven.transmission[k])
-    beyond = float(excess(linkage.lengths(), driven.extent[k], size))
+    figures = figures_of(linkage, least, True, driven.extent[k])
     return _Verdict(
         far=float(np.log1p(driven.missed[k]).mean()),
         combined=float(driven.combined[k]),
-        merit=float(np.degrees(least)) - LEAST_TRANSMISSION * beyond,
+        merit=float(merit_of(figures, size)),
         driven=driven,
         branch=k,
         defects=(

@@ -10,9 +10,13 @@ from collections.abc import Mapping
 from typing import Final, TypeAlias
 
 from burmester.sixbar.watt import WattLinkage
+from burmester.stephenson.linkage import CLASSES, StephensonClass, StephensonLinkage
 
 __all__ = ["KINDS", "SixBar"]
 
-SixBar: TypeAlias = WattLinkage
+SixBar: TypeAlias = WattLinkage | StephensonLinkage
 
-KINDS: Final[Mapping[str, type[SixBar]]] = {WattLinkage.skeleton.name: WattLinkage}
+KINDS: Final[Mapping[str, type[WattLinkage] | StephensonClass]] = {
+    WattLinkage.skeleton.name: WattLinkage,
+    **CLASSES,
+}

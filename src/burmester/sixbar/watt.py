@@ -180,6 +180,10 @@ class WattLinkage:
             return f"{longest} is {lengths[longest]:.4g} long, and {others} together {rest:.4g}"
         return "wherever its first loop (A, C, D, B) closes, E and G are too far apart or too near"
 
+    def numbers(self) -> dict[str, FloatArray]:
+        """Its dimensions by name."""
+        return {name: getattr(self, name) for name in self.__match_args__}
+
     def link_ratio(self) -> FloatArray:
         """The greatest of these distances over the least: (*,)."""
         lengths = self.lengths()

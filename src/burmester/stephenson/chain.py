@@ -28,7 +28,6 @@ EXCHANGED: Final = "BADCEFG"  # the joints of the exchanged chain, in the order 
 TURNED_OVER: Final = "CDABFEG"
 
 
-
 @final
 class Chain(NamedTuple):
     """Chains (*,).  A is the origin, and B on the x axis.
@@ -53,6 +52,10 @@ class Chain(NamedTuple):
     def size(self) -> FloatArray:
         """The sum of all lengths: (*,)."""
         return np.asarray(sum(np.abs(each) for each in self))
+
+    def scaled(self, scale: FloatArray) -> Chain:
+        """The same in another unit, `scale` (*,) of them for one."""
+        return self._replace(**{name: each * scale for name, each in self._asdict().items()})
 
     def exchanged(self) -> Chain:
         """The same with other names: A for B, and C for D."""

@@ -208,7 +208,7 @@ class StephensonLinkage:
         return {joint: at[name] for joint, name in zip(joints, names, strict=True)}
 
     def lengths(self) -> FloatArray:
-        """The distances between joints of one link, in the order of the skeleton's bars: (*, 10)."""
+        """The distances between joints of one link, in the order of the bars: (*, 10)."""
         out = []
         for bar in self.skeleton.bars:
             link = next(each for each in self.skeleton.links.values() if set(bar) <= set(each))
@@ -234,7 +234,8 @@ class StephensonLinkage:
         near, far = (there[..., [self.skeleton.joints.index(end)]] for end in ends)
         start, end = self.ground[..., :1], self.ground[..., 1:]
         turn = (end - start) * (far - near).conj()
-        return np.asarray(start + turn / np.abs(turn) * (there - near))
+        with np.errstate(invalid="ignore"):  # where a loop is open
+            return np.asarray(start + turn / np.abs(turn) * (there - near))
 
     def in_chain(self, joints: ComplexArray, driven: str = "A") -> ComplexArray:
         """Joints (*, 7) in the order of the chain, renamed so that `driven` is its A or its F."""
@@ -279,8 +280,10 @@ class StephensonLinkage:
 
     def why_open(self) -> str:
         """Why one linkage that is open everywhere cannot be assembled, in words."""
-        return "wherever its loop of four links closes, the joints of the other two are too far "\
+        return (
+            "wherever its loop of four links closes, the joints of the other two are too far "
             "apart or too near"
+        )
 
 
 def dead_angles(chain: Chain, side: FloatArray) -> FloatArray:

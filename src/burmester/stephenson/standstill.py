@@ -47,7 +47,7 @@ def _from_first(chain: Chain, driven: str) -> ComplexArray:
     )
     start = chain.joints(angle, side, way, closed=True)
     c, d, e = (start[:, k] for k in (2, 3, 4))
-    x = np.stack([angle, np.angle((e - c)), np.angle(d - chain.base)])
+    x = np.stack([angle, np.angle(e - c), np.angle(d - chain.base)])
     found, good = _polished(chain, x, way, driven)
     turn, c = np.exp(1j * found[1]), chain.first * np.exp(1j * found[0])
     if driven == "F":
@@ -109,7 +109,7 @@ def _polynomial_roots(chain: Chain, driven: str) -> ComplexArray:
     over both sides is a polynomial.
     """
     degree, power = (12, 4) if driven == "F" else (6, 2)
-    chain = Chain(*(each / chain.size() for each in chain))
+    chain = chain.scaled(1 / chain.size())
     a = np.exp(2j * np.pi * np.arange(4 * degree) / (4 * degree))
     w, v = chain.base - chain.first * a, chain.base - chain.first / a
     m = w * v + np.abs(chain.d) ** 2 - chain.second**2

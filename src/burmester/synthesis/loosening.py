@@ -15,11 +15,11 @@ import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.regions import Polygon
+from burmester.requirements.types import TYPES
 from burmester.synthesis.cleared_region import cleared, swept_pivots
 from burmester.synthesis.wider_region import DIGITS, plain, region_text, wider, wider_all_around
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
-from burmester.tasks.requirements import TYPES
 from burmester.tasks.stated_limits import PIVOTS, StatedLimit, with_limits
 from burmester.verdicts.explanation import above, below
 from burmester.verdicts.found_linkage import FoundLinkage

@@ -50,7 +50,7 @@ from burmester.verdicts.ranking import (
     only_too_far,
     ranked,
 )
-from burmester.verdicts.standard import Standard
+from burmester.verdicts.standard import with_standard
 from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count, figure
 
@@ -175,9 +175,9 @@ def _by_nearest(
     asked, so that the answer can say what would do.
     """
     asked, nothing = task.requirements, Requirements()
-    usual = Standard.of(replace(task, requirements=nothing)).requirements(nothing)
+    usual = with_standard(nothing)
     wanted, away = (
-        Standard.of(task).requirements(asked),
+        with_standard(asked),
         found.greatest_misses(task.poses.translation),
     )
     most = max(ERROR_RATIO * float(away.min()), SOUND_SHARE * span(task))

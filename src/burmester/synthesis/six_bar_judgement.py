@@ -24,7 +24,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import above, error_bounds, nearness
 from burmester.wording import figure, listed
 
-__all__ = ["KINDS", "judge_six_bar", "judged_at_poses"]
+__all__ = ["KINDS", "SixBar", "judge_six_bar", "judged_at_poses"]
 
 SAME_JOINT = 1e-6  # sizes of the motion; joints of a link that are nearer to each other are one
 FARTHEST = 1e6  # sizes of the motion; of what is longer rounding takes too many digits
@@ -80,8 +80,8 @@ def judged_at_poses(
 def _require_links(linkage: SixBar, problem: SynthesisProblem) -> None:
     """Refuse numbers that cannot be computed with, E112, and links without length, E154."""
     task, size = problem.given, problem.motion_size
-    numbers = [np.asarray(getattr(linkage, name)) for name in linkage.__match_args__]
-    for name, value in zip(linkage.__match_args__, numbers, strict=True):
+    for name, given in linkage.numbers().items():
+        value = np.asarray(given)
         if not np.isfinite(value).all() or np.abs(value).max() > MOST:
             raise InputError(
                 "E112",
@@ -89,9 +89,10 @@ def _require_links(linkage: SixBar, problem: SynthesisProblem) -> None:
                 why=f"its {name.replace('_', ' ')} is {value.tolist()}",
                 help="write the lengths in another unit",
             )
-    lengths = dict(zip(BARS, linkage.lengths().tolist(), strict=True))
+    skeleton = linkage.skeleton
+    lengths = dict(zip(skeleton.bars, linkage.lengths().tolist(), strict=True))
     for bar, length in lengths.items():
-        link = next(name for name, joints in LINKS.items() if set(bar) <= set(joints))
+        link = next(name for name, own in skeleton.links.items() if set(bar) <= set(own))
         if length <= SAME_JOINT * size:
             raise InputError(
                 "E154",

@@ -72,7 +72,8 @@ def _best(synthesis: Synthesis, best: FoundSixBar) -> list[str]:
 
 
 def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
-    linkage, met = found.linkage, six_bar_words.met(synthesis, found)
+    linkage: Any = found.linkage
+    met = six_bar_words.met(synthesis, found)
     low, high = (math.degrees(each) for each in found.drive_range)
     below, above = np.degrees(found.room).tolist()
     middle = (low + high) / 2

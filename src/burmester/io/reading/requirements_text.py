@@ -19,7 +19,7 @@ from burmester.io.reading.limits_text import (
 from burmester.io.reading.pose_table import Source, shown
 from burmester.io.reading.stated_requirements import StatedRequirement, checked_requirement
 from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance
-from burmester.tasks.requirements import Driver
+from burmester.requirements.driver import Driver
 
 __all__ = [
     "lengths",

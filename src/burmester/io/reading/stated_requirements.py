@@ -11,7 +11,8 @@ from dataclasses import fields
 from typing import Any, NamedTuple
 
 from burmester.errors import InputError
-from burmester.tasks.requirements import GROUPS, TYPES, Requirements
+from burmester.requirements.types import GROUPS, TYPES
+from burmester.tasks.requirements import Requirements
 
 __all__ = [
     "FILE_KEYS",

@@ -23,7 +23,8 @@ from burmester.functions.function_task import (
 from burmester.io.reading.functions.expression import read_expression
 from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.requirements import TYPES, Requirements
+from burmester.requirements.types import TYPES
+from burmester.tasks.requirements import Requirements
 from burmester.wording import listed
 
 __all__ = ["FunctionSettings", "Spacing", "task_of_function", "task_of_pairs"]

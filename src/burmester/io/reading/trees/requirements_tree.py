@@ -21,7 +21,7 @@ from burmester.io.reading.stated_requirements import (
 )
 from burmester.io.reading.trees.limits_tree import Model, Number, Pair, TwoPairs, model_fault
 from burmester.io.reading.trees.locations import Document, close_match
-from burmester.tasks.requirements import DRIVERS
+from burmester.requirements.driver import DRIVERS
 from burmester.wording import listed
 
 __all__ = ["read_requirements"]

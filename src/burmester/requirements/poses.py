@@ -1,0 +1,75 @@
+"""How the poses are met: the greatest errors, and the order.  They are judged with the poses."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.requirements.requirement import Requirement, number
+from burmester.values import shown
+
+__all__ = ["ANY_ORDER", "WITHIN", "WITHIN_ANGLE"]
+
+
+def _bound(what: str, degree: str, such: str) -> Callable[[object], float | None]:
+    """The check of a greatest error."""
+
+    def checked(value: object) -> float | None:
+        if value is None:
+            return None
+        bound = number(value, what)
+        if bound <= 0:
+            raise InputError(
+                "E134",
+                f"an error of at most {bound:g}{degree} is impossible",
+                why="no pose is met better than rounding allows",
+                help=f"give {such} above zero, and mark poses that must be met exactly",
+            )
+        return bound
+
+    return checked
+
+
+def _flag(value: object) -> bool:
+    if not isinstance(value, bool | np.bool_):
+        raise InputError(
+            "E134",
+            f"any_order is {shown(value)}, neither true nor false",
+            help="give True where the poses need not be met in their order, else False",
+        )
+    return bool(value)
+
+
+WITHIN: Final = Requirement(
+    name="within",
+    form="number",
+    option="--within",
+    metavar="LENGTH",
+    help="Largest position error allowed at a pose.",
+    subject="the greatest acceptable error is",
+    such="is one length in the unit of the poses, such as 0.5",
+    checked=_bound("the greatest acceptable error", "", "a length"),
+)
+WITHIN_ANGLE: Final = Requirement(
+    name="within_deg",
+    form="number",
+    option="--within-angle",
+    metavar="DEG",
+    help="Largest angle error allowed at a pose; by default the angle that counts as much as "
+    "the position error of --within.",
+    subject="the greatest acceptable angle error is",
+    such="is one angle in degrees, such as 2",
+    checked=_bound("the greatest acceptable angle error", "°", "an angle"),
+)
+ANY_ORDER: Final = Requirement(
+    name="any_order",
+    form="flag",
+    default=False,
+    option="--any-order",
+    help="The poses may be met in any order.",
+    subject="the order of the poses is",
+    checked=_flag,
+)

@@ -1,0 +1,78 @@
+"""The least transmission angle over the range that the poses use."""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.numerics.arrays import FloatArray
+from burmester.requirements.requirement import Figures, Looser, Requirement, number
+from burmester.wording import least_angle
+
+__all__ = ["TRANSMISSION"]
+
+SHOWN_ANGLE = 1e-6  # degrees; a message writes a smaller angle as 0
+
+
+def _checked(value: object) -> float:
+    angle = number(value, "the least transmission angle")
+    if not 0 <= angle < 90:
+        raise InputError(
+            "E134",
+            f"a least transmission angle of {angle:g}° is impossible",
+            why="a transmission angle is between 0° and 90°",
+            help="give an angle from 0° to below 90°",
+        )
+    return angle
+
+
+def _excess(figures: Figures, bound: float) -> FloatArray:
+    short = math.radians(bound) - np.asarray(figures.transmission)
+    return np.where(short <= 0, 0.0, np.nan_to_num(short, nan=math.inf))
+
+
+def _said(figures: Figures, bound: float, _unit: str) -> str:
+    return (
+        f"the transmission angle falls to {_degrees(figures.transmission)} between the "
+        f"poses; at least {_degrees(math.radians(bound))} is asked for"
+    )
+
+
+def _degrees(angle: float) -> str:
+    degrees = math.degrees(angle)
+    return f"{degrees if degrees > SHOWN_ANGLE else 0:.3g}°" if math.isfinite(angle) else "nothing"
+
+
+def _looser(bound: float, figures: Figures, share: float) -> Looser | None:
+    least = math.degrees(figures.transmission)
+    if not least < bound:
+        return None
+    angle = math.floor(10 * (bound - share * (bound - least))) / 10
+    angle = max(angle, 0.1 if least > 0.1 else 0.0)
+    words = f"a transmission angle of {angle:g}° instead of {bound:g}°"
+    return Looser(angle, words, math.radians(bound - angle))
+
+
+TRANSMISSION: Final = Requirement(
+    name="transmission_deg",
+    kind="transmission",
+    excess=_excess,
+    said=_said,
+    standard=30.0,  # degrees; below it friction and play grow quickly
+    short=lambda figures, _: f"transmits at {least_angle(figures.transmission)} only",
+    assumed=(30.0, 5.0),
+    words="a transmission angle of {:g}° or more".format,
+    useful=5.0,
+    form="number",
+    default=0.0,
+    option="--min-transmission",
+    metavar="DEG",
+    help="Smallest transmission angle allowed while the linkage moves through the poses.",
+    subject="the least transmission angle is",
+    such="is one number, in degrees, such as 40",
+    checked=_checked,
+    looser=_looser,
+)

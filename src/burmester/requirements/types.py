@@ -1,0 +1,125 @@
+"""The types of linkage allowed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Set
+from typing import Final, Literal, TypeAlias
+
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.fourbar.linkage import TYPES as TYPE_NAMES
+from burmester.numerics.arrays import FloatArray
+from burmester.requirements.requirement import Figures, Looser, Requirement
+from burmester.values import shown
+from burmester.wording import listed, with_article
+
+__all__ = ["GROUPS", "TYPE", "TYPES", "allowed_types", "types_in_words", "unknown"]
+
+DyadKind: TypeAlias = Literal["RR", "PR", "RP"]
+
+# The types as `Linkage.type` names them, and the kinds of their two dyads.
+TYPES: Final[Mapping[str, tuple[DyadKind, DyadKind]]] = {
+    "crank-rocker": ("RR", "RR"),
+    "rocker-crank": ("RR", "RR"),
+    "double-crank": ("RR", "RR"),
+    "double-rocker": ("RR", "RR"),
+    "triple-rocker": ("RR", "RR"),
+    "change-point": ("RR", "RR"),
+    "slider-crank": ("RR", "PR"),
+    "inverted slider-crank": ("RR", "RP"),
+    "double slider": ("PR", "PR"),
+    "Oldham linkage": ("RP", "RP"),
+    "Rapson slide": ("PR", "RP"),
+}
+# A change point is in neither group: it is the border between the two.
+GROUPS: Final[Mapping[str, frozenset[str]]] = {
+    "grashof": frozenset({"crank-rocker", "rocker-crank", "double-crank", "double-rocker"}),
+    "non-grashof": frozenset({"triple-rocker"}),
+}
+
+
+def allowed_types(types: Iterable[str]) -> frozenset[str]:
+    """The types allowed, words for groups replaced by their types."""
+    return frozenset().union(*(GROUPS.get(name, {name}) for name in types))
+
+
+def types_in_words(types: Iterable[str]) -> str:
+    """Names of types in one phrase, in the order of `TYPES`."""
+    return listed(_in_order(types), "or")
+
+
+def _in_order(types: Iterable[str]) -> list[str]:
+    return sorted(types, key=[*TYPES, *GROUPS].index)
+
+
+def _checked(given: object) -> frozenset[str] | None:
+    return None if given is None else frozenset(_type_names(given))
+
+
+def _type_names(given: object) -> Iterator[str]:
+    """The names as `TYPES` and `GROUPS` spell them."""
+    known = {_normalized(name): name for name in (*TYPES, *GROUPS)}
+    names = list(given) if isinstance(given, Set | list | tuple) else None
+    if not names:
+        raise InputError(
+            "E134",
+            "no linkage type is left"
+            if names == []
+            else f"types is {shown(given)}, not a set of names",
+            help=f"name one type or more: {', '.join(known.values())}; or leave types out",
+        )
+    for name in names:
+        if not isinstance(name, str) or _normalized(name) not in known:
+            raise unknown("linkage type", name, tuple(known.values()))
+        yield known[_normalized(name)]
+
+
+def _normalized(name: str) -> str:
+    return " ".join(name.lower().replace("-", " ").split())
+
+
+def unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
+    """E134 for a name that is none of the known ones, with the likeliest of them."""
+    from difflib import get_close_matches  # noqa: PLC0415  for an error only
+
+    plain = {_normalized(each): each for each in known}
+    near = get_close_matches(_normalized(str(name)), plain, n=1)
+    guess = f"did you mean {plain[near[0]]}? " if near else ""
+    help = f"{guess}choose among {', '.join(known)}"
+    return InputError("E134", f"there is no {what} {shown(name)}", help=help)
+
+
+def _excess(figures: Figures, types: frozenset[str]) -> FloatArray:
+    allowed = allowed_types(types)
+    return 1.0 - np.array([name in allowed for name in TYPE_NAMES], dtype=float)[figures.type]
+
+
+def _looser(types: frozenset[str], figures: Figures, _share: float) -> Looser | None:
+    kind = TYPE_NAMES[int(figures.type)]
+    if kind in allowed_types(types):
+        return None
+    return Looser(types | {kind}, f"type {kind} as well", 1.0)
+
+
+def _written(types: frozenset[str]) -> str:
+    names = ",".join(_in_order(types))
+    return f'"{names}"' if " " in names else names
+
+
+TYPE: Final = Requirement(
+    name="types",
+    kind="type",
+    excess=_excess,
+    said=lambda figures, _bound, _unit: f"it is {with_article(TYPE_NAMES[int(figures.type)])}",
+    form="names",
+    option="--type",
+    metavar="NAME[,NAME]",
+    help="Types of linkage allowed; see NAME below.",
+    subject="the types are",
+    such='is a list of names, such as ["crank-rocker", "double-crank"]',
+    checked=_checked,
+    looser=_looser,
+    written=_written,
+    plain=_in_order,
+)
