@@ -8,18 +8,22 @@ from typing import Final, final
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.sixbar.chain_search import search
+from burmester.sixbar.chain_search import SEARCHED, search
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
-from burmester.sixbar.search_space import SearchSpace
+from burmester.sixbar.search_space import POSES, SearchSpace
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
+from burmester.verdicts.quality import best_first
+from burmester.wording import listed
 
-__all__ = ["CHAINS", "RULE", "SixBarOptions", "SixBars", "best_six_bars"]
+__all__ = ["CHAINS", "CHOICES", "RULE", "SixBarOptions", "SixBars", "best_six_bars"]
 
 CHAINS: Final = 20_000  # that are worked out where nobody says otherwise
 MOST_CHAINS: Final = 10_000_000
 SHOWN: Final = 8  # six-bars of an answer, at most
+ALL: Final = "all"
+CHOICES: Final = (ALL, *(name.removesuffix(" six-bar") for name in SEARCHED))
 RULE: Final = (
     "recommended is the six-bar with the greatest least transmission angle of both loops; among "
     "those within half a degree of it, the smallest"
@@ -31,15 +35,30 @@ RULE: Final = (
 class SixBarOptions:
     """How six-bars are looked for.
 
-    chains: how many 3R chains are worked out; seed: of the random numbers, the same one gives the
-    same answer; most: six-bars of the answer, at most.  Raises E197 where one makes no sense.
+    chains: how many 3R chains are worked out for each class; seed: of the random numbers, the same
+    one gives the same answer; most: six-bars of the answer, at most.
+    kind: of one class only, such as "Watt I"; of all that are looked for where it is "all".
+    Raises E197 where one makes no sense.
     """
 
     chains: int = CHAINS
     seed: int = 0
     most: int = SHOWN
+    kind: str = ALL
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The names of the classes that are looked for."""
+        every = tuple(SEARCHED)
+        return every if self.kind == ALL else (every[CHOICES.index(self.kind) - 1],)
 
     def __post_init__(self) -> None:
+        if self.kind not in CHOICES:
+            raise InputError(
+                "E197",
+                f"there is no kind {shown(self.kind)} of six-bars that is looked for",
+                help=f"leave it out, or give {listed(CHOICES, 'or')}",
+            )
         bounds = {"chains": (1, MOST_CHAINS), "seed": (0, 2**63 - 1), "most": (1, 1000)}
         for name, (least, greatest) in bounds.items():
             value = getattr(self, name)
@@ -79,20 +98,32 @@ class SixBars:
 def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
     """The best six-bars of a random search; raises E195 and E196, as `SearchSpace.of`."""
     space = SearchSpace.of(problem)
-    result = search(space, options.chains, options.seed, options.most)
-    best, found = result.best, list[FoundSixBar]()
-    for k, driver in enumerate(best.driver.tolist()):
-        pivot = best.linkages.skeleton.drivers[driver]
-        judged = judged_six_bar(best.linkages[k], problem, (pivot,))
-        if judged.usable:  # but for rounding, all are
-            id = f"S{len(found) + 1}"
-            found.append(replace(judged, id=id, chain=int(best.chain[k])))
+    searches = search(space, options.kinds, options.chains, options.seed, options.most)
+    judged, chains = list[FoundSixBar](), list[int]()
+    for each in searches:
+        best = each.best
+        for k, driver in enumerate(best.driver.tolist()):
+            pivot = best.linkages.skeleton.drivers[driver]
+            judged.append(judged_six_bar(best.linkages[k], problem, (pivot,)))
+            chains.append(int(best.chain[k]))
+    order = [k for k in _order(judged, problem.motion_size) if judged[k].usable]
     return SixBars(
-        tuple(found),
-        result.chains,
-        result.designs,
-        result.working,
+        tuple(
+            replace(judged[k], id=f"S{place}", chain=chains[k])
+            for place, k in enumerate(order[: options.most], start=1)
+        ),
+        sum(each.chains for each in searches),
+        sum(each.designs for each in searches),
+        sum(each.working for each in searches),
         options,
         space.assumed,
-        5 - len(result.task_poses),
+        POSES - problem.given.poses.shape[0],
     )
+
+
+def _order(found: list[FoundSixBar], size: float) -> list[int]:
+    """The order to recommend six-bars of all classes in: as `RULE` says, sound ones first."""
+    transmission = np.array([each.transmission for each in found])
+    extent = np.array([each.extent for each in found]) / size
+    order = best_first(transmission, extent, np.ones(len(found)), enough=np.pi / 2).tolist()
+    return sorted(order, key=lambda k: bool(found[k].shortcomings))

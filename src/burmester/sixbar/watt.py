@@ -12,6 +12,7 @@ are ours).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, final
 
@@ -24,7 +25,7 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.sixbar.dead_points import OF_FIRST_LOOP, dead_places, dead_points, first_loop
 from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at, sides_of
 
-__all__ = ["BARS", "FIGURES", "JOINTS", "LINKS", "WATT_I", "WattLinkage", "pairs_of"]
+__all__ = ["BARS", "DRIVES", "FIGURES", "JOINTS", "LINKS", "WATT_I", "WattLinkage", "pairs_of"]
 
 WATT_I: Final = Skeleton(
     "Watt I six-bar",
@@ -98,6 +99,13 @@ class WattLinkage:
     def __getitem__(self, index: Any) -> WattLinkage:
         """Pick along the leading axes (indices, slices, masks)."""
         return WattLinkage(*(getattr(self, name)[index] for name in self.__match_args__))
+
+    def beside(self, others: Sequence[WattLinkage]) -> WattLinkage:
+        """These (n,), and others after them."""
+        names = self.__match_args__
+        return WattLinkage(
+            *(np.concatenate([getattr(each, name) for each in (self, *others)]) for name in names)
+        )
 
     def frames(self) -> Frames:
         """The joints (*, 2) of each link, in the frame of that link: {"coupler": {"C": ...}}."""

@@ -6,7 +6,7 @@ be any moving link.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, NamedTuple, final
 
@@ -169,6 +169,15 @@ class StephensonLinkage:
         chain, ground, body = self.chain.at(index), self.ground[index], self.body[index]
         return StephensonLinkage(self.kind, self.carries, chain, ground, body)
 
+    def beside(self, others: Sequence[StephensonLinkage]) -> StephensonLinkage:
+        """These (n,), and others of their class after them."""
+        every = (self, *others)
+        chain = Chain(*(np.concatenate(each) for each in zip(*(e.chain for e in every), strict=True)))
+        ground, body = (
+            np.concatenate([getattr(each, name) for each in every]) for name in ("ground", "body")
+        )
+        return StephensonLinkage(self.kind, self.carries, chain, ground, body)
+
     @staticmethod
     def driver_name(pivot: str) -> str:
         """A driver as results name it: by its pivot."""
@@ -272,6 +281,10 @@ class StephensonLinkage:
             ends = [chain.joints(angle, zero, zero + last) for last in (1.0, -1.0)]
             joints = np.concatenate([*ends, chain.with_coupler(c, turn, zero)])
             joints = joints[np.isfinite(joints).all(axis=-1)]
+        return self.as_named(joints, driven)
+
+    def as_named(self, joints: ComplexArray, driven: str) -> ComplexArray:
+        """Joints (*, 7) of the chain that is `renamed` in F, in the order of the skeleton."""
         if driven in "BD":
             joints = inserted(joints, EXCHANGED)
         if driven in "CDE":
