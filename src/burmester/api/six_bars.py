@@ -28,6 +28,7 @@ from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.web.still import six_bar_still
+from burmester.wording import with_article
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -164,7 +165,7 @@ class SixBarResult:
         said[:0] = [f"{six_bar_words.headline(best)}."]
         text = "".join(f"<p>{escape(each)}</p>" for each in said)
         rows = [six_bar_words.row(self.synthesis, each) for each in self]
-        drawing = six_bar_still(best, self.task, f"{best.id}, a six-bar of Watt's first kind")
+        drawing = six_bar_still(best, self.task, f"{best.id}, {with_article(best.type)}")
         return f"<div>{text}{plain_html(six_bar_words.HEADS, rows, range(2, 7))}{drawing}</div>"
 
 
@@ -176,10 +177,13 @@ def synthesize_six_bars(
     chains: int = CHAINS,
     seed: int = 0,
     most: int = 8,
+    kind: str = "all",
     time_limit: float | None = None,
     progress: Listener | None = None,
 ) -> SixBarResult:
-    """Six-bars of Watt's first kind that carry a body through two to five poses, by random search.
+    """Six-bars that carry a body through two to five poses, by random search.
+
+    Of Watt's first kind, and of Stephenson's first and third.
 
     Parameters
     ----------
@@ -192,11 +196,13 @@ def synthesize_six_bars(
     length_unit : str, optional
         The unit of x and y, such as "mm".
     chains : int
-        How many 3R chains are drawn at random and made six-bars.
+        How many 3R chains are drawn at random and made six-bars of each kind.
     seed : int
         Of the random numbers; the same one gives the same answer.
     most : int
         How many six-bars the answer has at most.
+    kind : {"all", "Watt I", "Stephenson I", "Stephenson III"}
+        Whether six-bars of one kind only are looked for.
     time_limit : float, optional
         Seconds after which no further chains are looked at.
     progress : callable, optional
@@ -226,7 +232,7 @@ def synthesize_six_bars(
     """
     require_callable(progress)
     task = task_of(poses, angle_unit, length_unit)
-    options = SixBarOptions(chains, seed, most)
+    options = SixBarOptions(chains, seed, most, kind)
     with shown(progress):
         how = SynthesisOptions(time_limit=time_limit)
         return SixBarResult(road.synthesize_six_bars(task, options, how))

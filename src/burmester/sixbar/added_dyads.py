@@ -21,7 +21,15 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.sixbar.watt import WattLinkage
 
-__all__ = ["Added", "FourBars", "added_dyads", "dyads_but", "size_of", "with_first_dyad", "with_second_dyad"]
+__all__ = [
+    "Added",
+    "FourBars",
+    "added_dyads",
+    "dyads_but",
+    "size_of",
+    "with_first_dyad",
+    "with_second_dyad",
+]
 
 TRIVIAL = 1e-5  # of a task's size: a dyad whose pivots are as near to the chain's is the chain
 MISSED = 1e-7  # of a task's size; a dyad that misses a pose by more is lost to rounding

@@ -83,20 +83,19 @@ def first_class_candidates(
     zero = np.zeros((len(chain), 2))
     size = size_of(poses[chain]) + links.first_length + links.second_length + last.radius
     some, joint = dyads_but(second.inverse() @ first, zero, zero, size)
-    chain, links, last, first, second = (
-        each[some] for each in (chain, links, last, first, second)
-    )
+    chain, links, last = chain[some], links[some], last[some]
+    first, second = first[some], second[some]
     a, c, f, g = (each[some] for each in (a, c, f, g))
     k = complex_of(second.act(joint.fixed_pivot[:, None, :]))
-    at_l = complex_of(first.act(joint.moving_pivot[:, None, :]))
+    l_ = complex_of(first.act(joint.moving_pivot[:, None, :]))
     e = complex_of(poses[chain].act(links.body_joint[:, None, :]))
-    l = complex_of(joint.moving_pivot)
+    arm = complex_of(joint.moving_pivot)
     linkage = StephensonLinkage(
         FIRST,
         "second floating link",
         Chain(
-            base=np.abs(l),
-            f=links.first_length * np.abs(l) / l,
+            base=np.abs(arm),
+            f=links.first_length * np.abs(arm) / arm,
             first=np.abs(f[:, 0] - a[:, 0]),
             second=joint.radius,
             arm=last.radius,
@@ -107,7 +106,7 @@ def first_class_candidates(
         np.stack([a[:, 0], f[:, 0]], axis=-1),
         _pair(links.body_joint, last.moving_pivot),
     )
-    joints = np.stack([a, c, e, f, g, k, at_l], axis=-1)
+    joints = np.stack([a, c, e, f, g, k, l_], axis=-1)
     return _driven(linkage, joints, chain, conditions)
 
 

@@ -18,7 +18,7 @@ from burmester.sixbar.dead_points import dead_points, turning_points
 from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at, sides_of, transmission
 from burmester.sixbar.watt import WattLinkage
 
-__all__ = ["Travel", "first_loop_works", "least_transmission", "along", "travel"]
+__all__ = ["Travel", "along", "first_loop_works", "least_transmission", "travel"]
 
 TURN = 2 * np.pi
 CLOSE = 1e-9  # radians; a pose as near to a dead point is at it

@@ -100,7 +100,7 @@ class WattLinkage:
         """Pick along the leading axes (indices, slices, masks)."""
         return WattLinkage(*(getattr(self, name)[index] for name in self.__match_args__))
 
-    def beside(self, others: Sequence[WattLinkage]) -> WattLinkage:
+    def beside(self, others: Sequence[Any]) -> WattLinkage:
         """These (n,), and others after them."""
         names = self.__match_args__
         return WattLinkage(

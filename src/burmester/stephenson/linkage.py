@@ -169,10 +169,12 @@ class StephensonLinkage:
         chain, ground, body = self.chain.at(index), self.ground[index], self.body[index]
         return StephensonLinkage(self.kind, self.carries, chain, ground, body)
 
-    def beside(self, others: Sequence[StephensonLinkage]) -> StephensonLinkage:
+    def beside(self, others: Sequence[Any]) -> StephensonLinkage:
         """These (n,), and others of their class after them."""
         every = (self, *others)
-        chain = Chain(*(np.concatenate(each) for each in zip(*(e.chain for e in every), strict=True)))
+        chain = Chain(
+            *(np.concatenate(each) for each in zip(*(e.chain for e in every), strict=True))
+        )
         ground, body = (
             np.concatenate([getattr(each, name) for each in every]) for name in ("ground", "body")
         )
