@@ -27,7 +27,7 @@ OPTIONS = SynthesisOptions(length_per_radian=RADIAN)
 @pytest.fixture(scope="module")
 def six_bars():
     """Some for each of two tasks."""
-    some = SixBarOptions(chains=300, most=4)
+    some = SixBarOptions(kind="Watt I", chains=300, most=4)
     return [synthesize_six_bars(task(rows), some).six_bars.found for rows in (REACH, TURNING)]
 
 
