@@ -25,7 +25,7 @@ from burmester.sixbar.stephenson_candidates import first_class_candidates, third
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.verdicts.quality import best_first
 
-__all__ = ["SEARCHED", "ChainSearch", "search"]
+__all__ = ["SEARCHED", "ChainSearch", "is_sound", "search"]
 
 # How the six-bars of a class are worked out of chains, by the name of the class.
 Recipe: TypeAlias = Callable[[ThreeRChain, Displacement, FloatArray, Conditions], Candidates]

@@ -8,7 +8,7 @@ from typing import Final, final
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.sixbar.chain_search import SEARCHED, search
+from burmester.sixbar.chain_search import SEARCHED, is_sound, search
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
 from burmester.sixbar.search_space import POSES, SearchSpace
@@ -99,19 +99,26 @@ def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
     """The best six-bars of a random search; raises E195 and E196, as `SearchSpace.of`."""
     space = SearchSpace.of(problem)
     searches = search(space, options.kinds, options.chains, options.seed, options.most)
-    judged, chains = list[FoundSixBar](), list[int]()
-    for each in searches:
-        best = each.best
-        for k, driver in enumerate(best.driver.tolist()):
-            pivot = best.linkages.skeleton.drivers[driver]
-            judged.append(judged_six_bar(best.linkages[k], problem, (pivot,)))
-            chains.append(int(best.chain[k]))
-    order = [k for k in _order(judged, problem.motion_size) if judged[k].usable]
+    best = [each.best for each in searches]
+    sound = np.concatenate([is_sound(each, problem.motion_size) for each in best])
+    transmission, extent = (
+        np.concatenate([getattr(each, name) for each in best])
+        for name in ("transmission", "extent")
+    )
+    order = best_first(transmission, extent, np.ones(len(extent)), enough=np.pi / 2)
+    order = order[np.argsort(~sound[order], kind="stable")]
+    rows = [(each, k) for each in best for k in range(len(each.chain))]
+    found = list[FoundSixBar]()
+    for each, k in (rows[at] for at in order.tolist()):
+        pivot = each.linkages.skeleton.drivers[int(each.driver[k])]
+        judged = judged_six_bar(each.linkages[k], problem, (pivot,))
+        if judged.usable:  # but for rounding, all are
+            id = f"S{len(found) + 1}"
+            found.append(replace(judged, id=id, chain=int(each.chain[k])))
+        if len(found) == options.most:
+            break
     return SixBars(
-        tuple(
-            replace(judged[k], id=f"S{place}", chain=chains[k])
-            for place, k in enumerate(order[: options.most], start=1)
-        ),
+        tuple(found),
         sum(each.chains for each in searches),
         sum(each.designs for each in searches),
         sum(each.working for each in searches),
@@ -119,11 +126,3 @@ def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
         space.assumed,
         POSES - problem.given.poses.shape[0],
     )
-
-
-def _order(found: list[FoundSixBar], size: float) -> list[int]:
-    """The order to recommend six-bars of all classes in: as `RULE` says, sound ones first."""
-    transmission = np.array([each.transmission for each in found])
-    extent = np.array([each.extent for each in found]) / size
-    order = best_first(transmission, extent, np.ones(len(found)), enough=np.pi / 2).tolist()
-    return sorted(order, key=lambda k: bool(found[k].shortcomings))
