@@ -30,8 +30,8 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
+from burmester.requirements.figures import Figures
 from burmester.requirements.footprint import FOOTPRINT
-from burmester.requirements.requirement import Figures
 from burmester.requirements.table import excess
 from burmester.verdicts.degeneracy import MAX_SENSITIVITY
 from burmester.verdicts.quality import proportions

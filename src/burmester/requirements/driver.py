@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from typing import Final, Literal, TypeAlias, get_args
 
-import numpy as np
-
 from burmester.requirements.requirement import Looser, Requirement
 from burmester.requirements.types import unknown
 
@@ -24,7 +22,7 @@ def _checked(value: object) -> Driver:
 DRIVER: Final = Requirement(
     name="driver",
     kind="driver",
-    excess=lambda figures, bound: 1.0 - np.logical_or(figures.turns, bound != "crank"),
+    excess=lambda figures, bound: figures.none + (1 - figures.turns) * (bound == "crank"),
     said=lambda _figures, _bound, _unit: "its driver does not turn fully",
     form="choice",
     default="any",
@@ -33,7 +31,7 @@ DRIVER: Final = Requirement(
     help="The driver: the dyad of the first or of the second limits, or (crank) a dyad that "
     "turns fully.",
     subject="the driver is",
-    such="is one of " + ", ".join(f'"{name}"' for name in DRIVERS),
+    such="driver is one of " + ", ".join(f'"{name}"' for name in DRIVERS),
     checked=_checked,
     looser=lambda _bound, _figures, _share: Looser("any", "any driver", 1.0),
     written=str,

@@ -6,21 +6,19 @@ Only the ratio can be asked for; the others belong to the standard of linkages t
 from __future__ import annotations
 
 import math
-from typing import Final
-
-import numpy as np
+from typing import TYPE_CHECKING, Final
 
 from burmester.errors import InputError
 from burmester.requirements.requirement import (
-    Figures,
     Looser,
     Requirement,
     above,
-    at_least,
-    at_most,
     number,
 )
 from burmester.wording import figure
+
+if TYPE_CHECKING:
+    from burmester.requirements.figures import Figures
 
 __all__ = ["CHANGE_POINT", "EXTENT", "LINK_RATIO", "LONGEST_LINK", "SHORTEST_LINK"]
 
@@ -70,7 +68,7 @@ def _length_words(figures: Figures, length: str) -> str:
 LINK_RATIO: Final = Requirement(
     name="link_ratio",
     kind="link ratio",
-    excess=lambda figures, bound: at_most(figures.ratio, bound),
+    excess=lambda figures, bound: figures.beyond(figures.ratio, bound),
     said=_said,
     standard=10.0,
     short=_short,
@@ -82,7 +80,7 @@ LINK_RATIO: Final = Requirement(
     metavar="R",
     help="Longest link divided by the shortest, at most.",
     subject="the greatest link ratio is",
-    such="is one number, such as 5",
+    such="link_ratio is one number, such as 5",
     checked=_checked,
     looser=_looser,
 )
@@ -91,7 +89,7 @@ LINK_RATIO: Final = Requirement(
 SHORTEST_LINK: Final = Requirement(
     name="shortest_link",
     kind="length",
-    excess=lambda figures, bound: at_least(figures.shortest, bound),
+    excess=lambda figures, bound: figures.below(figures.shortest, bound),
     standard=0.05,
     scaled=True,
     short=lambda figures, length: _length_words(figures, length(figures.shortest)),
@@ -99,7 +97,7 @@ SHORTEST_LINK: Final = Requirement(
 LONGEST_LINK: Final = Requirement(
     name="longest_link",
     kind="length",
-    excess=lambda figures, bound: at_most(figures.longest, bound),
+    excess=lambda figures, bound: figures.beyond(figures.longest, bound),
     standard=10.0,
     scaled=True,
     short=lambda figures, length: _length_words(figures, length(figures.longest)),
@@ -108,14 +106,14 @@ LONGEST_LINK: Final = Requirement(
 CHANGE_POINT: Final = Requirement(
     name="change_point",
     kind="change point",
-    excess=lambda figures, bound: np.fmax(bound - np.asarray(figures.change), 0.0) / bound,
+    excess=lambda figures, bound: figures.lack(figures.change, bound) / bound,
     standard=1e-3,
     short=lambda _figures, _length: "is at a change point",
 )
 EXTENT: Final = Requirement(
     name="extent",
     kind="extent",
-    excess=lambda figures, bound: at_most(figures.extent, bound),
+    excess=lambda figures, bound: figures.beyond(figures.extent, bound),
     standard=4.0,
     scaled=True,
     short=lambda figures, length: f"needs room of {length(figures.extent)}",

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Final
 
-import numpy as np
-
 from burmester.errors import InputError
-from burmester.requirements.requirement import Requirement, number
-from burmester.values import shown
+from burmester.requirements.requirement import Requirement, number, shown
 
 __all__ = ["ANY_ORDER", "WITHIN", "WITHIN_ANGLE"]
 
@@ -34,7 +31,7 @@ def _bound(what: str, degree: str, such: str) -> Callable[[object], float | None
 
 
 def _flag(value: object) -> bool:
-    if not isinstance(value, bool | np.bool_):
+    if type(value).__name__ not in ("bool", "bool_"):  # Python's, or NumPy's
         raise InputError(
             "E134",
             f"any_order is {shown(value)}, neither true nor false",
@@ -50,7 +47,7 @@ WITHIN: Final = Requirement(
     metavar="LENGTH",
     help="Largest position error allowed at a pose.",
     subject="the greatest acceptable error is",
-    such="is one length in the unit of the poses, such as 0.5",
+    such="within is one length in the unit of the poses, such as 0.5",
     checked=_bound("the greatest acceptable error", "", "a length"),
 )
 WITHIN_ANGLE: Final = Requirement(
@@ -61,7 +58,7 @@ WITHIN_ANGLE: Final = Requirement(
     help="Largest angle error allowed at a pose; by default the angle that counts as much as "
     "the position error of --within.",
     subject="the greatest acceptable angle error is",
-    such="is one angle in degrees, such as 2",
+    such="within_deg is one angle in degrees, such as 2",
     checked=_bound("the greatest acceptable angle error", "°", "an angle"),
 )
 ANY_ORDER: Final = Requirement(
@@ -71,5 +68,6 @@ ANY_ORDER: Final = Requirement(
     option="--any-order",
     help="The poses may be met in any order.",
     subject="the order of the poses is",
+    such="write true or false",
     checked=_flag,
 )

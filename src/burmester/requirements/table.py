@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, final
+from typing import TYPE_CHECKING, Any, Final, final
 
-import numpy as np
-
-from burmester.numerics.arrays import FloatArray
 from burmester.requirements.driver import DRIVER
 from burmester.requirements.footprint import FOOTPRINT
 from burmester.requirements.links import (
@@ -19,14 +16,22 @@ from burmester.requirements.links import (
     SHORTEST_LINK,
 )
 from burmester.requirements.poses import ANY_ORDER, WITHIN, WITHIN_ANGLE
-from burmester.requirements.requirement import Bounds, Figures, Requirement
+from burmester.requirements.requirement import Bounds, Requirement
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.requirements.types import TYPE
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from burmester.numerics.arrays import FloatArray
+    from burmester.requirements.figures import Figures
 
 __all__ = [
     "ASKED",
     "REQUIREMENTS",
     "Violation",
+    "cured",
     "excess",
     "keeps",
     "of_kind",
@@ -52,7 +57,7 @@ REQUIREMENTS: Final[tuple[Requirement, ...]] = (
 )
 # Those that a task may state, in the order of options, keys and arguments.
 ASKED: Final = tuple(each for each in REQUIREMENTS if each.form)
-ROUNDING: Final = 1e-8  # excess; a linkage that falls short of the standard by less meets it
+ROUNDING: Final = 2e-8  # excess; a linkage that falls short of the standard by less meets it
 
 
 @final
@@ -79,12 +84,12 @@ def excess(bounds: Bounds, figures: Figures) -> FloatArray:
     Radians, logarithms of ratios, lengths, and 1 for what is kept or not, in one sum.
     """
     parts = (each.excess(figures, bound) for each, bound in _judged(bounds))
-    return np.asarray(sum(parts, start=np.zeros(np.shape(figures.transmission))))
+    return sum(parts, start=figures.none)
 
 
-def keeps(bounds: Bounds, figures: Figures) -> np.ndarray[Any, np.dtype[np.bool_]]:
+def keeps(bounds: Bounds, figures: Figures) -> NDArray[np.bool_]:
     """Whether linkages (*,) keep bounds but for rounding: (*,)."""
-    out = np.ones((), dtype=bool)
+    out: NDArray[np.bool_] = figures.none == 0
     for each, bound in _judged(bounds):
         out = out & (each.excess(figures, bound) <= each.slack(bound))
     return out
@@ -106,6 +111,16 @@ def violations(bounds: Bounds, figures: Figures, unit: str | None) -> tuple[Viol
         for each, bound in _judged(bounds)
         if not keeps({each: bound}, figures)
     )
+
+
+def cured(violated: Sequence[Violation], asked: Bounds, figures: Figures) -> list[str] | None:
+    """The options with which one linkage keeps what it violates; None where no option helps."""
+    of_kind = {each.kind: each for each in asked}
+    cures = [
+        each.kind in of_kind and of_kind[each.kind].cure(asked[of_kind[each.kind]], figures)
+        for each in violated
+    ]
+    return [cure for cure in cures if cure] if all(cures) else None
 
 
 def standard(asked: Bounds, span: float, beside: Collection[Requirement] = ()) -> Bounds:

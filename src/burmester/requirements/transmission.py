@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Final
-
-import numpy as np
+from typing import TYPE_CHECKING, Final
 
 from burmester.errors import InputError
-from burmester.numerics.arrays import FloatArray
-from burmester.requirements.requirement import Figures, Looser, Requirement, number
+from burmester.requirements.requirement import Looser, Requirement, number
 from burmester.wording import least_angle
+
+if TYPE_CHECKING:
+    from burmester.requirements.figures import Figures
 
 __all__ = ["TRANSMISSION"]
 
@@ -27,11 +27,6 @@ def _checked(value: object) -> float:
             help="give an angle from 0° to below 90°",
         )
     return angle
-
-
-def _excess(figures: Figures, bound: float) -> FloatArray:
-    short = math.radians(bound) - np.asarray(figures.transmission)
-    return np.where(short <= 0, 0.0, np.nan_to_num(short, nan=math.inf))
 
 
 def _said(figures: Figures, bound: float, _unit: str) -> str:
@@ -59,7 +54,7 @@ def _looser(bound: float, figures: Figures, share: float) -> Looser | None:
 TRANSMISSION: Final = Requirement(
     name="transmission_deg",
     kind="transmission",
-    excess=_excess,
+    excess=lambda figures, bound: figures.lack(figures.transmission, math.radians(bound), math.inf),
     said=_said,
     standard=30.0,  # degrees; below it friction and play grow quickly
     short=lambda figures, _: f"transmits at {least_angle(figures.transmission)} only",
@@ -72,7 +67,7 @@ TRANSMISSION: Final = Requirement(
     metavar="DEG",
     help="Smallest transmission angle allowed while the linkage moves through the poses.",
     subject="the least transmission angle is",
-    such="is one number, in degrees, such as 40",
+    such="transmission_deg is one number, in degrees, such as 40",
     checked=_checked,
     looser=_looser,
 )

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Set
-from typing import Final, Literal, TypeAlias
-
-import numpy as np
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from burmester.errors import InputError
-from burmester.fourbar.linkage import TYPES as TYPE_NAMES
-from burmester.numerics.arrays import FloatArray
-from burmester.requirements.requirement import Figures, Looser, Requirement
-from burmester.values import shown
+from burmester.requirements.requirement import Looser, Requirement, shown
 from burmester.wording import listed, with_article
+
+if TYPE_CHECKING:
+    from burmester.requirements.figures import Figures
 
 __all__ = ["GROUPS", "TYPE", "TYPES", "allowed_types", "types_in_words", "unknown"]
 
@@ -90,13 +88,8 @@ def unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
     return InputError("E134", f"there is no {what} {shown(name)}", help=help)
 
 
-def _excess(figures: Figures, types: frozenset[str]) -> FloatArray:
-    allowed = allowed_types(types)
-    return 1.0 - np.array([name in allowed for name in TYPE_NAMES], dtype=float)[figures.type]
-
-
 def _looser(types: frozenset[str], figures: Figures, _share: float) -> Looser | None:
-    kind = TYPE_NAMES[int(figures.type)]
+    kind = figures.type_name
     if kind in allowed_types(types):
         return None
     return Looser(types | {kind}, f"type {kind} as well", 1.0)
@@ -110,14 +103,14 @@ def _written(types: frozenset[str]) -> str:
 TYPE: Final = Requirement(
     name="types",
     kind="type",
-    excess=_excess,
-    said=lambda figures, _bound, _unit: f"it is {with_article(TYPE_NAMES[int(figures.type)])}",
+    excess=lambda figures, types: figures.is_not(allowed_types(types)),
+    said=lambda figures, _bound, _unit: f"it is {with_article(figures.type_name)}",
     form="names",
     option="--type",
     metavar="NAME[,NAME]",
     help="Types of linkage allowed; see NAME below.",
     subject="the types are",
-    such='is a list of names, such as ["crank-rocker", "double-crank"]',
+    such='types is a list of names, such as ["crank-rocker", "double-crank"]',
     checked=_checked,
     looser=_looser,
     written=_written,

@@ -10,8 +10,10 @@ from burmester.fourbar.defects import Defect, Driven, Verdict
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
 from burmester.requirements.table import Violation
 from burmester.verdicts.quality import Quality
+from burmester.verdicts.requirement_check import four_bar_figures
 from burmester.verdicts.tolerances import Spread
 from burmester.verdicts.uncertainty import DyadUncertainty
 
@@ -143,6 +145,11 @@ class FoundLinkage:
     def defects(self) -> tuple[Defect, ...]:
         """The defects of the linkage and of its preferred driver."""
         return self.verdict.defects + self.driven.defects
+
+    @property
+    def figures(self) -> Figures:
+        """What it measures and does with the preferred driver, but for the footprint."""
+        return four_bar_figures(self.driver_first, self.driven)
 
     @property
     def dyads_driver_first(self) -> Pair:

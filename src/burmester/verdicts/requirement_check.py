@@ -12,7 +12,7 @@ from burmester.fourbar.linkage import GRASHOF_SUMS, TYPES, Linkage, grashof_numb
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.requirement import Figures
+from burmester.requirements.figures import Figures
 from burmester.requirements.table import Violation
 from burmester.requirements.table import violations as violations_of
 from burmester.tasks.requirements import Requirements

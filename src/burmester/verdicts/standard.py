@@ -12,7 +12,6 @@ from burmester.tasks.notation import length_of, span
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.requirements import Requirements
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.requirement_check import four_bar_figures
 
 __all__ = ["falls_short", "not_asked", "standard_of", "with_standard"]
 
@@ -38,5 +37,4 @@ def with_standard(asked: Requirements) -> Requirements:
 
 def falls_short(found: FoundLinkage, task: Task, bounds: Bounds) -> tuple[str, ...]:
     """Where a linkage falls short of the standard of its task, in words that follow "it"."""
-    figures = four_bar_figures(found.driver_first, found.driven)
-    return shortcomings(bounds, figures, lambda value: length_of(value, task))
+    return shortcomings(bounds, found.figures, lambda value: length_of(value, task))
