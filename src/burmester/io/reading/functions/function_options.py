@@ -90,7 +90,7 @@ def task_of_function(
             help="give --pairs 5 for five pairs that are met exactly, or leave --pairs out",
         )
     text = function if isinstance(function, str) else getattr(function, "__name__", "f")
-    source = source or Source("--function", text)
+    source = source or Source("expression", text)
     values = read_expression(source) if isinstance(function, str) else _checked(function)
     every = np.asarray(values(np.linspace(low, high, FUNCTION_SAMPLES)), dtype=float)
     if not np.isfinite(every).all():
