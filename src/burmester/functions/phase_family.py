@@ -61,11 +61,9 @@ def best_of_phases(task: FunctionTask) -> PhaseFamily:
 
 def _keeps(found: Generator, task: FunctionTask) -> NDArray[np.bool_]:
     """Which generators (k,) keep what the task asks."""
-    keeps = np.ones(len(found), dtype=bool)
-    if task.least_transmission is not None:
-        keeps &= found.least_transmission(*task.input_ends) >= task.least_transmission
-    if task.link_ratio is not None:
-        keeps &= found.link_ratio <= task.link_ratio
+    wanted = task.requirements
+    keeps = found.least_transmission(*task.input_ends) >= wanted.transmission
+    keeps &= found.link_ratio <= wanted.link_ratio
     if task.types is not None:
         keeps &= np.isin(found.types, list(task.types))
     return keeps

@@ -22,6 +22,7 @@ from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
 from burmester.io.linkage_data import number
 from burmester.io.reading.functions.function_file import task_of_tree
+from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.result import message_data
 from burmester.io.saved import (
     SavedLinkage,
@@ -114,14 +115,13 @@ def _task(task: FunctionTask) -> dict[str, Any]:
     angles = {
         "input_phase_deg": task.input_phase,
         "output_phase_deg": task.output_phase,
-        "transmission_deg": task.least_transmission,
     }
     data |= {key: _plain_degrees(each) for key, each in angles.items() if each is not None}
-    if task.link_ratio is not None:
-        data["link_ratio"] = task.link_ratio
-    if task.types is not None:
-        data["types"] = sorted(task.types)
-    return data | {"minimax": task.minimax, "ground": task.ground}
+    return (
+        data
+        | requirements_data(task.requirements)
+        | {"minimax": task.minimax, "ground": task.ground}
+    )
 
 
 def _plain_degrees(angle: float) -> float:
