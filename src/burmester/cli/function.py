@@ -226,16 +226,12 @@ def _settings(given: dict[str, Any]) -> FunctionSettings:
     from burmester.io.reading.functions.function_options import FunctionSettings
     from burmester.io.reading.requirements_text import requirements_from_options
 
-    ground = _number(given, "ground")
-    types = requirements_from_options(types=given["types"])
+    asked = {name: given[name] for name in ("min_transmission", "link_ratio", "types")}
+    numbers = {name: _number(given, name) for name in ("input_phase", "output_phase", "ground")}
     return FunctionSettings(
-        _number(given, "input_phase"),
-        _number(given, "output_phase"),
-        1.0 if ground is None else ground,
-        given["minimax"],
-        _number(given, "min_transmission"),
-        _number(given, "link_ratio"),
-        types[0].value if types else None,
+        minimax=given["minimax"],
+        **{name: value for name, value in numbers.items() if value is not None},
+        **{each.field: each.value for each in requirements_from_options(**asked)},
     )
 
 
@@ -257,6 +253,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
 
     from burmester.io.function_result import read_function_result
     from burmester.io.reading.file_content import read_source
+    from burmester.io.reading.requirements_text import lengths
     from burmester.synthesis.function_generation import judge_generator, judge_links
 
     links, linkage = given["links"], given["linkage"]
@@ -266,7 +263,14 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
                 raise _contradiction(
                     f"--links and --{name} are given", f"leave --{name} out, or --links"
                 )
-        ground, a, r, b = _link_lengths(links)
+        every = lengths("--links", [links])
+        if len(every) != 4:
+            raise _contradiction(
+                f"--links has {len(every)} numbers, and a four-bar has four links",
+                "give the ground link, the input link, the coupler and the output link, such as "
+                "--links 1,0.5,1.2,0.9",
+            )
+        ground, a, r, b = every
         side = {None: None, "left": 1.0, "right": -1.0}[given["side"]]
         return judge_links(replace(task, ground=ground), (a, r, b), side)
     for name, needed in (("side", "--links"), ("id", "--linkage")):
@@ -278,30 +282,6 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
         return None
     result = read_function_result(read_source(linkage), linkage)
     return judge_generator(task, result.choose(given["id"]).generator)
-
-
-def _link_lengths(text: str) -> list[float]:
-    """The four lengths of --links; raises E190 and E194."""
-    from burmester.io.reading.functions.expression import read_number
-    from burmester.io.reading.pose_table import Source
-
-    source, at, lengths = Source("--links", text), 0, []
-    parts = text.split(",")
-    if len(parts) != 4:
-        raise _contradiction(
-            f"--links has {len(parts)} numbers, and a four-bar has four links",
-            "give the ground link, the input link, the coupler and the output link, such as "
-            "--links 1,0.5,1.2,0.9",
-        )
-    for part in parts:
-        length = read_number(source, at, part)
-        if not 0 < length < 1e9:
-            raise _contradiction(
-                f"--links has the length {part.strip()}", "give lengths above 0 and below 1e9"
-            )
-        lengths.append(length)
-        at += len(part) + 1
-    return lengths
 
 
 def _check(task: FunctionTask, source: str, notes: tuple[Advice, ...], *, as_json: bool) -> int:

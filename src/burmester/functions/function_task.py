@@ -101,6 +101,14 @@ class FunctionTask:
         return 3 + self.free_phases
 
     @property
+    def solutions(self) -> int | None:
+        """How many linkages, or critical points, generic pairs have; None: infinitely many."""
+        pairs, free = len(self.inputs), self.free_phases
+        if pairs < self.exact_count:
+            return None
+        return 1 + free if pairs == self.exact_count else (1, 6, 28)[free]
+
+    @property
     def types(self) -> frozenset[str] | None:
         """The types allowed of linkages with four pins; None: all."""
         allowed = self.requirements.allowed_types
