@@ -177,7 +177,6 @@ def _contradiction(message: str, help: str, why: str | None = None) -> InputErro
 
 def _task(source: str, given: dict[str, Any]) -> FunctionTask:
     """The task; raises E101 to E109, E190, E191, E192 and E194."""
-    from burmester.io.reading.file_content import read_source
     from burmester.io.reading.functions.expression import read_number
     from burmester.io.reading.functions.function_file import read_function
     from burmester.io.reading.functions.function_options import task_of_function
@@ -193,12 +192,11 @@ def _task(source: str, given: dict[str, Any]) -> FunctionTask:
                 f"{option} is given, and the file states the pairs",
                 f"leave {option} out, or write it into the table [function] of a TOML file{file}",
             )
-        content = click.get_current_context().meta.get(CONTENT) or read_source(source)
-        return read_function(content, source, _settings(given), given["sheet"])
+        return read_function(_content(source), source, _settings(given), given["sheet"])
     for name in ("x", "input_range", "output"):
         if given[name] is None:
             if not stated and not any(sign in source for sign in "x()*+ "):
-                read_source(source)  # which says that there is no such file
+                _content(source)  # which says that there is no such file
             option = _option(name)
             raise _contradiction(f"{option} is missing", f"give {option}, as in {EXAMPLE}")
     low, colon, high = given["x"].partition(":")
@@ -222,15 +220,31 @@ def _task(source: str, given: dict[str, Any]) -> FunctionTask:
     )
 
 
+def _content(source: str) -> bytes:
+    """The bytes of a file of pairs; raises E101."""
+    from burmester.errors import InputError
+    from burmester.io.reading.file_content import read_source
+    from burmester.printable import printable
+
+    try:
+        return click.get_current_context().meta.get(CONTENT) or read_source(source)
+    except InputError as error:
+        error.message = error.message.replace("poses", "pairs of angles")
+        error.where = error.where or printable(source)
+        raise
+
+
 def _settings(given: dict[str, Any]) -> FunctionSettings:
     from burmester.io.reading.functions.function_options import FunctionSettings
     from burmester.io.reading.requirements_text import requirements_from_options
 
     asked = {name: given[name] for name in ("min_transmission", "link_ratio", "types")}
-    numbers = {name: _number(given, name) for name in ("input_phase", "output_phase", "ground")}
+    ground = _number(given, "ground")
     return FunctionSettings(
-        minimax=given["minimax"],
-        **{name: value for name, value in numbers.items() if value is not None},
+        _number(given, "input_phase"),
+        _number(given, "output_phase"),
+        1.0 if ground is None else ground,
+        given["minimax"],
         **{each.field: each.value for each in requirements_from_options(**asked)},
     )
 
