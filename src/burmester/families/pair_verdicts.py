@@ -39,8 +39,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 from burmester.verdicts.assumptions import Assumptions
-from burmester.verdicts.requirement_check import figures_of
-from burmester.verdicts.standard import standard_of
+from burmester.verdicts.requirement_check import figures_of, standard_of
 
 __all__ = [
     "CLASS_WORDS",
@@ -101,7 +100,7 @@ class PairBounds:
 
     @classmethod
     def of(cls, task: Task) -> Self:
-        """The standard of `verdicts.standard`, and what the task asks."""
+        """The standard of `requirements.table`, and what the task asks."""
         return cls({**task.requirements.bounds, **standard_of(task)})
 
     @classmethod

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple, final
 
 import numpy as np
@@ -30,8 +31,9 @@ from burmester.refinement.tolerance_boxes import (
     poses_counted,
     shares_used,
 )
-from burmester.requirements.table import Violation
+from burmester.requirements.table import Violation, shortcomings
 from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import length_of
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.clearance_check import clearance_of, too_close
@@ -41,8 +43,7 @@ from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.possible_types import links_covariance, possible_types
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
-from burmester.verdicts.requirement_check import places_between, violations
-from burmester.verdicts.standard import falls_short, standard_of
+from burmester.verdicts.requirement_check import places_between, standard_of, violations
 from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
 from burmester.verdicts.tracing import stray_defects, stray_shortcomings
@@ -194,7 +195,7 @@ class Evaluation:
         combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
         if self.target.path is not None:
             combined = np.array([each.worst for each in errors])
-        standard = standard_of(self.task)
+        bounds, length = standard_of(self.task), partial(length_of, task=self.task)
         distance = np.abs(own.distances(self.task.poses))
         rms, worst = np.sqrt((distance**2).mean(axis=-1)).tolist(), distance.max(axis=-1).tolist()
         sides = np.tile(np.arange(2), (len(own), 1))
@@ -231,7 +232,8 @@ class Evaluation:
                 clearance=clearance,
                 within_tolerance=None if shares is None else shares[k],
             )
-            out.append(replace(found, shortcomings=falls_short(found, self.task, standard)))
+            below = shortcomings(bounds, found.figures, length)
+            out.append(replace(found, shortcomings=tuple(each.message for each in below)))
         for k, strays in enumerate(stray_shortcomings(out, self.task)):
             if strays:
                 out[k] = replace(out[k], shortcomings=(*out[k].shortcomings, *strays))

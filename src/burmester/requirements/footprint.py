@@ -15,12 +15,10 @@ if TYPE_CHECKING:
 __all__ = ["FOOTPRINT"]
 
 
-def _checked(value: object) -> Polygon | None:
+def _checked(value: object) -> Polygon:
     # Options are told without NumPy.
     from burmester.geometry.regions import Polygon, require_searchable  # noqa: PLC0415
 
-    if value is None:
-        return None
     if not isinstance(value, Polygon):
         raise InputError(
             "E134",

@@ -8,12 +8,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
-from burmester.errors import InputError
 from burmester.requirements.requirement import (
     Looser,
     Requirement,
     above,
-    number,
+    checked_number,
 )
 from burmester.wording import figure
 
@@ -21,18 +20,6 @@ if TYPE_CHECKING:
     from burmester.requirements.figures import Figures
 
 __all__ = ["CHANGE_POINT", "EXTENT", "LINK_RATIO", "LONGEST_LINK", "SHORTEST_LINK"]
-
-
-def _checked(value: object) -> float:
-    ratio = number(value, "the greatest link ratio", infinite=True)
-    if ratio < 1:
-        raise InputError(
-            "E134",
-            f"a link ratio of at most {ratio:g} is impossible",
-            why="the longest of the four links is never shorter than the shortest",
-            help="give a ratio of 1 or more, such as 5",
-        )
-    return ratio
 
 
 def _said(figures: Figures, bound: float, _unit: str) -> str:
@@ -81,7 +68,13 @@ LINK_RATIO: Final = Requirement(
     help="Longest link divided by the shortest, at most.",
     subject="the greatest link ratio is",
     such="link_ratio is one number, such as 5",
-    checked=_checked,
+    checked=checked_number(
+        "the greatest link ratio",
+        lambda ratio: ratio >= 1,
+        "a link ratio of at most {:g} is impossible",
+        why="the longest of the four links is never shorter than the shortest",
+        help="give a ratio of 1 or more, such as 5",
+    ),
     looser=_looser,
 )
 # In spans of the motion: a shorter link magnifies the errors of its pins at the body; a longer one

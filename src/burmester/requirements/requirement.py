@@ -23,7 +23,7 @@ __all__ = [
     "Looser",
     "Requirement",
     "above",
-    "number",
+    "checked_number",
     "shown",
 ]
 
@@ -48,7 +48,8 @@ class Requirement:
         1; 0 keeps it, and so does nan.
     said: what a linkage does that exceeds a bound, after "it" or a name; takes a unit of lengths.
     slack: what may be exceeded; by rounding a bound is missed by less.
-    standard: the bound where nothing is asked; scaled: whether it is in spans of the motion.
+    standard: the bound where nothing is asked.  scaled: whether bounds are lengths, and that of the
+        standard is in spans of the motion.
     short: how a linkage falls short of the standard, after "it"; takes lengths with their unit.
     assumed: bounds of a family where nothing is asked, at first and where nothing keeps them;
     words: such a bound in words.  useful: what is kept even where the bound is dropped.
@@ -86,6 +87,11 @@ class Requirement:
     plain: Callable[[Any], Any] = lambda value: value
 
     @property
+    def code(self) -> str:
+        """Its name in verdicts, as a code."""
+        return self.kind.replace(" ", "-")
+
+    @property
     def argument(self) -> str:
         """The name of the option's value in a command."""
         return self.name if self.form == "names" else self.option[2:].replace("-", "_")
@@ -121,6 +127,23 @@ def number(value: object, what: str, *, infinite: bool = False) -> float:
             "E134", f"{what} is {shown(value)}, not a finite number", help="give a finite number"
         )
     return out
+
+
+def checked_number(
+    what: str, ok: Callable[[float], bool], wrong: str, why: str, help: str
+) -> Callable[[object], Any]:
+    """The check of a number, which may be infinite if that is ok: E134.
+
+    wrong: what is said of one that is not ok, with a place for it.
+    """
+
+    def checked(value: object) -> float:
+        out = number(value, what, infinite=ok(math.inf))
+        if not ok(out):
+            raise InputError("E134", wrong.format(out), why=why, help=help)
+        return out
+
+    return checked
 
 
 def above(value: float) -> str:

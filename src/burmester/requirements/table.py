@@ -6,7 +6,6 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, final
 
-from burmester.requirements.driver import DRIVER
 from burmester.requirements.footprint import FOOTPRINT
 from burmester.requirements.links import (
     CHANGE_POINT,
@@ -18,7 +17,7 @@ from burmester.requirements.links import (
 from burmester.requirements.poses import ANY_ORDER, WITHIN, WITHIN_ANGLE
 from burmester.requirements.requirement import Bounds, Requirement
 from burmester.requirements.transmission import TRANSMISSION
-from burmester.requirements.types import TYPE
+from burmester.requirements.types import DRIVER, TYPE
 
 if TYPE_CHECKING:
     import numpy as np
@@ -29,12 +28,12 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ASKED",
+    "NOT_ASKED",
     "REQUIREMENTS",
     "Violation",
     "cured",
     "excess",
     "keeps",
-    "of_kind",
     "shortcomings",
     "standard",
     "violations",
@@ -57,21 +56,22 @@ REQUIREMENTS: Final[tuple[Requirement, ...]] = (
 )
 # Those that a task may state, in the order of options, keys and arguments.
 ASKED: Final = tuple(each for each in REQUIREMENTS if each.form)
+NOT_ASKED: Final = tuple(each for each in REQUIREMENTS if not each.form)
 ROUNDING: Final = 2e-8  # excess; a linkage that falls short of the standard by less meets it
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Violation:
-    """A requirement that a linkage does not meet, and by how much."""
+    """A requirement that a linkage does not meet, or where it falls short, and by how much."""
 
     kind: str
     message: str
 
-
-def of_kind(kind: str) -> Requirement | None:
-    """What can be asked that verdicts call by this name, if anything."""
-    return next((each for each in ASKED if each.kind == kind), None)
+    @property
+    def code(self) -> str:
+        """Its kind as a code."""
+        return self.kind.replace(" ", "-")
 
 
 def _judged(bounds: Bounds) -> Iterator[tuple[Requirement, Any]]:
@@ -140,7 +140,7 @@ def standard(asked: Bounds, span: float, beside: Collection[Requirement] = ()) -
 
 def shortcomings(
     bounds: Bounds, figures: Figures, length: Callable[[float], str]
-) -> tuple[str, ...]:
+) -> tuple[Violation, ...]:
     """Where one linkage falls short of bounds, in words that follow "it"; () is good.
 
     length: a length with its unit, in words.
@@ -149,4 +149,4 @@ def shortcomings(
     for each, bound in _judged(bounds):
         if not each.excess(figures, bound) <= ROUNDING:
             out.setdefault(each.kind, each.short(figures, length))
-    return tuple(out.values())
+    return tuple(Violation(*each) for each in out.items())

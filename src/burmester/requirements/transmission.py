@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
-from burmester.errors import InputError
-from burmester.requirements.requirement import Looser, Requirement, number
+from burmester.requirements.requirement import Looser, Requirement, checked_number
 from burmester.wording import least_angle
 
 if TYPE_CHECKING:
@@ -15,18 +14,6 @@ if TYPE_CHECKING:
 __all__ = ["TRANSMISSION"]
 
 SHOWN_ANGLE = 1e-6  # degrees; a message writes a smaller angle as 0
-
-
-def _checked(value: object) -> float:
-    angle = number(value, "the least transmission angle")
-    if not 0 <= angle < 90:
-        raise InputError(
-            "E134",
-            f"a least transmission angle of {angle:g}° is impossible",
-            why="a transmission angle is between 0° and 90°",
-            help="give an angle from 0° to below 90°",
-        )
-    return angle
 
 
 def _said(figures: Figures, bound: float, _unit: str) -> str:
@@ -68,6 +55,12 @@ TRANSMISSION: Final = Requirement(
     help="Smallest transmission angle allowed while the linkage moves through the poses.",
     subject="the least transmission angle is",
     such="transmission_deg is one number, in degrees, such as 40",
-    checked=_checked,
+    checked=checked_number(
+        "the least transmission angle",
+        lambda angle: 0 <= angle < 90,
+        "a least transmission angle of {:g}° is impossible",
+        why="a transmission angle is between 0° and 90°",
+        help="give an angle from 0° to below 90°",
+    ),
     looser=_looser,
 )

@@ -51,7 +51,6 @@ from burmester.verdicts.ranking import (
     only_too_far,
     ranked,
 )
-from burmester.verdicts.standard import with_standard
 from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count, figure
 
@@ -176,9 +175,9 @@ def _by_nearest(
     asked, so that the answer can say what would do.
     """
     asked, nothing = task.requirements, Requirements()
-    usual = with_standard(nothing)
+    usual = nothing.with_standard()
     wanted, away = (
-        with_standard(asked),
+        asked.with_standard(),
         found.greatest_misses(task.poses.translation),
     )
     most = max(ERROR_RATIO * float(away.min()), SOUND_SHARE * span(task))

@@ -72,7 +72,7 @@ class FoundLinkage:
         The requirements that it violates with that driver.
     shortcomings : tuple of str
         Where it falls short of what a linkage to build is to be, where the task asks for nothing
-        (`standard`).
+        (`requirements.table`).
     quality : Quality, optional
         What a designer pays for, with the preferred driver; None where the error is infinite.
     from_search : bool

@@ -1,4 +1,4 @@
-"""The figures of a four-bar by which it is held to what is asked, and what it does not keep."""
+"""The figures of four-bars by which they are held to what is asked, and to the standard."""
 
 from __future__ import annotations
 
@@ -13,12 +13,25 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
-from burmester.requirements.table import Violation
+from burmester.requirements.links import CHANGE_POINT, EXTENT
+from burmester.requirements.requirement import Bounds, Requirement
+from burmester.requirements.table import Violation, standard
 from burmester.requirements.table import violations as violations_of
+from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import span
+from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.requirements import Requirements
 
-__all__ = ["figures_of", "four_bar_figures", "places_between", "violations"]
+__all__ = [
+    "figures_of",
+    "four_bar_figures",
+    "not_asked",
+    "places_between",
+    "standard_of",
+    "violations",
+]
 
+SAME_ANGLE = 1e-9  # radians; a body that turns by less has nothing but parallelograms
 FOOTPRINT_SAMPLES = 181  # number of places between the poses checked against the footprint
 
 
@@ -92,3 +105,14 @@ def _outside(linkage: Linkage, driven: Driven, footprint: Polygon) -> tuple[floa
             if out > worst:
                 worst, what = out, name
     return worst, what
+
+
+def standard_of(task: Task) -> Bounds:
+    """The standard of four-bars for a task; a bound that it sets itself is not asked again."""
+    return standard(task.requirements.bounds, span(task), not_asked(task))
+
+
+def not_asked(task: Task) -> tuple[Requirement, ...]:
+    """What of the standard is not asked of four-bars for a task."""
+    either = task.requirements.types is not None or rotation_range(task.poses.angle) <= SAME_ANGLE
+    return (EXTENT, CHANGE_POINT) if either else (EXTENT,)
