@@ -81,7 +81,7 @@ LINK_RATIO: Final = Requirement(
 # is hardly to be placed.
 SHORTEST_LINK: Final = Requirement(
     name="shortest_link",
-    kind="length",
+    kind="lengths",
     excess=lambda figures, bound: figures.below(figures.shortest, bound),
     standard=0.05,
     scaled=True,
@@ -89,7 +89,7 @@ SHORTEST_LINK: Final = Requirement(
 )
 LONGEST_LINK: Final = Requirement(
     name="longest_link",
-    kind="length",
+    kind="lengths",
     excess=lambda figures, bound: figures.beyond(figures.longest, bound),
     standard=10.0,
     scaled=True,

@@ -39,7 +39,7 @@ class Looser(NamedTuple):
 
 
 @final
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
 class Requirement:
     """A requirement; its bounds are as users state them, angles in degrees.
 
