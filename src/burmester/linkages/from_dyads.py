@@ -42,10 +42,11 @@ from burmester.refinement.defect_free_search import (
 )
 from burmester.refinement.kept_limits import DyadLimitsConstraint
 from burmester.refinement.kept_rail import RailConstraint
+from burmester.refinement.kept_timing import TimingConstraint
 from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
-from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.problem import SynthesisProblem, driving_side
 from burmester.verdicts.degeneracy import least_links
 from burmester.verdicts.explanation import by_nearness
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
@@ -169,6 +170,8 @@ def target_of(problem: SynthesisProblem) -> Target:
     if task.tolerances is not None:
         boxes = ToleranceBoxes.of(task.tolerances, poses, length / unit, unit)
         kept = (*kept, boxes)
+    if task.timing is not None and task.timing.conditions:
+        kept = (*kept, TimingConstraint(driving_side(task), task.timing, length / unit))
     return Target(
         poses,
         length / unit,
