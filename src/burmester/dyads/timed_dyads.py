@@ -62,7 +62,7 @@ def timed_dyads(poses: Displacement, timing: CrankTiming) -> list[RR] | None:
     None where equations are too few or too many, or leave more than two circles to intersect.
     """
     count, equations = poses.shape[0], poses.shape[0] + timing.conditions
-    if equations != DIMENSIONS or timing.conditions < 1:
+    if equations != DIMENSIONS:
         return None
     middle = poses.translation.mean(axis=0)
     own = Displacement(poses.translation - middle, poses.angle)

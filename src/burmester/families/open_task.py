@@ -112,7 +112,7 @@ class OpenTask:
             least, most = limits.length
             rail = RailFreedom.of(limits, frames)
             sides.append(DyadFreedom(*pivots, (least / unit, most / unit), kinds, rail))
-        if (timing := task.timing) is not None and timing.conditions:
+        if (timing := task.timing) is not None:
             side = driving_side(task)
             sides[side] = _timed(sides[side], target, timing)
         both = sides[0], sides[-1]

@@ -191,7 +191,8 @@ class Evaluation:
         errors, shares = self.errors(places), self.shares(places)
         sensitivity = self.sensitivities(own, places)
         verdicts = self.verdicts(own, places, errors, sensitivity)
-        combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
+        at_angles = self.target.at_angles(candidates.batch, candidates.rows)
+        combined = self.target.combined_error(at_angles) * float(self.target.frames.length)
         if self.target.path is not None:
             combined = np.array([each.worst for each in errors])
         standard = Standard.of(self.task)

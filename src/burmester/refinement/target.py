@@ -172,6 +172,14 @@ class Target:
         )
         return rows, None
 
+    def at_angles(self, batch: LinkageBatch, rows: FloatArray) -> FloatArray:
+        """Rows (k, N, 3) of places, those of timed poses where the driver is at its angle."""
+        wanted = rows_of(self.poses, self.length)
+        for each in self.kept:
+            if isinstance(each, TimingConstraint):
+                return each.timed_places(batch, rows, wanted)
+        return rows
+
     def places_of(self, rows: FloatArray) -> Displacement:
         """Rows (*, 3) as displacements."""
         return places_of(rows, self.length)

@@ -290,6 +290,8 @@ def _special_motion(problem: SynthesisProblem, findings: Sequence[Advice]) -> Sy
     for number, dyad in enumerate(kind.dyads, start=1):
         dyads.append(FoundDyad(f"D{number}", dyad, *_miss(dyad, task)))
     pairs = list(combinations(dyads, 2))
+    if task.timing is not None:  # either may be the driver
+        pairs += [pair[::-1] for pair in pairs]
     linkages = _linkages(problem.merged(), pairs, refine=False) if pairs else ()
     outcome = Outcome(kind.code, kind.message, kind.help)
     if isinstance(kind, Rest | FewPoses):  # these outcomes name the repeated poses themselves

@@ -26,6 +26,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import at_given_poses
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.synthesis.outcome import linkage_advice
+from burmester.synthesis.path_generation import different, with_rank
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import CONDITIONS, Task
@@ -38,7 +39,9 @@ from burmester.wording import count, figure
 
 __all__ = ["near_timed_poses", "of_timed_drivers"]
 
-MOST_DRIVERS, MOST_OTHERS = 12, 16  # dyads that are paired
+MOST_DRIVERS, MOST_OTHERS, MOST_PAIRS = 12, 16, 60  # dyads that are paired, and pairs refined
+SAME = 0.01  # motion sizes; linkages whose pivots and links differ by less are listed once
+SHOWN = 12  # number of linkages that are told at most
 DRAWN = {0: 60, 1: 16, 2: 16}  # dyads of each kind that are drawn where poses leave them open
 LINES = (1, 2)  # kinds of dyads with a line
 
@@ -53,10 +56,15 @@ def near_timed_poses(problem: SynthesisProblem, findings: Sequence[Advice]) -> S
         for one, other in product(*sides)
         if not same_dyad(one.dyad, other.dyad, problem.length)
     ]
-    linkages = at_given_poses(linkages_from_dyads(problem, pairs), problem)
+    pairs.sort(key=lambda pair: pair[0].rms_error + pair[1].rms_error)
+    found = linkages_from_dyads(problem, pairs[:MOST_PAIRS])
+    apart = different(found, SAME * problem.motion_size)[:SHOWN]
+    ranked = (with_rank(each, rank) for rank, each in enumerate(apart, start=1))
+    linkages = at_given_poses(tuple(ranked), problem)
     outcome = _outcome(linkages, problem)
     warnings = (*findings, *linkage_advice(problem.given, linkages, outcome.code))
-    return Synthesis(problem, outcome, tuple(dyads), linkages, warnings, fits)
+    listed = tuple(dyad for each in linkages for dyad in each.dyads)
+    return Synthesis(problem, outcome, listed, linkages, warnings, fits)
 
 
 def of_timed_drivers(problem: SynthesisProblem, outcome: Outcome) -> Outcome:

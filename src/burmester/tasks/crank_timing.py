@@ -41,7 +41,7 @@ class CrankTiming:
     Raises
     ------
     InputError
-        E186 (no row of numbers, no angle at all, a bound that is not above zero).
+        E186 (no row of numbers, too few of them, a bound that is not above zero).
 
     Examples
     --------
@@ -61,12 +61,24 @@ class CrankTiming:
 
     def __post_init__(self) -> None:
         angles = real_numbers(self.angles, (None,), "the crank angles", code="E186", finite=False)
-        if np.isinf(angles).any() or not np.isfinite(angles).any():
+        if np.isinf(angles).any():
             raise InputError(
                 "E186",
                 "the crank angles are no angles",
-                why="each is a number, or nan at a pose that is not timed; one at least is needed",
+                why="each is a number, or nan at a pose that is not timed",
                 help="give the angle of the crank at each pose, or leave the crank angles out",
+            )
+        if (known := int(np.isfinite(angles).sum())) < self._least:
+            raise InputError(
+                "E186",
+                f"{known} crank angle{'' if known == 1 else 's'}: too few to say anything",
+                why=None if self.absolute else "the angles count from the first of them",
+                help="give the crank angle at two poses or more, or leave the crank angles out"
+                + (
+                    ""
+                    if self.absolute or not known
+                    else "; or say that it is a direction on the ground, with --absolute-crank"
+                ),
             )
         if self.within is not None and not 0 < self.within < math.inf:
             raise InputError(
@@ -76,6 +88,11 @@ class CrankTiming:
             )
         angles.setflags(write=False)
         object.__setattr__(self, "angles", angles)
+
+    @property
+    def _least(self) -> int:
+        """How many angles say anything."""
+        return 1 if self.absolute else 2
 
     @property
     def timed(self) -> NDArray[np.intp]:
@@ -111,17 +128,19 @@ class CrankTiming:
         return USUAL_SHARE * max(float(steps.max()), math.radians(1.0))
 
     def at(self, index: NDArray[np.intp]) -> CrankTiming | None:
-        """The same at some poses; None where none of them is timed."""
+        """The same at some poses; None where it says nothing of them."""
         angles = self.angles[index]
-        if not np.isfinite(angles).any():
+        if int(np.isfinite(angles).sum()) < self._least:
             return None
         return CrankTiming(angles, self.absolute, self.within)
 
-    def merged(self, group: NDArray[np.intp]) -> CrankTiming:
+    def merged(self, group: NDArray[np.intp]) -> CrankTiming | None:
         """The same with repeated poses once; group: (N,), which of the distinct ones each is."""
         angles = np.full(int(group.max()) + 1, np.nan)
         for k in self.timed[::-1].tolist():
             angles[group[k]] = self.angles[k]
+        if int(np.isfinite(angles).sum()) < self._least:
+            return None
         return CrankTiming(angles, self.absolute, self.within)
 
     def missed(self, inputs: ArrayLike) -> FloatArray:

@@ -434,7 +434,7 @@ def _task(
     body, body_notes = outlines.body_beside(table.body, table.length_unit)
     around, region_notes = outlines.surroundings_beside(table.surroundings, table.length_unit)
     numbers = 2 * rows.points or 3  # in a row, before its weight
-    path, timing = _timing(table, crank, angle_unit)
+    path, timing = _timing(table, crank, angle_unit, clockwise="clockwise" in convention)
     if table.tolerance and tolerance:
         message = "the tolerance of all poses is in the file and in --pose-tolerance"
         where = one_line(table.tolerance.where, tolerance.where)
@@ -488,7 +488,7 @@ def _radians(degrees: float | None) -> float | None:
 
 
 def _timing(
-    table: PoseTable, asked: CrankOptions, angle_unit: str | None
+    table: PoseTable, asked: CrankOptions, angle_unit: str | None, *, clockwise: bool
 ) -> tuple[TracedPath | None, CrankTiming | None]:
     """How the crank times the rows: of points alone a path, else the poses; raises E186."""
     options = CrankOptions(
@@ -511,7 +511,7 @@ def _timing(
             "the unit of the crank angles is not stated",
             help="name the column crank_deg or crank_rad",
         )
-    angles = np.radians(given) if unit == "deg" else given
+    angles = (np.radians(given) if unit == "deg" else given) * (-1.0 if clockwise else 1.0)
     if np.isnan(table.rows.values[:, 2]).all() and not table.rows.points:
         closed = path is not None and path.closed
         return TracedPath(closed, _all_timed(angles)), None
