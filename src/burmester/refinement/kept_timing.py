@@ -68,8 +68,8 @@ class TimingConstraint:
     def timed_places(self, batch: LinkageBatch, rows: FloatArray, wanted: FloatArray) -> FloatArray:
         """Rows (k, N, 3) like those of places, at timed poses where the driver is at its angle.
 
-        Of all angles by which those may be shifted the one nearest to rows wanted (N, 3).  Places
-        stay where they are where the linkage does not get to all its angles.
+        Of all angles by which those may be shifted the one nearest to rows wanted (N, 3).  Where
+        the linkage does not get to all its angles, what its driver lacks is a turn of the body.
         """
         index, out = self.timing.timed, rows.copy()
         loop = DrivenLoop.of(batch.exchanged() if self.side else batch)
@@ -80,7 +80,7 @@ class TimingConstraint:
             away = wrapped_angle(gap - gap[:, :1])
             phase = gap[:, 0] + away.mean(axis=1)
             reach = np.abs(away - away.mean(axis=1, keepdims=True)).max(axis=1)
-        every, tried = np.arange(len(batch)), np.linspace(-1, 1, PHASES)
+        start, every, tried = phase, np.arange(len(batch)), np.linspace(-1, 1, PHASES)
         for _ in range(1 if self.timing.absolute else ROUNDS):
             phases = phase[:, None] + reach[:, None] * tried  # (k, p)
             there = loop.closed_at(phases[..., None] + self.timing.turns)
@@ -99,6 +99,8 @@ class TimingConstraint:
             own = own[every, best]
         whole = np.isfinite(own).all(axis=(1, 2))
         out[np.ix_(np.flatnonzero(whole), index)] = own[whole]
+        lacking = np.abs(wrapped_angle(gap - start[:, None])) * self.length
+        out[np.ix_(np.flatnonzero(~whole), index, [2])] += lacking[~whole][..., None]
         return out
 
     def _missed(self, drive: FloatArray) -> ConstraintValues:

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.numerics.arrays import FloatArray, median, wrapped_angle
 from burmester.values import real_numbers
 
 __all__ = ["CrankTiming"]
@@ -146,8 +146,8 @@ class CrankTiming:
     def missed(self, inputs: ArrayLike) -> FloatArray:
         """How far driver angles (*, N) are from those stated (*, N), signed; nan where untimed.
 
-        The one angle by which all of those may be shifted is the one that makes the worst miss
-        least.  Along a stated sense whole turns count.
+        The one angle by which all of those may be shifted is the median of the gaps, so that one
+        wrong angle stands out.  Along a stated sense whole turns count.
         """
         gap = np.asarray(inputs, dtype=np.float64) - self.angles
         index = self.timed
@@ -157,7 +157,7 @@ class CrankTiming:
         elif self.absolute:
             known = known - 2 * math.pi * np.round(known[..., :1] / (2 * math.pi))
         if not self.absolute:
-            known = known - (known.max(axis=-1, keepdims=True) + known.min(-1, keepdims=True)) / 2
+            known = known - median(known, axis=-1)
         out = np.full(gap.shape, np.nan)
         out[..., index] = known
         return out
