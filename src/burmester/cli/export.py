@@ -128,9 +128,7 @@ def export(
             chosen, warnings = export_choice(functions, linkage), functions.synthesis.warnings
         else:
             read = read_result(result, data)
-            six_bar = read.choose_six_bar(linkage)
-            chosen = read.choose(linkage) if six_bar is None else six_bar
-            warnings = read.synthesis.warnings
+            chosen, warnings = read.choose(linkage), read.synthesis.warnings
     for each in warnings:
         if each.code == JUDGED_OTHERWISE:  # the others were said when the result was made
             show("warning", each, console())

@@ -200,7 +200,7 @@ class FunctionResult(NamedTuple):
                 why="it has none",
                 help="`burmester explain R361` says more",
             )
-        return named(every, id, "linkage", self.label, self.refused)
+        return named(every, id, self.label, self.refused)
 
 
 def is_function_result(data: bytes) -> bool:
