@@ -77,9 +77,9 @@ def critical_points(
         for first in range(0, len(easy), TASKS_AT_ONCE):
             index = easy[first : first + TASKS_AT_ONCE]
             points[index], charts[index] = _generic_points(scaled[index], far[index])
-        for task in np.flatnonzero(charts == 0).tolist():
-            some, charts[task], health[task] = _all_points(scaled[task], int(far[task]))
-            points[task, : len(some)] = some[:COUNT]
+        for hard in np.flatnonzero(charts == 0).tolist():
+            some, charts[hard], health[hard] = _all_points(scaled[hard], int(far[hard]))
+            points[hard, : len(some)] = some[:COUNT]
     size = 1 + np.linalg.norm(points, axis=-1)
     real = np.linalg.norm(points.imag, axis=-1) < REAL_TOLERANCE * size
     points[real] = points[real].real
