@@ -35,6 +35,7 @@ __all__ = [
 ]
 
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
+MOST_TURN = math.pi / 2  # radians; a crank that is off by more is no crank at these angles
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
 
 
@@ -195,7 +196,14 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
             options += error_bounds(found, problem)
         else:
             return ()
-    cures = cured(found.violations, asked.bounds, found.figures)
+    for each in found.violations:
+        if each.kind == "timing" and found.timing_error is not None:
+            away = float(np.nanmax(np.abs(found.timing_error), initial=0.0))
+            if not 0 < away < MOST_TURN:
+                return ()
+            options.append(f"--within-crank {above(math.degrees(away))}")
+    others = [each for each in found.violations if each.kind != "timing"]
+    cures = cured(others, asked.bounds, found.figures)
     if cures is None:
         return ()
     options += cures
