@@ -110,7 +110,7 @@ def judge(
 
     Returns
     -------
-    Result or SixBarResult
+    Result
         The given linkage as L1, with its errors and its verdict, then the better ones.  Of a
         six-bar it alone, as S1.
 
@@ -143,7 +143,7 @@ def judge(
         given = _linkage(linkage, id, task.length_unit)
         if isinstance(given, Mechanism):
             _require_none(improve=improve, norm=norm != "rms", tolerance=manufacturing_tolerance)
-            return SixBarResult(judge_six_bar(task, given, options))
+            return Result.of(judge_six_bar(task, given, options))
         return Result.of(judge_linkage(task, given, options, improve=improve))
 
 

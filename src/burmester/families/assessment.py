@@ -27,15 +27,14 @@ from burmester.fourbar.traversal import (
     traversal_of,
 )
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
+from burmester.requirements.figures import Figures
 from burmester.requirements.footprint import FOOTPRINT
-from burmester.requirements.requirement import Figures
 from burmester.requirements.table import excess
 from burmester.verdicts.degeneracy import MAX_SENSITIVITY
 from burmester.verdicts.quality import proportions
-from burmester.verdicts.requirement_check import figures_of
+from burmester.verdicts.requirement_check import figures_of, outside
 from burmester.verdicts.tolerances import sensitivity_bound
 
 __all__ = ["AIMS", "Assessment", "assessed", "costs"]
@@ -137,7 +136,7 @@ def _of_alike(
         figures = _figures(linkage, transmission, traversal)
         if (area := conditions.asked.get(FOOTPRINT)) is not None:
             figures = figures._replace(
-                outside=_outside(linkage, _frames(traversal.circuits, ends), area)
+                outside=outside(linkage, _frames(traversal.circuits, ends), area)
             )
         violation = violation + excess(conditions.asked, figures)
         if frozenset({type(linkage.first), type(linkage.second)}) not in conditions.kinds:
@@ -177,20 +176,6 @@ def _frames(circuits: Circuits, ends: FloatArray) -> Displacement:
     """Places (k, FRAMES) of the coupler along a range of parameters (k, 2)."""
     share = np.linspace(0.0, 1.0, FRAMES)
     return circuits.couplers(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * share)
-
-
-def _pivots(linkage: Linkage, frames: Displacement) -> list[FloatArray]:
-    """All pivots (k, *, 2) over places (k, FRAMES)."""
-    dyads = linkage.first, linkage.second
-    fixed = [dyad.fixed_pivot[:, None] for dyad in dyads if isinstance(dyad, RR | RP)]
-    moving = [dyad.moving_pivot[:, None] for dyad in dyads if isinstance(dyad, RR | PR)]
-    return fixed + [frames.act(each) for each in moving]
-
-
-def _outside(linkage: Linkage, frames: Displacement, footprint: Polygon) -> FloatArray:
-    """How far pivots (k,) leave the footprint."""
-    points = np.concatenate(_pivots(linkage, frames), axis=1)
-    return np.asarray(footprint.distance(points).max(axis=1))
 
 
 def _beyond(

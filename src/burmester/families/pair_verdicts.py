@@ -39,8 +39,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 from burmester.verdicts.assumptions import Assumptions
-from burmester.verdicts.requirement_check import figures_of
-from burmester.verdicts.standard import standard_of
+from burmester.verdicts.requirement_check import figures_of, outside, standard_of
 
 __all__ = [
     "CLASS_WORDS",
@@ -101,7 +100,7 @@ class PairBounds:
 
     @classmethod
     def of(cls, task: Task) -> Self:
-        """The standard of `verdicts.standard`, and what the task asks."""
+        """The standard of `requirements.table`, and what the task asks."""
         return cls({**task.requirements.bounds, **standard_of(task)})
 
     @classmethod
@@ -221,27 +220,19 @@ def _as_asked(
     good = keeps(bounds.asked, figures_of(side, ranged.least_transmission, turns))
     if (footprint := bounds.asked.get(FOOTPRINT)) is not None:
         some = np.flatnonzero(good)
-        good[some] = _within_footprint(side, traversal, some, footprint)
+        good[some] = _outside(side, traversal, some, footprint) <= FOOTPRINT.slack(footprint)
     return good
 
 
-def _within_footprint(
+def _outside(
     side: Linkage, traversal: Traversal, some: NDArray[np.intp], footprint: Polygon
-) -> BoolArray:
-    """Whether all pivots of some linkages (n,) stay in a footprint, at samples of their motions."""
+) -> FloatArray:
+    """How far pivots of some linkages (n,) leave a footprint, at samples of their motions."""
     along = traversal.order.along[some]
     share = np.linspace(0, 1, FOOTPRINT_SAMPLES)
     low, high = along.min(axis=1, keepdims=True), along.max(axis=1, keepdims=True)
     places = traversal.circuits[some].couplers(low + share * (high - low))
-    slack = MET * float(np.ptp(footprint.vertices, axis=0).max())
-    inside = np.ones(len(some), dtype=bool)
-    for dyad in (side.first, side.second):
-        if isinstance(dyad, RR | RP):
-            inside &= footprint.distance(dyad.fixed_pivot[some]) <= slack
-        if isinstance(dyad, RR | PR):
-            points = places.act(dyad.moving_pivot[some, None])
-            inside &= (footprint.distance(points) <= slack).all(axis=1)
-    return inside
+    return outside(Linkage(side.first[some], side.second[some]), places, footprint)
 
 
 def _within_limits(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple, final
 
 import numpy as np
@@ -30,8 +31,9 @@ from burmester.refinement.tolerance_boxes import (
     poses_counted,
     shares_used,
 )
-from burmester.requirements.table import Violation
+from burmester.requirements.table import Violation, shortcomings
 from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import length_of
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.clearance_check import clearance_of, too_close
@@ -41,8 +43,8 @@ from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.possible_types import links_covariance, possible_types
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
-from burmester.verdicts.requirement_check import places_between, violations
-from burmester.verdicts.standard import falls_short, standard_of
+from burmester.verdicts.requirement_check import places_between, standard_of, violations
+from burmester.verdicts.timing_check import mistimed, timing_error
 from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
 from burmester.verdicts.tracing import stray_defects, stray_shortcomings
@@ -191,10 +193,11 @@ class Evaluation:
         errors, shares = self.errors(places), self.shares(places)
         sensitivity = self.sensitivities(own, places)
         verdicts = self.verdicts(own, places, errors, sensitivity)
-        combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
+        at_angles = self.target.at_angles(candidates.batch, candidates.rows)
+        combined = self.target.combined_error(at_angles) * float(self.target.frames.length)
         if self.target.path is not None:
             combined = np.array([each.worst for each in errors])
-        standard = standard_of(self.task)
+        bounds, length = standard_of(self.task), partial(length_of, task=self.task)
         distance = np.abs(own.distances(self.task.poses))
         rms, worst = np.sqrt((distance**2).mean(axis=-1)).tolist(), distance.max(axis=-1).tolist()
         sides = np.tile(np.arange(2), (len(own), 1))
@@ -232,7 +235,9 @@ class Evaluation:
                 within_tolerance=None if shares is None else shares[k],
                 task=self.problem.given,
             )
-            out.append(replace(found, shortcomings=falls_short(found, self.task, standard)))
+            found = replace(found, timing_error=timing_error(found.driven.inputs, self.task))
+            below = shortcomings(bounds, found.figures, length)
+            out.append(replace(found, shortcomings=tuple(each.message for each in below)))
         for k, strays in enumerate(stray_shortcomings(out, self.task)):
             if strays:
                 out[k] = replace(out[k], shortcomings=(*out[k].shortcomings, *strays))
@@ -391,7 +396,7 @@ class Evaluation:
 
         Requirements depend on the driver, limits do not.
         """
-        asked = self.task.requirements
+        asked, stated = self.task.requirements, self.problem.given.requirements
         sides: tuple[Side, ...] = SIDES if settled is None else (settled,)
         if asked.driver in sides:
             sides = (asked.driver,)
@@ -399,8 +404,10 @@ class Evaluation:
         def merit(side: Side) -> tuple[tuple[float, ...], tuple[Violation, ...]]:
             driven = verdict.first if side == "first" else verdict.second
             missing = violations(
-                with_driver_first(linkage, side), driven, asked, self.task.length_unit
+                with_driver_first(linkage, side), driven, stated, self.task.length_unit
             )
+            if self.task.timing is not None:
+                missing += mistimed(driven.inputs, self.task, self.problem.pose_numbers)
             wrong = len(driven.defects), len(missing)
             least = driven.least_over_range
             weak = 0.0 if math.isnan(least) else -round(least, 6)  # no rounding decides
@@ -520,6 +527,9 @@ def at_given_poses(
             within_tolerance=None
             if each.within_tolerance is None
             else shares_used(each.error.places[group], given, problem.length),
+            timing_error=None
+            if each.timing_error is None
+            else timing_error(each.driven.inputs[group], given),
         )
         for each in found
     )

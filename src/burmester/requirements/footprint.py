@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Final
-
-import numpy as np
+from typing import TYPE_CHECKING, Final
 
 from burmester.errors import InputError
-from burmester.geometry.regions import Polygon, require_searchable
-from burmester.requirements.requirement import Figures, Requirement
+from burmester.requirements.requirement import Requirement
 from burmester.wording import figure
+
+if TYPE_CHECKING:
+    from burmester.geometry.regions import Polygon
+    from burmester.requirements.figures import Figures
 
 __all__ = ["FOOTPRINT"]
 
 
-def _checked(value: object) -> Polygon | None:
-    if value is None:
-        return None
+def _checked(value: object) -> Polygon:
+    # Options are told without NumPy.
+    from burmester.geometry.regions import Polygon, require_searchable  # noqa: PLC0415
+
     if not isinstance(value, Polygon):
         raise InputError(
             "E134",
@@ -36,15 +38,17 @@ def _said(figures: Figures, _bound: object, unit: str) -> str:
 FOOTPRINT: Final = Requirement(
     name="footprint",
     kind="footprint",
-    excess=lambda figures, _bound: np.maximum(figures.outside, 0.0),
+    excess=lambda figures, _bound: figures.none + figures.outside,
     said=_said,
-    slack=lambda area: 1e-9 * float(np.ptp(area.vertices, axis=0).max()) if area else 0.0,
+    slack=lambda area: 1e-9 * float((area.vertices.max(axis=0) - area.vertices.min(axis=0)).max()),
     form="area",
     option="--footprint",
     metavar="REGION",
     help="A box or a polygon on the ground; all pivots stay inside it while the linkage moves "
     "through the poses.",
     subject="the footprint is",
+    such="a footprint has one key: box with two points [[X, Y], [X, Y]], or polygon with three or "
+    "more",
     checked=_checked,
     plain=lambda area: {"polygon": area.vertices.tolist()} if area else None,
 )

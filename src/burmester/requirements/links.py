@@ -6,35 +6,20 @@ Only the ratio can be asked for; the others belong to the standard of linkages t
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-import numpy as np
-
-from burmester.errors import InputError
 from burmester.requirements.requirement import (
-    Figures,
     Looser,
     Requirement,
     above,
-    at_least,
-    at_most,
-    number,
+    checked_number,
 )
 from burmester.wording import figure
 
+if TYPE_CHECKING:
+    from burmester.requirements.figures import Figures
+
 __all__ = ["CHANGE_POINT", "EXTENT", "LINK_RATIO", "LONGEST_LINK", "SHORTEST_LINK"]
-
-
-def _checked(value: object) -> float:
-    ratio = number(value, "the greatest link ratio", infinite=True)
-    if ratio < 1:
-        raise InputError(
-            "E134",
-            f"a link ratio of at most {ratio:g} is impossible",
-            why="the longest of the four links is never shorter than the shortest",
-            help="give a ratio of 1 or more, such as 5",
-        )
-    return ratio
 
 
 def _said(figures: Figures, bound: float, _unit: str) -> str:
@@ -70,7 +55,7 @@ def _length_words(figures: Figures, length: str) -> str:
 LINK_RATIO: Final = Requirement(
     name="link_ratio",
     kind="link ratio",
-    excess=lambda figures, bound: at_most(figures.ratio, bound),
+    excess=lambda figures, bound: figures.beyond(figures.ratio, bound),
     said=_said,
     standard=10.0,
     short=_short,
@@ -82,24 +67,30 @@ LINK_RATIO: Final = Requirement(
     metavar="R",
     help="Longest link divided by the shortest, at most.",
     subject="the greatest link ratio is",
-    such="is one number, such as 5",
-    checked=_checked,
+    such="link_ratio is one number, such as 5",
+    checked=checked_number(
+        "the greatest link ratio",
+        lambda ratio: ratio >= 1,
+        "a link ratio of at most {:g} is impossible",
+        why="the longest of the four links is never shorter than the shortest",
+        help="give a ratio of 1 or more, such as 5",
+    ),
     looser=_looser,
 )
 # In spans of the motion: a shorter link magnifies the errors of its pins at the body; a longer one
 # is hardly to be placed.
 SHORTEST_LINK: Final = Requirement(
     name="shortest_link",
-    kind="length",
-    excess=lambda figures, bound: at_least(figures.shortest, bound),
+    kind="lengths",
+    excess=lambda figures, bound: figures.below(figures.shortest, bound),
     standard=0.05,
     scaled=True,
     short=lambda figures, length: _length_words(figures, length(figures.shortest)),
 )
 LONGEST_LINK: Final = Requirement(
     name="longest_link",
-    kind="length",
-    excess=lambda figures, bound: at_most(figures.longest, bound),
+    kind="lengths",
+    excess=lambda figures, bound: figures.beyond(figures.longest, bound),
     standard=10.0,
     scaled=True,
     short=lambda figures, length: _length_words(figures, length(figures.longest)),
@@ -108,14 +99,14 @@ LONGEST_LINK: Final = Requirement(
 CHANGE_POINT: Final = Requirement(
     name="change_point",
     kind="change point",
-    excess=lambda figures, bound: np.fmax(bound - np.asarray(figures.change), 0.0) / bound,
+    excess=lambda figures, bound: figures.lack(figures.change, bound) / bound,
     standard=1e-3,
     short=lambda _figures, _length: "is at a change point",
 )
 EXTENT: Final = Requirement(
     name="extent",
     kind="extent",
-    excess=lambda figures, bound: at_most(figures.extent, bound),
+    excess=lambda figures, bound: figures.beyond(figures.extent, bound),
     standard=4.0,
     scaled=True,
     short=lambda figures, length: f"needs room of {length(figures.extent)}",

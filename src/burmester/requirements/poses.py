@@ -2,39 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from typing import Final
 
-import numpy as np
-
 from burmester.errors import InputError
-from burmester.requirements.requirement import Requirement, number
-from burmester.values import shown
+from burmester.requirements.requirement import Requirement, checked_number, shown
 
 __all__ = ["ANY_ORDER", "WITHIN", "WITHIN_ANGLE"]
 
 
-def _bound(what: str, degree: str, such: str) -> Callable[[object], float | None]:
-    """The check of a greatest error."""
-
-    def checked(value: object) -> float | None:
-        if value is None:
-            return None
-        bound = number(value, what)
-        if bound <= 0:
-            raise InputError(
-                "E134",
-                f"an error of at most {bound:g}{degree} is impossible",
-                why="no pose is met better than rounding allows",
-                help=f"give {such} above zero, and mark poses that must be met exactly",
-            )
-        return bound
-
-    return checked
-
-
 def _flag(value: object) -> bool:
-    if not isinstance(value, bool | np.bool_):
+    if type(value).__name__ not in ("bool", "bool_"):  # Python's, or NumPy's
         raise InputError(
             "E134",
             f"any_order is {shown(value)}, neither true nor false",
@@ -50,8 +28,14 @@ WITHIN: Final = Requirement(
     metavar="LENGTH",
     help="Largest position error allowed at a pose.",
     subject="the greatest acceptable error is",
-    such="is one length in the unit of the poses, such as 0.5",
-    checked=_bound("the greatest acceptable error", "", "a length"),
+    such="within is one length in the unit of the poses, such as 0.5",
+    checked=checked_number(
+        "the greatest acceptable error",
+        lambda error: 0 < error < math.inf,
+        "an error of at most {:g} is impossible",
+        why="no pose is met better than rounding allows",
+        help="give a length above zero, and mark poses that must be met exactly",
+    ),
 )
 WITHIN_ANGLE: Final = Requirement(
     name="within_deg",
@@ -61,8 +45,14 @@ WITHIN_ANGLE: Final = Requirement(
     help="Largest angle error allowed at a pose; by default the angle that counts as much as "
     "the position error of --within.",
     subject="the greatest acceptable angle error is",
-    such="is one angle in degrees, such as 2",
-    checked=_bound("the greatest acceptable angle error", "°", "an angle"),
+    such="within_deg is one angle in degrees, such as 2",
+    checked=checked_number(
+        "the greatest acceptable angle error",
+        lambda error: 0 < error < math.inf,
+        "an error of at most {:g}° is impossible",
+        why="no pose is met better than rounding allows",
+        help="give an angle above zero, and mark poses that must be met exactly",
+    ),
 )
 ANY_ORDER: Final = Requirement(
     name="any_order",
@@ -71,5 +61,6 @@ ANY_ORDER: Final = Requirement(
     option="--any-order",
     help="The poses may be met in any order.",
     subject="the order of the poses is",
+    such="write true or false",
     checked=_flag,
 )

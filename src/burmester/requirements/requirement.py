@@ -9,54 +9,25 @@ import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from numbers import Real
-from typing import Any, Literal, NamedTuple, TypeAlias, final
-
-import numpy as np
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 
 from burmester.errors import InputError
-from burmester.numerics.arrays import FloatArray
-from burmester.values import shown
+
+if TYPE_CHECKING:  # options are told without NumPy
+    from burmester.numerics.arrays import FloatArray
+    from burmester.requirements.figures import Figures
 
 __all__ = [
     "Bounds",
-    "Figures",
     "Form",
     "Looser",
     "Requirement",
-    "Values",
     "above",
-    "at_least",
-    "at_most",
-    "number",
+    "checked_number",
+    "shown",
 ]
 
-Values: TypeAlias = Any  # a number, or an array (*,) of them
 Form: TypeAlias = Literal["number", "names", "choice", "area", "flag"]
-
-
-class Figures(NamedTuple):
-    """What linkages (*,) measure and do; nan where they have no such figure.
-
-    transmission: the least angle over the range, radians.
-    shortest, longest: of the links, lengths; ratio: of four links, the longest to the shortest.
-    change: the least Grashof excess, as a share of all four links.
-    type: a number in `fourbar.linkage.TYPES`.  turns: whether the driver turns fully.
-    outside: how far a pivot leaves the footprint, a length; pivot: which one, in words.
-    extent: of all joints over the range, a length.
-    joints: whether lengths are distances between joints of links with more than two.
-    """
-
-    transmission: Values = math.nan
-    shortest: Values = math.nan
-    longest: Values = math.nan
-    ratio: Values = math.nan
-    change: Values = math.nan
-    type: Values = -1
-    turns: Values = True
-    outside: Values = 0.0
-    pivot: str = ""
-    extent: Values = math.nan
-    joints: bool = False
 
 
 class Looser(NamedTuple):
@@ -68,7 +39,7 @@ class Looser(NamedTuple):
 
 
 @final
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
 class Requirement:
     """A requirement; its bounds are as users state them, angles in degrees.
 
@@ -77,13 +48,14 @@ class Requirement:
         1; 0 keeps it, and so does nan.
     said: what a linkage does that exceeds a bound, after "it" or a name; takes a unit of lengths.
     slack: what may be exceeded; by rounding a bound is missed by less.
-    standard: the bound where nothing is asked; scaled: whether it is in spans of the motion.
+    standard: the bound where nothing is asked.  scaled: whether bounds are lengths, and that of the
+        standard is in spans of the motion.
     short: how a linkage falls short of the standard, after "it"; takes lengths with their unit.
     assumed: bounds of a family where nothing is asked, at first and where nothing keeps them;
     words: such a bound in words.  useful: what is kept even where the bound is dropped.
     form: how it is written; None where nobody asks for it.  default: what asks for nothing.
     option, metavar, help: on the command line; `subject` "is given twice".
-    such: what stands in a file, after its key.
+    such: what stands in a file.
     checked: the value of what a caller gives; raises InputError E134.
     looser: a bound that the figures of one linkage keep, or that is a share of the way to it, or
         more; None where no such bound helps.
@@ -92,7 +64,7 @@ class Requirement:
 
     name: str
     kind: str = ""
-    excess: Callable[[Figures, Any], FloatArray] = lambda _figures, _bound: np.zeros(())
+    excess: Callable[[Figures, Any], FloatArray] = lambda figures, _bound: figures.none
     said: Callable[[Figures, Any, str], str] = lambda _figures, _bound, _unit: ""
     slack: Callable[[Any], float] = lambda _: 1e-9
     standard: Any = None
@@ -115,6 +87,11 @@ class Requirement:
     plain: Callable[[Any], Any] = lambda value: value
 
     @property
+    def code(self) -> str:
+        """Its name in verdicts, as a code."""
+        return self.kind.replace(" ", "-")
+
+    @property
     def argument(self) -> str:
         """The name of the option's value in a command."""
         return self.name if self.form == "names" else self.option[2:].replace("-", "_")
@@ -126,6 +103,13 @@ class Requirement:
 
 
 Bounds: TypeAlias = Mapping[Requirement, Any]
+
+
+def shown(value: object) -> str:
+    """A value in short, as messages quote it."""
+    from burmester.values import shown as in_short  # noqa: PLC0415  it loads NumPy
+
+    return in_short(value)
 
 
 def number(value: object, what: str, *, infinite: bool = False) -> float:
@@ -145,16 +129,21 @@ def number(value: object, what: str, *, infinite: bool = False) -> float:
     return out
 
 
-def at_least(figure: Values, bound: float) -> FloatArray:
-    """How far figures (*,) are below a bound, as logarithms of ratios; nan keeps it."""
-    with np.errstate(divide="ignore"):
-        return np.asarray(np.log(np.fmax(bound / np.maximum(figure, 1e-300), 1.0)))
+def checked_number(
+    what: str, ok: Callable[[float], bool], wrong: str, why: str, help: str
+) -> Callable[[object], Any]:
+    """The check of a number, which may be infinite if that is ok: E134.
 
+    wrong: what is said of one that is not ok, with a place for it.
+    """
 
-def at_most(figure: Values, bound: float) -> FloatArray:
-    """How far figures (*,) are above a bound, as logarithms of ratios; nan keeps it."""
-    with np.errstate(divide="ignore"):  # of poses at one place the bound is zero
-        return np.asarray(np.log(np.fmax(np.asarray(figure) / bound, 1.0)))
+    def checked(value: object) -> float:
+        out = number(value, what, infinite=ok(math.inf))
+        if not ok(out):
+            raise InputError("E134", wrong.format(out), why=why, help=help)
+        return out
+
+    return checked
 
 
 def above(value: float) -> str:

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Final, final
+from typing import TYPE_CHECKING, Any, Final, final
 
-import numpy as np
-
-from burmester.numerics.arrays import FloatArray
-from burmester.requirements.driver import DRIVER
 from burmester.requirements.footprint import FOOTPRINT
 from burmester.requirements.links import (
     CHANGE_POINT,
@@ -19,17 +15,25 @@ from burmester.requirements.links import (
     SHORTEST_LINK,
 )
 from burmester.requirements.poses import ANY_ORDER, WITHIN, WITHIN_ANGLE
-from burmester.requirements.requirement import Bounds, Figures, Requirement
+from burmester.requirements.requirement import Bounds, Requirement
 from burmester.requirements.transmission import TRANSMISSION
-from burmester.requirements.types import TYPE
+from burmester.requirements.types import DRIVER, TYPE
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from burmester.numerics.arrays import FloatArray
+    from burmester.requirements.figures import Figures
 
 __all__ = [
     "ASKED",
+    "NOT_ASKED",
     "REQUIREMENTS",
     "Violation",
+    "cured",
     "excess",
     "keeps",
-    "of_kind",
     "shortcomings",
     "standard",
     "violations",
@@ -52,21 +56,22 @@ REQUIREMENTS: Final[tuple[Requirement, ...]] = (
 )
 # Those that a task may state, in the order of options, keys and arguments.
 ASKED: Final = tuple(each for each in REQUIREMENTS if each.form)
-ROUNDING: Final = 1e-8  # excess; a linkage that falls short of the standard by less meets it
+NOT_ASKED: Final = tuple(each for each in REQUIREMENTS if not each.form)
+ROUNDING: Final = 2e-8  # excess; a linkage that falls short of the standard by less meets it
 
 
 @final
 @dataclass(frozen=True, slots=True)
 class Violation:
-    """A requirement that a linkage does not meet, and by how much."""
+    """A requirement that a linkage does not meet, or where it falls short, and by how much."""
 
     kind: str
     message: str
 
-
-def of_kind(kind: str) -> Requirement | None:
-    """What can be asked that verdicts call by this name, if anything."""
-    return next((each for each in ASKED if each.kind == kind), None)
+    @property
+    def code(self) -> str:
+        """Its kind as a code."""
+        return self.kind.replace(" ", "-")
 
 
 def _judged(bounds: Bounds) -> Iterator[tuple[Requirement, Any]]:
@@ -79,12 +84,12 @@ def excess(bounds: Bounds, figures: Figures) -> FloatArray:
     Radians, logarithms of ratios, lengths, and 1 for what is kept or not, in one sum.
     """
     parts = (each.excess(figures, bound) for each, bound in _judged(bounds))
-    return np.asarray(sum(parts, start=np.zeros(np.shape(figures.transmission))))
+    return sum(parts, start=figures.none)
 
 
-def keeps(bounds: Bounds, figures: Figures) -> np.ndarray[Any, np.dtype[np.bool_]]:
+def keeps(bounds: Bounds, figures: Figures) -> NDArray[np.bool_]:
     """Whether linkages (*,) keep bounds but for rounding: (*,)."""
-    out = np.ones((), dtype=bool)
+    out: NDArray[np.bool_] = figures.none == 0
     for each, bound in _judged(bounds):
         out = out & (each.excess(figures, bound) <= each.slack(bound))
     return out
@@ -108,6 +113,16 @@ def violations(bounds: Bounds, figures: Figures, unit: str | None) -> tuple[Viol
     )
 
 
+def cured(violated: Sequence[Violation], asked: Bounds, figures: Figures) -> list[str] | None:
+    """The options with which one linkage keeps what it violates; None where no option helps."""
+    of_kind = {each.kind: each for each in asked}
+    cures = [
+        each.kind in of_kind and of_kind[each.kind].cure(asked[of_kind[each.kind]], figures)
+        for each in violated
+    ]
+    return [cure for cure in cures if cure] if all(cures) else None
+
+
 def standard(asked: Bounds, span: float, beside: Collection[Requirement] = ()) -> Bounds:
     """The bounds of a linkage to build that a task does not set itself.
 
@@ -125,7 +140,7 @@ def standard(asked: Bounds, span: float, beside: Collection[Requirement] = ()) -
 
 def shortcomings(
     bounds: Bounds, figures: Figures, length: Callable[[float], str]
-) -> tuple[str, ...]:
+) -> tuple[Violation, ...]:
     """Where one linkage falls short of bounds, in words that follow "it"; () is good.
 
     length: a length with its unit, in words.
@@ -134,4 +149,4 @@ def shortcomings(
     for each, bound in _judged(bounds):
         if not each.excess(figures, bound) <= ROUNDING:
             out.setdefault(each.kind, each.short(figures, length))
-    return tuple(out.values())
+    return tuple(Violation(*each) for each in out.items())

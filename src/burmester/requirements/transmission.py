@@ -3,35 +3,17 @@
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-import numpy as np
-
-from burmester.errors import InputError
-from burmester.numerics.arrays import FloatArray
-from burmester.requirements.requirement import Figures, Looser, Requirement, number
+from burmester.requirements.requirement import Looser, Requirement, checked_number
 from burmester.wording import least_angle
+
+if TYPE_CHECKING:
+    from burmester.requirements.figures import Figures
 
 __all__ = ["TRANSMISSION"]
 
 SHOWN_ANGLE = 1e-6  # degrees; a message writes a smaller angle as 0
-
-
-def _checked(value: object) -> float:
-    angle = number(value, "the least transmission angle")
-    if not 0 <= angle < 90:
-        raise InputError(
-            "E134",
-            f"a least transmission angle of {angle:g}° is impossible",
-            why="a transmission angle is between 0° and 90°",
-            help="give an angle from 0° to below 90°",
-        )
-    return angle
-
-
-def _excess(figures: Figures, bound: float) -> FloatArray:
-    short = math.radians(bound) - np.asarray(figures.transmission)
-    return np.where(short <= 0, 0.0, np.nan_to_num(short, nan=math.inf))
 
 
 def _said(figures: Figures, bound: float, _unit: str) -> str:
@@ -59,7 +41,7 @@ def _looser(bound: float, figures: Figures, share: float) -> Looser | None:
 TRANSMISSION: Final = Requirement(
     name="transmission_deg",
     kind="transmission",
-    excess=_excess,
+    excess=lambda figures, bound: figures.lack(figures.transmission, math.radians(bound), math.inf),
     said=_said,
     standard=30.0,  # degrees; below it friction and play grow quickly
     short=lambda figures, _: f"transmits at {least_angle(figures.transmission)} only",
@@ -72,7 +54,13 @@ TRANSMISSION: Final = Requirement(
     metavar="DEG",
     help="Smallest transmission angle allowed while the linkage moves through the poses.",
     subject="the least transmission angle is",
-    such="is one number, in degrees, such as 40",
-    checked=_checked,
+    such="transmission_deg is one number, in degrees, such as 40",
+    checked=checked_number(
+        "the least transmission angle",
+        lambda angle: 0 <= angle < 90,
+        "a least transmission angle of {:g}° is impossible",
+        why="a transmission angle is between 0° and 90°",
+        help="give an angle from 0° to below 90°",
+    ),
     looser=_looser,
 )

@@ -1,21 +1,30 @@
-"""The types of linkage allowed."""
+"""The types of linkage allowed, and which dyad drives."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Set
-from typing import Final, Literal, TypeAlias
-
-import numpy as np
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias, get_args
 
 from burmester.errors import InputError
-from burmester.fourbar.linkage import TYPES as TYPE_NAMES
-from burmester.numerics.arrays import FloatArray
-from burmester.requirements.requirement import Figures, Looser, Requirement
-from burmester.values import shown
+from burmester.requirements.requirement import Looser, Requirement, shown
 from burmester.wording import listed, with_article
 
-__all__ = ["GROUPS", "TYPE", "TYPES", "allowed_types", "types_in_words", "unknown"]
+if TYPE_CHECKING:
+    from burmester.requirements.figures import Figures
 
+__all__ = [
+    "DRIVER",
+    "DRIVERS",
+    "GROUPS",
+    "TYPE",
+    "TYPES",
+    "Driver",
+    "allowed_types",
+    "types_in_words",
+]
+
+Driver: TypeAlias = Literal["any", "first", "second", "crank"]
+DRIVERS: Final[tuple[Driver, ...]] = get_args(Driver)
 DyadKind: TypeAlias = Literal["RR", "PR", "RP"]
 
 # The types as `Linkage.type` names them, and the kinds of their two dyads.
@@ -53,10 +62,6 @@ def _in_order(types: Iterable[str]) -> list[str]:
     return sorted(types, key=[*TYPES, *GROUPS].index)
 
 
-def _checked(given: object) -> frozenset[str] | None:
-    return None if given is None else frozenset(_type_names(given))
-
-
 def _type_names(given: object) -> Iterator[str]:
     """The names as `TYPES` and `GROUPS` spell them."""
     known = {_normalized(name): name for name in (*TYPES, *GROUPS)}
@@ -71,7 +76,7 @@ def _type_names(given: object) -> Iterator[str]:
         )
     for name in names:
         if not isinstance(name, str) or _normalized(name) not in known:
-            raise unknown("linkage type", name, tuple(known.values()))
+            raise _unknown("linkage type", name, tuple(known.values()))
         yield known[_normalized(name)]
 
 
@@ -79,7 +84,7 @@ def _normalized(name: str) -> str:
     return " ".join(name.lower().replace("-", " ").split())
 
 
-def unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
+def _unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
     """E134 for a name that is none of the known ones, with the likeliest of them."""
     from difflib import get_close_matches  # noqa: PLC0415  for an error only
 
@@ -90,13 +95,8 @@ def unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
     return InputError("E134", f"there is no {what} {shown(name)}", help=help)
 
 
-def _excess(figures: Figures, types: frozenset[str]) -> FloatArray:
-    allowed = allowed_types(types)
-    return 1.0 - np.array([name in allowed for name in TYPE_NAMES], dtype=float)[figures.type]
-
-
 def _looser(types: frozenset[str], figures: Figures, _share: float) -> Looser | None:
-    kind = TYPE_NAMES[int(figures.type)]
+    kind = figures.type_name
     if kind in allowed_types(types):
         return None
     return Looser(types | {kind}, f"type {kind} as well", 1.0)
@@ -110,16 +110,42 @@ def _written(types: frozenset[str]) -> str:
 TYPE: Final = Requirement(
     name="types",
     kind="type",
-    excess=_excess,
-    said=lambda figures, _bound, _unit: f"it is {with_article(TYPE_NAMES[int(figures.type)])}",
+    excess=lambda figures, types: figures.is_not(allowed_types(types)),
+    said=lambda figures, _bound, _unit: f"it is {with_article(figures.type_name)}",
+    short=lambda figures, _length: f"is {with_article(figures.type_name)}",
     form="names",
     option="--type",
     metavar="NAME[,NAME]",
     help="Types of linkage allowed; see NAME below.",
     subject="the types are",
-    such='is a list of names, such as ["crank-rocker", "double-crank"]',
-    checked=_checked,
+    such='types is a list of names, such as ["crank-rocker", "double-crank"]',
+    checked=lambda given: frozenset(_type_names(given)),
     looser=_looser,
     written=_written,
     plain=_in_order,
+)
+
+
+def _driver(value: object) -> Driver:
+    if not isinstance(value, str) or value not in DRIVERS:
+        raise _unknown("driver", value, DRIVERS)
+    return value
+
+
+DRIVER: Final = Requirement(
+    name="driver",
+    kind="driver",
+    excess=lambda figures, bound: figures.none + (1 - figures.turns) * (bound == "crank"),
+    said=lambda _figures, _bound, _unit: "its driver does not turn fully",
+    form="choice",
+    default="any",
+    option="--driver",
+    choices=DRIVERS,
+    help="The driver: the dyad of the first or of the second limits, or (crank) a dyad that "
+    "turns fully.",
+    subject="the driver is",
+    such="driver is one of " + ", ".join(f'"{name}"' for name in DRIVERS),
+    checked=_driver,
+    looser=lambda _bound, _figures, _share: Looser("any", "any driver", 1.0),
+    written=str,
 )

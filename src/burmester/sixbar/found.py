@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any, final
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,7 +25,6 @@ from burmester.values import real_numbers
 __all__ = ["FoundSixBar"]
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundSixBar:
     """A six-bar that carries the body through the poses, or one that was given, on one branch.

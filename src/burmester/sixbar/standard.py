@@ -24,7 +24,8 @@ def shortcomings(
     """Where a six-bar falls short of the standard of four-bars, or is large; in words."""
     figures = figures_of(linkage, transmission, True, extent)
     bounds = standard(task.requirements.bounds, size)
-    return falls_short(bounds, figures, lambda value: length_of(value, task))
+    below = falls_short(bounds, figures, lambda value: length_of(value, task))
+    return tuple(each.message for each in below)
 
 
 def least_bars(problem: SynthesisProblem, skeleton: Skeleton) -> FloatArray:

@@ -28,7 +28,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import poses_in_words
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.tasks.stated_limits import LimitKind, StatedLimit, stated_limits, without
+from burmester.tasks.stated_limits import StatedLimit, stated_limits, without
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 
 if TYPE_CHECKING:  # loaded for few poses only
@@ -254,7 +254,7 @@ class _FewPoses(_Search):
                 loosest = without(loosest, limit, boxes.get)
         return self._evolved(loosest, {limit.kind for limit in limits})
 
-    def _evolved(self, loosest: Task, kinds: Set[LimitKind]) -> list[FoundLinkage]:
+    def _evolved(self, loosest: Task, kinds: Set[str]) -> list[FoundLinkage]:
         """Linkages of a task with some limits looser, those nearest to the limits as stated first.
 
         kinds: of these limits.

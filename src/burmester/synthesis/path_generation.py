@@ -22,6 +22,7 @@ from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.progress import step
+from burmester.requirements.requirement import above
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.path_linkages import PathLinkages, is_timed_exactly, linkages_near
 from burmester.synthesis.point_approximation import ASSUMED_RATIO, LEAST_ASSUMED
@@ -40,7 +41,7 @@ from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
-from burmester.verdicts.explanation import above, hints, in_short
+from burmester.verdicts.explanation import hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 from burmester.verdicts.price_list import MET, price_list
 from burmester.verdicts.ranking import (
@@ -50,11 +51,10 @@ from burmester.verdicts.ranking import (
     only_too_far,
     ranked,
 )
-from burmester.verdicts.standard import with_standard
 from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count, figure
 
-__all__ = ["near_points", "with_tolerance"]
+__all__ = ["different", "near_points", "with_rank", "with_tolerance"]
 
 # A sound linkage sets it if it misses by no more than that share of the path's span, or by no more
 # than ERROR_RATIO times as much as the nearest one; never by more than DEFAULT_TOLERANCE.
@@ -93,7 +93,7 @@ def near_points(
     if options.rounds:
         judged = evaluation.rounded(judged)
     judged = evaluation.with_spreads(judged)
-    linkages = tuple(_with_rank(each, rank) for rank, each in enumerate(judged, start=1))
+    linkages = tuple(with_rank(each, rank) for rank, each in enumerate(judged, start=1))
     outcome = _outcome(given, linkages, path, problem)
     warnings = (*findings, *note, *linkage_advice(given, linkages, outcome.code))
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
@@ -175,9 +175,9 @@ def _by_nearest(
     asked, so that the answer can say what would do.
     """
     asked, nothing = task.requirements, Requirements()
-    usual = with_standard(nothing)
+    usual = nothing.with_standard()
     wanted, away = (
-        with_standard(asked),
+        asked.with_standard(),
         found.greatest_misses(task.poses.translation),
     )
     most = max(ERROR_RATIO * float(away.min()), SOUND_SHARE * span(task))
@@ -337,10 +337,10 @@ def _number(found: FoundLinkage) -> int:
 
 def _told(judged: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     """What is listed of judged linkages: each once, and of those that are many the front."""
-    different = _different(judged, SAME * span(task))
+    apart = different(judged, SAME * span(task))
     if is_timed_exactly(task, task.path or TracedPath()):
-        return different  # they are few: all that there are
-    return _front(different, task)
+        return apart  # they are few: all that there are
+    return _front(apart, task)
 
 
 def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
@@ -380,7 +380,7 @@ def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     return [each for each in usable if each in told]
 
 
-def _with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
+def with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
     """A linkage with its rank, its dyads numbered by it."""
     first, second = (
         replace(each, id=f"D{2 * rank - 2 + number}")
@@ -389,7 +389,7 @@ def _with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
     return replace(found, id=f"L{rank}", rank=rank, dyads=(first, second))
 
 
-def _different(found: Sequence[FoundLinkage], least: float) -> list[FoundLinkage]:
+def different(found: Sequence[FoundLinkage], least: float) -> list[FoundLinkage]:
     """The first of linkages that are alike: pivots and links, however the body's frame is turned.
 
     The nearest one that works stays.  least: length by which alike ones differ.

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, make_dataclass
+from dataclasses import dataclass, make_dataclass, replace
 from typing import Any, final
 
 import numpy as np
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Polygon, Region
-from burmester.requirements.driver import Driver
 from burmester.requirements.requirement import Requirement
-from burmester.requirements.table import ASKED
-from burmester.requirements.types import TYPES, allowed_types, types_in_words
+from burmester.requirements.table import ASKED, NOT_ASKED, standard
+from burmester.requirements.types import TYPES, Driver, allowed_types, types_in_words
 from burmester.tasks.limits import Kind, Limits
 from burmester.wording import with_article
 
@@ -83,7 +82,8 @@ class Requirements:
 
     def __post_init__(self) -> None:
         for each in ASKED:
-            object.__setattr__(self, each.name, each.checked(getattr(self, each.name)))
+            if (value := getattr(self, each.name)) is not None or each.default is not None:
+                object.__setattr__(self, each.name, each.checked(value))
         allowed = self.allowed_types
         if self.driver == "crank" and allowed is not None and allowed <= TYPES_WITHOUT_CRANK:
             turning = [name for name in TYPES if name not in TYPES_WITHOUT_CRANK]
@@ -115,6 +115,11 @@ class Requirements:
         if self.within_deg is not None:
             length = reach / math.radians(self.within_deg)
         return reach, length
+
+    def with_standard(self) -> Requirements:
+        """What is asked, and the bounds of the standard that could be asked."""
+        bounds = standard(self.bounds, 0.0, NOT_ASKED)
+        return replace(self, **{each.name: bound for each, bound in bounds.items()})
 
     @property
     def has_any(self) -> bool:

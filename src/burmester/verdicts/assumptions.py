@@ -20,7 +20,7 @@ from burmester.requirements.table import ASKED, standard
 from burmester.tasks.limits import Limits
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.standard import not_asked
+from burmester.verdicts.requirement_check import not_asked
 
 __all__ = ["FAR", "Assumptions", "Bound"]
 

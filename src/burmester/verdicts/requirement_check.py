@@ -1,6 +1,8 @@
-"""The figures of a four-bar by which it is held to what is asked, and what it does not keep."""
+"""The figures of four-bars by which they are held to what is asked, and to the standard."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,13 +14,27 @@ from burmester.fourbar.linkage import GRASHOF_SUMS, TYPES, Linkage, grashof_numb
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.requirement import Figures
-from burmester.requirements.table import Violation
+from burmester.requirements.figures import Figures
+from burmester.requirements.links import CHANGE_POINT, EXTENT
+from burmester.requirements.requirement import Bounds, Requirement
+from burmester.requirements.table import Violation, standard
 from burmester.requirements.table import violations as violations_of
+from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import span
+from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.requirements import Requirements
 
-__all__ = ["figures_of", "four_bar_figures", "places_between", "violations"]
+__all__ = [
+    "figures_of",
+    "four_bar_figures",
+    "not_asked",
+    "outside",
+    "places_between",
+    "standard_of",
+    "violations",
+]
 
+SAME_ANGLE = 1e-9  # radians; a body that turns by less has nothing but parallelograms
 FOOTPRINT_SAMPLES = 181  # number of places between the poses checked against the footprint
 
 
@@ -46,8 +62,10 @@ def four_bar_figures(linkage: Linkage, driven: Driven, footprint: Polygon | None
     out = figures_of(linkage, driven.least_over_range, driven.turns_fully)
     if footprint is None:
         return out
-    far, pivot = _outside(linkage, driven, footprint)
-    return out._replace(outside=far, pivot=pivot)
+    pivots = _pivots(linkage, places_between(linkage, driven))
+    far = ((float(np.nanmax(footprint.distance(at))), name) for name, at in pivots)
+    away, pivot = max(far, key=lambda each: each[0], default=(0.0, ""))
+    return out._replace(outside=away, pivot=pivot)
 
 
 def violations(
@@ -74,21 +92,28 @@ def places_between(linkage: Linkage, driven: Driven) -> Displacement | None:
     return Circuits.of(linkage, as_given=True)[driven.circuit].couplers(parameter)
 
 
-def _outside(linkage: Linkage, driven: Driven, footprint: Polygon) -> tuple[float, str]:
-    """The greatest distance of a pivot outside the footprint, and what the pivot is.
+def outside(linkage: Linkage, places: Displacement | None, footprint: Polygon) -> FloatArray:
+    """How far pivots of linkages (*,) leave a footprint where the body is at places (*, N)."""
+    out = [footprint.distance(points).max(axis=-1) for _, points in _pivots(linkage, places)]
+    return np.asarray(np.max(out, axis=0))
 
-    At FOOTPRINT_SAMPLES places between the poses.
-    """
-    worst, what = 0.0, ""
-    places = places_between(linkage, driven)
-    for dyad in (linkage.first, linkage.second):
-        points: list[tuple[str, FloatArray]] = []
+
+def _pivots(linkage: Linkage, places: Displacement | None) -> Iterator[tuple[str, FloatArray]]:
+    """What pivots are, and their points (*, N, 2)."""
+    dyads = linkage.first, linkage.second
+    for dyad in dyads:
         if isinstance(dyad, RR | RP):
-            points.append(("a fixed pivot", dyad.fixed_pivot))
+            yield "a fixed pivot", dyad.fixed_pivot[..., None, :]
         if isinstance(dyad, RR | PR) and places is not None:
-            points.append(("a moving pivot", places.act(dyad.moving_pivot)))
-        for name, at in points:
-            out = float(np.nanmax(footprint.signed_distance(np.asarray(at))))
-            if out > worst:
-                worst, what = out, name
-    return worst, what
+            yield "a moving pivot", places.act(dyad.moving_pivot[..., None, :])
+
+
+def standard_of(task: Task) -> Bounds:
+    """The standard of four-bars for a task; a bound that it sets itself is not asked again."""
+    return standard(task.requirements.bounds, span(task), not_asked(task))
+
+
+def not_asked(task: Task) -> tuple[Requirement, ...]:
+    """What of the standard is not asked of four-bars for a task."""
+    either = task.requirements.types is not None or rotation_range(task.poses.angle) <= SAME_ANGLE
+    return (EXTENT, CHANGE_POINT) if either else (EXTENT,)

@@ -6,8 +6,9 @@ E191 a function task that makes no sense      E194 settings that are missing or 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Final, Literal, NamedTuple, TypeAlias
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,12 +24,15 @@ from burmester.functions.function_task import (
 from burmester.io.reading.functions.expression import read_expression
 from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.types import TYPES
+from burmester.requirements.links import LINK_RATIO
+from burmester.requirements.transmission import TRANSMISSION
+from burmester.requirements.types import TYPE, TYPES
 from burmester.tasks.requirements import Requirements
 from burmester.wording import listed
 
-__all__ = ["FunctionSettings", "Spacing", "task_of_function", "task_of_pairs"]
+__all__ = ["KEPT", "FunctionSettings", "Spacing", "task_of_function", "task_of_pairs"]
 
+KEPT: Final = (TRANSMISSION, LINK_RATIO, TYPE)  # what can be asked of generators
 Spacing: TypeAlias = Literal["chebyshev", "even"]
 SAMPLES: Final = 61  # of a function whose number of pairs is not given
 MOST_PAIRS: Final = 1000
@@ -38,15 +42,30 @@ LEAST_STEP: Final = 1e-9  # radians; inputs that differ less are one
 
 
 class FunctionSettings(NamedTuple):
-    """What is asked of a function generator beside its pairs; angles in degrees."""
+    """What is asked of a function generator beside its pairs; angles in degrees.
+
+    asked: requirements, by their names in `Requirements`.
+    """
 
     input_phase: float | None = None
     output_phase: float | None = None
     ground: float = 1.0
     minimax: bool = False
-    least_transmission: float | None = None
-    link_ratio: float | None = None
-    types: frozenset[str] | None = None
+    asked: Mapping[str, Any] = MappingProxyType({})
+
+    @property
+    def requirements(self) -> Requirements:
+        """What a linkage has to keep; raises E134 and E194."""
+        asked = Requirements(**self.asked)
+        of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
+        if not any(map(asked.allows, of_generators)):
+            allowed = sorted(asked.allowed_types or ())
+            raise InputError(
+                "E194",
+                f"no function generator that is made is a {listed(allowed, 'or')}",
+                help=f"give one or more of {listed(of_generators)}",
+            )
+        return asked
 
 
 def task_of_function(
@@ -91,7 +110,7 @@ def task_of_function(
             help="give --pairs 5 for five pairs that are met exactly, or leave --pairs out",
         )
     text = function if isinstance(function, str) else getattr(function, "__name__", "f")
-    source = source or Source("--function", text)
+    source = source or Source("expression", text)
     values = read_expression(source) if isinstance(function, str) else _checked(function)
     every = np.asarray(values(np.linspace(low, high, FUNCTION_SAMPLES)), dtype=float)
     if not np.isfinite(every).all():
@@ -169,18 +188,12 @@ def _task(
     function: SampledFunction | None,
     weights: FloatArray | None,
 ) -> FunctionTask:
-    for name, value, most in (
-        ("the length of the ground link", settings.ground, 1e9),
-        ("the least transmission angle", settings.least_transmission, 90.0),
-        ("the link ratio", settings.link_ratio, 1e9),
-    ):
-        least = 1.0 if name == "the link ratio" else 0.0
-        if value is not None and not least < value < most:
-            raise InputError(
-                "E194",
-                f"{name} is {value:g}",
-                help=f"give a number above {least:g} and below {most:g}",
-            )
+    if not 0 < settings.ground < 1e9:
+        raise InputError(
+            "E194",
+            f"the length of the ground link is {settings.ground:g}",
+            help="give a number above 0 and below 1e+09",
+        )
     for name, value in (("input", settings.input_phase), ("output", settings.output_phase)):
         if value is not None and not math.isfinite(value):
             raise InputError(
@@ -195,25 +208,8 @@ def _task(
         settings.ground,
         function,
         settings.minimax,
-        _radians(settings.least_transmission),
-        settings.link_ratio,
-        _types(settings.types),
+        settings.requirements,
     )
-
-
-def _types(names: frozenset[str] | None) -> frozenset[str] | None:
-    """The types with four pins that are meant; raises E134 and E194."""
-    if names is None:
-        return None
-    allowed = Requirements(types=names).allowed_types or frozenset()
-    of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
-    if not allowed.intersection(of_generators):
-        raise InputError(
-            "E194",
-            f"no function generator that is made is a {listed(sorted(allowed), 'or')}",
-            help=f"give one or more of {listed(of_generators)}",
-        )
-    return allowed.intersection(of_generators)
 
 
 def _radians(degrees: float | None) -> float | None:
