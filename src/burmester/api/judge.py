@@ -109,7 +109,7 @@ def judge(
 
     Returns
     -------
-    Result or SixBarResult
+    Result
         The given linkage as L1, with its errors and its verdict, then the better ones.  Of a
         six-bar it alone, as S1.
 
@@ -142,7 +142,7 @@ def judge(
         given = _linkage(linkage, id, task.length_unit)
         if isinstance(given, WattLinkage):
             _require_none(improve=improve, norm=norm != "rms", tolerance=manufacturing_tolerance)
-            return SixBarResult(judge_six_bar(task, given, options))
+            return Result.of(judge_six_bar(task, given, options))
         return Result.of(judge_linkage(task, given, options, improve=improve))
 
 

@@ -83,7 +83,8 @@ def plain_html(
 
     pale = ' style="opacity:.6"'
     body = "".join(row(each, "td", pale if k in faint else "") for k, each in enumerate(rows))
-    return f"<table><thead>{row(heads, 'th')}</thead><tbody>{body}</tbody></table>"
+    head = f"<thead>{row(heads, 'th')}</thead>" if heads else ""
+    return f"<table>{head}<tbody>{body}</tbody></table>"
 
 
 def dimensions_as_html(linkage: FoundLinkage) -> str:

@@ -112,11 +112,7 @@ def _is_table(text: str) -> bool:
 def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage | WattLinkage:
     """A linkage of a result, its dyads in the order of the file, or a six-bar."""
     try:
-        result = read_result(path, data)
-        if (six_bar := result.choose_six_bar(id)) is not None:
-            _require_unit(six_bar.unit, unit)
-            return six_bar.linkage
-        chosen = result.choose(id)
+        chosen = read_result(path, data).choose(id)
     except InputError as error:
         if error.code == "E151" and error.help:
             error.help = error.help.replace("--linkage", "--id")

@@ -37,7 +37,7 @@ from burmester.refinement.tolerance_boxes import counted_error
 from burmester.sixbar.found import FoundSixBar
 from burmester.synthesis.given_linkage import OpenLink, require_linkage
 from burmester.synthesis.judgement import judged_again
-from burmester.synthesis.result import Outcome, Synthesis
+from burmester.synthesis.result import Candidate, Outcome, Synthesis
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
@@ -92,45 +92,24 @@ class SavedResult(NamedTuple):
     synthesis: Synthesis
     refused: Mapping[str, InputError]
 
-    def choose(self, id: str | None = None) -> FoundLinkage:
-        """A four-bar by its id, or the first; raises E150, E151."""
-        every = self.synthesis.linkages
-        six_bars = self.synthesis.six_bars
-        if not every and six_bars is not None and six_bars.found:
-            raise InputError(
-                "E151",
-                "this result has six-bars, and a four-bar is needed here",
-                where=self.label,
-                help="judge them by `burmester judge`, look at them by `burmester report "
-                "--six-bars`, or hand them over by `burmester export`",
-            )
-        if not every:
+    def choose(self, id: str | None = None) -> Candidate:
+        """A linkage by its id, or the first, four-bar or six-bar; raises E150, E151."""
+        if not (every := self.synthesis.candidates):
             raise InputError(
                 "E151",
                 "there is no linkage in this result",
                 where=self.label,
                 help="give poses that have one; `burmester explain R301` says more",
             )
-        return named(every, id, "linkage", self.label, self.refused)
-
-    def choose_six_bar(self, id: str | None = None) -> FoundSixBar | None:
-        """A six-bar by its id, or the first; None where this result is of four-bars.
-
-        Raises E150, and E151 where it is of six-bars and has none of that id.
-        """
-        six_bars = self.synthesis.six_bars
-        if six_bars is None or not six_bars.found:
-            return None
-        return named(six_bars.found, id, "six-bar", self.label, self.refused)
+        return named(every, id, self.label, self.refused)
 
 
-_Named = TypeVar("_Named", FoundLinkage, FoundSixBar, "FoundGenerator")
+_Named = TypeVar("_Named", Candidate, "FoundGenerator")
 
 
 def named(
     every: Sequence[_Named],
     id: str | None,
-    what: str,
     label: str,
     refused: Mapping[str, InputError],
 ) -> _Named:
@@ -142,7 +121,7 @@ def named(
             return each
     raise InputError(
         "E151",
-        f"there is no {what} {id} in this result",
+        f"there is no linkage {id} in this result",
         where=label,
         why=f"it has {', '.join(each.id for each in every)}",
         help=f"give --linkage {every[0].id}",

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -23,7 +22,6 @@ from burmester.verdicts.requirement_check import Violation
 __all__ = ["FoundSixBar"]
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundSixBar:
     """A six-bar that carries the body through the poses, or one that was given, on one branch.

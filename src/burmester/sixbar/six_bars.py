@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final, final
 
@@ -78,6 +79,15 @@ class SixBars:
     assumed: tuple[tuple[str, str], ...]
     free_poses: int
     given: bool = False
+
+    def __iter__(self) -> Iterator[FoundSixBar]:
+        return iter(self.found)
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __getitem__(self, number: int) -> FoundSixBar:
+        return self.found[number]
 
 
 def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:

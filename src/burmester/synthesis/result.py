@@ -120,12 +120,16 @@ class Synthesis:
         return tuple(each for each in self.linkages if each.usable)
 
     @property
+    def candidates(self) -> tuple[Candidate, ...]:
+        """All linkages, four-bars or six-bars, by rank."""
+        return self.linkages if self.six_bars is None else self.six_bars.found
+
+    @property
     def works(self) -> bool:
         """Whether any linkage works, of four bars or of six."""
-        six_bars = () if self.six_bars is None else self.six_bars.found
-        return bool(self.usable) or any(each.usable for each in six_bars)
+        return any(each.usable for each in self.candidates)
 
     @property
     def determined(self) -> bool:
         """Whether a linkage works whose pivots the poses determine."""
-        return any(each.determined for each in self.usable)
+        return any(each.usable and each.determined for each in self.linkages)
