@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from burmester.api.function import synthesize_function as synthesize_function
     from burmester.api.judge import judge as judge
     from burmester.api.linkage import ResultLinkage as ResultLinkage
+    from burmester.api.linkage import ResultSixBar as ResultSixBar
     from burmester.api.result import Result as Result
     from burmester.api.saved import read_result as read_result
     from burmester.api.six_bars import SixBarResult as SixBarResult
@@ -70,6 +71,7 @@ if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar as FoundSixBar
     from burmester.sixbar.watt import WattLinkage as WattLinkage
     from burmester.synthesis.result import Synthesis as Synthesis
+    from burmester.tasks.crank_timing import CrankTiming as CrankTiming
     from burmester.tasks.limits import Limits as Limits
     from burmester.tasks.motion_task import Task as Task
     from burmester.tasks.rails import Rail as Rail
@@ -90,6 +92,7 @@ _ROOMS = {
     "RR": "fourbar.dyad",
     "BurmesterError": "errors",
     "Change": "following.followed",
+    "CrankTiming": "tasks.crank_timing",
     "Diagnosis": "diagnosis.checks",
     "Displacement": "geometry.displacement",
     "Followed": "following.followed",
@@ -106,6 +109,7 @@ _ROOMS = {
     "Requirements": "tasks.requirements",
     "Result": "api.result",
     "ResultLinkage": "api.linkage",
+    "ResultSixBar": "api.linkage",
     "Segment": "geometry.regions",
     "SixBarResult": "api.six_bars",
     "Surroundings": "tasks.surroundings",
@@ -153,6 +157,7 @@ __all__ = [
     "RR",
     "BurmesterError",
     "Change",
+    "CrankTiming",
     "Diagnosis",
     "Displacement",
     "Followed",
@@ -169,6 +174,7 @@ __all__ = [
     "Requirements",
     "Result",
     "ResultLinkage",
+    "ResultSixBar",
     "Segment",
     "SixBarResult",
     "Surroundings",

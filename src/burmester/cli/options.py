@@ -196,6 +196,20 @@ POSES: tuple[Decorator, ...] = (
         help="Points x,y that are traced lead back to the first one, and the crank turns fully.",
     ),
     _poses(
+        "--absolute-crank",
+        is_flag=True,
+        help="The crank angles of poses are directions on the ground, and not rotations from the "
+        "first of them.",
+    ),
+    _poses(
+        "--within-crank",
+        "within_crank_deg",
+        metavar="DEG",
+        type=click.FloatRange(min=0, min_open=True),
+        help="How far the crank may be from its angle at a pose; by default a twentieth of the "
+        "range of its angles.",
+    ),
+    _poses(
         "--pose-tolerance",
         metavar="X,Y,DEG[,body]",
         help="How far from a pose the body may be: to both sides in x, y and angle, for all poses "
@@ -615,6 +629,7 @@ _NOT_FOR_SIX_BARS = (
 _NOT_FOR_JUDGED_SIX_BARS = ("improve", "norm", "manufacturing_tolerance")
 _ROWS = (
     "columns", "sheet", "points", "plane", "drop", "every", "first", "last", "closed", "convention",
+    "absolute_crank", "within_crank_deg",
 )  # fmt: skip
 _LENGTH_OPTIONS = {
     "length_per_radian": "--angle-weight",
