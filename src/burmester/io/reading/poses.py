@@ -226,7 +226,7 @@ def _refuse_function(label: str, text: str) -> None:
             "E193",
             "this is the task of a function generator, and poses are needed here",
             why="it has pairs of input and output angles, or a function, and no places of a body",
-            help="solve it with `burmester synthesize`, which also writes a result to export",
+            help="solve it with `burmester function`, which also writes a result to export",
         )
 
 
