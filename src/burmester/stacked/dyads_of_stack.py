@@ -25,7 +25,6 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR, Dyad
 from burmester.numerics.bundles import take
 from burmester.stacked.answers import Depth, DyadRows, Outcome, StackedAnswers, Status
-from burmester.stacked.plain_tasks import computable, plain_tasks
 from burmester.stacked.task_stack import TaskStack
 from burmester.synthesis.dyad_search import Searched, dyads_of_tasks, exact_dyads, search_dyads
 from burmester.synthesis.method import with_method
@@ -34,6 +33,7 @@ from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.options import Method, SynthesisOptions
+from burmester.tasks.plain_motions import plain_motions
 from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["Group", "groups_of"]
@@ -70,7 +70,7 @@ def groups_of(stack: TaskStack, depth: Depth) -> list[Group]:
     count = stack.poses.shape[1]
     method: Method = "exact" if count == CONDITIONS else "complete"
     method = "pencil" if depth == "pencil" else method
-    sound, fit, values = np.flatnonzero(computable(stack)), None, None
+    sound, fit, values = np.flatnonzero(stack.computable), None, None
     if count < (MIN_POSES if method == "pencil" else CONDITIONS):
         sound = sound[:0]
     some = stack[sound]
@@ -79,7 +79,7 @@ def groups_of(stack: TaskStack, depth: Depth) -> list[Group]:
         values = fit.singular_values if some.weights is None else None
     nullity, groups = np.full(len(stack), -1, dtype=np.intp), []
     if len(sound):
-        plain, known = plain_tasks(some, values)
+        plain, known = plain_motions(some.displacements, stack.resolution, values)
         nullity[sound[plain]] = known[plain]
     for index in np.flatnonzero(nullity < 0).tolist():
         problem = _looked_at(stack, index, method)
