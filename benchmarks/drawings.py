@@ -39,7 +39,6 @@ from burmester.fourbar.dyad import PR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved_six_bars import SavedSixBar
 
 UNITS = {"mm": 40.0, "cm": 4.0, "in": 2.0, "m": 0.3, "ft": 0.5, None: 30.0}  # median lengths
 FORMATS = ("dxf", "svg", "pdf")
@@ -137,21 +136,21 @@ def linkage_of(kind, rng):
         turns = rng.uniform(0, 60) + np.arange(int(rng.integers(5, 9))) * 45
         rows = in_line(turns, int(rng.integers(2, 7)), 30, rng.uniform(45, 150))
         every = burmester.synthesize(rows, angle_unit="deg", length_unit="mm").usable
-        return every[rng.integers(len(every))].saved() if every else None
+        return every[rng.integers(len(every))] if every else None
     if kind == "six-bar":
         rows = motion(rng, int(rng.integers(3, 6)))
         found = burmester.synthesize_six_bars(rows, angle_unit="deg", chains=300)
-        return SavedSixBar(found.best, found.task) if found.best else None
+        return found.best
     if kind == "function":
         wide = rng.uniform(30, 110, 2)
         found = burmester.synthesize_function(
             "log10(x)", (1, 2), input_deg=wide[0], output_deg=wide[1], pairs=5
         )
-        return found.coupler_motion()[0].saved() if found.best else None
+        return found.coupler_motion()[0] if found.best else None
     if (chosen := random_linkage(rng)) is None:
         return None
     chosen = far_away(chosen, rng) if kind == "far away" else chosen
-    return burmester.judge(chosen.task, chosen)[0].saved()
+    return burmester.judge(chosen.task, chosen)[0]
 
 
 KINDS = ("any", "far away", "in line", "any", "six-bar", "far away", "any", "function")

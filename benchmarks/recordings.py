@@ -81,7 +81,7 @@ def campaign(count, seed, folder):
         closest = min(usable, key=lambda each: each.error.rms)
         met = closest.error.places
         rows = np.column_stack([met.translation, np.unwrap(met.angle)])
-        run = driven_either_way(closest.saved().linkage, rows)
+        run = driven_either_way(closest.driver_first, rows)
         yield "driven" if run.meets else "stalled", farthest(run.path, true[:191, :2, :2])
 
 

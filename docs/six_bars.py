@@ -13,7 +13,6 @@ from burmester import plot
 from burmester.export import Options
 from burmester.export.parts.plate import moved, outline_points
 from burmester.export.parts.plates import assembly_of
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.plot.style import BLUE, GREEN, GREY, ORANGE, VERMILION
 
 TASK = Path("src/burmester/templates/window-opener.toml")
@@ -55,9 +54,11 @@ def plates(chosen, pose):
 def main():
     """Draw the six-bar of the window opener at its poses, and as plates."""
     result = burmester.synthesize_six_bars(burmester.read_task(TASK))
-    chosen = SavedSixBar(result.best, result.task)
     with plot.house_style():
-        for name, figure in (("six-bars", result.plot()), ("six-bar-plates", plates(chosen, 3))):
+        for name, figure in (
+            ("six-bars", result.plot()),
+            ("six-bar-plates", plates(result.best, 3)),
+        ):
             figure.savefig(Path(__file__).with_name(f"{name}.png"), dpi=130, bbox_inches="tight")
 
 

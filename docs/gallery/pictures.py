@@ -43,9 +43,9 @@ def run(page):
     return runpy.run_path(str(script))
 
 
-def drawn(saved, name):
+def drawn(chosen, name):
     """The picture of a linkage at its poses."""
-    return still(saved.linkage, saved.error.places, saved.task, name) + "\n"
+    return still(chosen.driver_first, chosen.error.places, chosen.task, name) + "\n"
 
 
 def numbers(linkage):
@@ -66,9 +66,9 @@ def main():
         beside(folder)
         os.chdir(folder)
         for page in pages():
-            saved = run(page)["chosen"].saved()
-            kept[page.stem] = numbers(saved.linkage)
-            page.with_suffix(".svg").write_text(drawn(saved, page.stem), encoding="utf-8")
+            chosen = run(page)["chosen"]
+            kept[page.stem] = numbers(chosen.driver_first)
+            page.with_suffix(".svg").write_text(drawn(chosen, page.stem), encoding="utf-8")
     text = json.dumps(kept, indent=1)
     KEPT.write_text(re.sub(r"\[\s+(\S+)\s+(\S+)\s+\]", r"[\1 \2]", text) + "\n", encoding="utf-8")
 

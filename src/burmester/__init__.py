@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from burmester.api.function import synthesize_function as synthesize_function
     from burmester.api.judge import judge as judge
     from burmester.api.linkage import ResultLinkage as ResultLinkage
+    from burmester.api.linkage import ResultSixBar as ResultSixBar
     from burmester.api.result import Result as Result
     from burmester.api.saved import read_result as read_result
     from burmester.api.six_bars import SixBarResult as SixBarResult
@@ -108,6 +109,7 @@ _ROOMS = {
     "Requirements": "tasks.requirements",
     "Result": "api.result",
     "ResultLinkage": "api.linkage",
+    "ResultSixBar": "api.linkage",
     "Segment": "geometry.regions",
     "SixBarResult": "api.six_bars",
     "Surroundings": "tasks.surroundings",
@@ -172,6 +174,7 @@ __all__ = [
     "Requirements",
     "Result",
     "ResultLinkage",
+    "ResultSixBar",
     "Segment",
     "SixBarResult",
     "Surroundings",

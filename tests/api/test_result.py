@@ -210,8 +210,7 @@ def test_linkages_by_rank_by_id_and_in_turn(results):
 def test_every_usable_linkage_comes_to_its_poses_when_driven(results):
     for result in results:
         for found in result.usable:
-            saved = found.saved()
-            first, second = saved.linkage.first, saved.linkage.second
+            first, second = found.driver_first.first, found.driver_first.second
             if not isinstance(first, RR):
                 continue
             at, angle = places(first, second, np.linspace(-np.pi, np.pi, 40_001))
@@ -317,7 +316,7 @@ def points_of(svg, stroke, shape="polyline"):
 def test_the_still_drawing_has_the_poses_and_links_in_their_proportions(results):
     for result in results:
         found = result[0]
-        saved, svg = found.saved(), found._repr_html_()
+        svg = found._repr_html_()
         frames = points_of(svg, "#d0493c")
         poses = result.task.poses
         assert len(frames) == len(poses.angle)
@@ -332,7 +331,7 @@ def test_the_still_drawing_has_the_poses_and_links_in_their_proportions(results)
                 assert np.cos(np.arctan2(*x[::-1]) - angle) > 0.99
         links = [
             float(dyad.radius)
-            for dyad in (saved.linkage.first, saved.linkage.second)
+            for dyad in (found.driver_first.first, found.driver_first.second)
             if isinstance(dyad, RR)
         ]
         drawn = [np.hypot(*(each[1] - each[0])) / scale for each in points_of(svg, "#5d6b7a")]

@@ -177,8 +177,8 @@ def rounded(dyad, places, degrees, middle):
 def test_drawings_have_the_same_dimensions(synthesis, kind, tmp_path):
     if not synthesis.usable:
         return
-    best = ResultLinkage.of(synthesis.usable[0], synthesis.task)
-    (path,) = export(best.saved(), kind, tmp_path / f"drawing.{kind}", Options(unit="mm"))
+    best = ResultLinkage.of(synthesis.usable[0])
+    (path,) = export(best, kind, tmp_path / f"drawing.{kind}", Options(unit="mm"))
     text = path.read_text(encoding="utf-8")
     dyads = printed.dyads_of(printed.in_drawing(text))
     assert len(dyads) == 2
@@ -199,7 +199,7 @@ def test_drawings_have_the_same_dimensions(synthesis, kind, tmp_path):
 
 def test_a_notebook_shows_the_same_dimensions(synthesis):
     for each in synthesis.usable:
-        page = ResultLinkage.of(each, synthesis.task)._repr_html_()
+        page = ResultLinkage.of(each)._repr_html_()
         cells = re.findall(r"<td[^>]*>(.*?)</td>", page)
         dyads = printed.dyads_of(list(zip(cells[::3], cells[1::3], cells[2::3], strict=True)))
         bounds = [

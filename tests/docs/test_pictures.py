@@ -94,7 +94,7 @@ def test_the_pictures_of_the_gallery_are_those_of_its_tasks(tmp_path, monkeypatc
         chosen = burmester.judge(task, Linkage(*dyads)).best
         assert chosen.usable, page.stem
         kept = page.with_suffix(".svg").read_text(encoding="utf-8")
-        drawn = gallery["drawn"](chosen.saved(), page.stem)
+        drawn = gallery["drawn"](chosen, page.stem)
         assert NUMBER.sub("#", kept) == NUMBER.sub("#", drawn), page.stem
         ours, theirs = (np.array(NUMBER.findall(each), dtype=float) for each in (kept, drawn))
         assert ours == pytest.approx(theirs, abs=0.11), page.stem

@@ -9,8 +9,8 @@ from burmester.errors import InputError
 from burmester.export.coupler_motion import CouplerMotion
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.io.saved import SavedLinkage
 from tests.oracles import tracer, witness
+from tests.oracles.handed_over import found
 from tests.oracles.saved_linkages import PAPER, paper, saved
 
 
@@ -177,9 +177,7 @@ def test_any_order():
 
 def test_a_body_that_only_translates_has_no_way():
     chosen = paper()
-    other = SavedLinkage(
-        "L9", Linkage(PP(0.0), PAPER[1]), ("D1", "D2"), True, "first", "", chosen.task, chosen.error
-    )
+    other = found(Linkage(PP(0.0), PAPER[1]), chosen.task, chosen.error, "L9")
     with pytest.raises(InputError, match="L9 has no motion with one driver") as caught:
         CouplerMotion.of(other, 10)
     assert caught.value.code == "E163"

@@ -175,11 +175,14 @@ KEPT = {"A", "B", "B1", "B2", "driver", "follower", "body", "body_x"}
 
 
 def hostile(text, name="crank-rocker, mm"):
-    """A linkage whose id, type and dyads' ids are a text, and that of a region to keep out of."""
+    """A linkage whose id and dyads' ids are a text, and that of a region to keep out of."""
     chosen = saved(name, poses=4)
     kept = KeepOut(Polygon([(0, 90), (30, 90), (30, 110)]), printable(text)[:100])
     task = replace(chosen.task, body=Polygon(BODY), surroundings=Surroundings((kept,)))
-    return replace(chosen, id=text, type=text, ids=(text, text + "2"), task=task)
+    dyads = [
+        replace(each, id=id) for each, id in zip(chosen.dyads, (text, text + "2"), strict=True)
+    ]
+    return replace(chosen, id=text, dyads=tuple(dyads), task=task)
 
 
 @pytest.fixture(scope="module")

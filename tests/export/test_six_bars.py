@@ -17,7 +17,6 @@ from shapely import LineString, MultiPoint, Point, Polygon
 from burmester.errors import InputError
 from burmester.export import SIX_BAR_FORMATS, Options, export
 from burmester.export.parts.plates import assembly_of, outline_points
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.synthesis.six_bars import synthesize_six_bars
 from tests.oracles.six_bars import dimensions, driven
@@ -47,14 +46,14 @@ def six_bar(name):
         "angle": (wandering(4), 0),
     }[name]
     found = synthesize_six_bars(given, SixBarOptions(chains=400, most=3)).six_bars.found
-    return SavedSixBar(found[number], given)
+    return found[number]
 
 
 def joints_at(chosen, drives):
     """Where the joints are (n,), complex, at drives that begin at the first pose's."""
     rows = np.column_stack([chosen.task.poses.translation, chosen.task.poses.angle])
-    own = chosen.found.linkage
-    run = driven(own, rows[0], chosen.found.driver, drives)
+    own = chosen.linkage
+    run = driven(own, rows[0], chosen.driver, drives)
     at = {joint: run.joints[:, k] for k, joint in enumerate("CDEGH")}
     for joint, pivot in (("A", own.fixed_first), ("B", own.fixed_second)):
         at[joint] = np.full(len(drives), complex(*pivot))
@@ -63,7 +62,7 @@ def joints_at(chosen, drives):
 
 def joints_at_poses(chosen):
     """The same at the poses, between which the oracle goes in small steps."""
-    drive = chosen.found.drive
+    drive = chosen.drive
     ways = [np.linspace(p, q, 60)[:-1] for p, q in itertools.pairwise(drive)]
     at = joints_at(chosen, np.concatenate([*ways, drive[-1:]]))
     return {joint: values[::59] for joint, values in at.items()}
@@ -75,8 +74,8 @@ def test_plates_are_the_links_and_never_meet(name):
     made = assembly_of(chosen, Options())
     assert (made.plate("ground-2") is not None) == (name == "second ground")
     assert (made.plate("coupler").corner is not None) == (name == "angle")
-    at = joints_at(chosen, np.linspace(chosen.found.drive[0], chosen.found.drive[-1], 400))
-    size, radius = max(dimensions(chosen.found.linkage).values()), made.dimensions.width / 2
+    at = joints_at(chosen, np.linspace(chosen.drive[0], chosen.drive[-1], 400))
+    size, radius = max(dimensions(chosen.linkage).values()), made.dimensions.width / 2
     held = {
         plate.name: [pin.name for pin in made.pins if plate.name in pin.joins]
         for plate in made.plates
@@ -141,7 +140,7 @@ def test_the_drawing_in_dxf(tmp_path):
         Point(each.dxf.center.x, each.dxf.center.y)
         for each in document.modelspace().query("CIRCLE")
     ]
-    bars = dimensions(chosen.found.linkage)
+    bars = dimensions(chosen.linkage)
     for link, joints in HOLES.items():
         layer = link.upper().replace("-", "_")
         (outline,) = document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')
@@ -210,7 +209,7 @@ def test_a_motor_takes_the_model_through_the_poses(name, tmp_path):
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "a.xml"))
     data = mujoco.MjData(model)
     assert model.neq == 2
-    wanted, size = chosen.task.poses, chosen.found.extent / 1000
+    wanted, size = chosen.task.poses, chosen.extent / 1000
     for link, mass in weights(assembly_of(chosen, Options())).items():
         assert model.body(link).mass[0] == pytest.approx(mass, rel=1e-4)
 
@@ -261,7 +260,7 @@ def test_urdf_has_its_loops_open(tmp_path):
                 turn = turn / (bars[on[name]] / bars[on[name]][2])
             data.joint(name).qpos = np.angle(turn[pose])
         mujoco.mj_forward(model, data)
-        place, size = chosen.task.poses[pose], chosen.found.extent / 1000
+        place, size = chosen.task.poses[pose], chosen.extent / 1000
         body = data.body("body")
         assert np.abs(body.xpos[:2] - place.translation / 1000).max() < 1e-8 * size
         turn = body.xmat.reshape(3, 3)[:2, 0] @ [1, 1j]
@@ -302,7 +301,7 @@ def test_films_show_the_driver_going_its_way(name, suffix, tmp_path):
                 film.seek(number)
                 shown.append(np.asarray(film.convert("RGB")))
     assert len(shown) == 12
-    found, seen = chosen.found, marks(shown)
+    found, seen = chosen, marks(shown)
     drive, share = found.drive, np.arange(12) / 12
     if name == "full turn":
         drives = drive[0] + np.sign(drive[-1] - drive[0]) * 2 * np.pi * share
@@ -325,7 +324,7 @@ def test_what_six_bars_cannot_be(tmp_path):
         export(chosen, "pylinkage", tmp_path / "a.py")
     assert refused.value.code == "E198"
     assert "mjcf" in refused.value.why
-    wide = Options(width=4 * chosen.found.extent, hole=0.1)
+    wide = Options(width=4 * chosen.extent, hole=0.1)
     with pytest.raises(InputError) as refused:
         export(chosen, "svg", tmp_path / "a.svg", wide)
     assert refused.value.code == "E163"

@@ -21,8 +21,8 @@ from burmester.export.solids import solid
 from burmester.export.solids.stl import read_stl, shells_of
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.io.saved import SavedLinkage
 from tests.oracles import witness
+from tests.oracles.handed_over import found
 from tests.oracles.saved_linkages import PAPER, paper, saved
 
 cad = pytest.importorskip("build123d", reason="solids need build123d", exc_type=ImportError)
@@ -458,9 +458,7 @@ def test_inches_become_millimetres(tmp_path):
 
 def test_a_body_that_only_translates_is_no_plates(tmp_path):
     chosen = paper()
-    other = SavedLinkage(
-        "L9", Linkage(PAPER[0], PP(0.0)), ("D1", "D2"), True, "first", "", chosen.task, chosen.error
-    )
+    other = found(Linkage(PAPER[0], PP(0.0)), chosen.task, chosen.error, "L9")
     with pytest.raises(InputError) as caught:
         solid.write_step(other, tmp_path / "x.step", Options())
     assert caught.value.code == "E163"

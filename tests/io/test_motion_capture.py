@@ -464,7 +464,7 @@ def test_a_recorded_four_bar_is_found_again_and_driven_through_its_motion(read: 
     result: Result = synthesize(task)
     best = result.best
     assert best is not None
-    linkage, places_met = best.saved().linkage, best.error.places
+    linkage, places_met = best.driver_first, best.error.places
     rows = np.column_stack([places_met.translation, np.unwrap(places_met.angle)])
     run = driven_either_way(linkage, rows)
     assert run.meets
@@ -476,7 +476,7 @@ def test_a_recorded_four_bar_is_found_again_and_driven_through_its_motion(read: 
         assert off.min() < 1.5
     # and it is the linkage that was planted, as far as 20 poses with this noise say
     # (the closest one: within the noise others may transmit better, and come first)
-    linkage = min(result.usable, key=lambda each: each.error.rms).saved().linkage
+    linkage = min(result.usable, key=lambda each: each.error.rms).driver_first
     pivots = np.array([linkage.first.fixed_pivot, linkage.second.fixed_pivot])
     assert np.abs(pivots - GROUND).max() < 12
     lengths = [float(linkage.first.radius), float(linkage.second.radius)]

@@ -49,9 +49,9 @@ def test_the_driver_is_first_also_where_limits_order_the_dyads(tmp_path):
     assert saved.driver == "second"
     assert saved.ids == (best.dyads[1].id, best.dyads[0].id)
     # The strut that drives is the longer one; the witness, driven by it, comes to the poses.
-    assert float(saved.linkage.first.radius) == float(best.linkage.second.radius) > 400
+    assert float(saved.driver_first.first.radius) == float(best.linkage.second.radius) > 400
     at, angle = places(
-        saved.linkage.first, saved.linkage.second, np.linspace(-np.pi, np.pi, 100_001)
+        saved.driver_first.first, saved.driver_first.second, np.linspace(-np.pi, np.pi, 100_001)
     )
     for wanted, turned in zip(saved.task.poses.translation, saved.task.poses.angle, strict=True):
         turn = np.abs(np.exp(1j * angle) - np.exp(1j * turned))

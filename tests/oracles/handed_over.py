@@ -6,15 +6,17 @@ known little.
 
 import numpy as np
 
+from burmester.dyads.selection import FoundDyad
 from burmester.export import FORMATS, Options, export
 from burmester.export.options import MILLIMETRES
 from burmester.fourbar.circuits import Circuits
+from burmester.fourbar.defects import Driven, Verdict
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.found_linkage import FoundLinkage
 
 
 def rr(fixed, moving, radius):
@@ -44,6 +46,15 @@ GIVEN = {
 NAMES = list(GIVEN)
 
 
+def found(linkage, task, error, id="L1"):
+    """A usable linkage of an answer, driven by its first dyad; how it moves is left open."""
+    nan, every = np.full(2, np.nan), np.full(len(error.position), np.nan)
+    driven = Driven((), -1, False, every, np.nan, np.nan, every, nan, every)
+    dyads = FoundDyad("D1", linkage.first, 0.0, 0.0), FoundDyad("D2", linkage.second, 0.0, 0.0)
+    verdict = Verdict((), driven, driven)
+    return FoundLinkage(id, 1, dyads, linkage, error, 0.0, verdict, "first", True, task=task)
+
+
 def saved(name, poses=6, given=None):
     """The linkage of that name, or one given as they are."""
     first, second, unit, span = given or GIVEN[name]
@@ -55,16 +66,7 @@ def saved(name, poses=6, given=None):
     wave = np.arange(poses)
     off = 1e-3 * size * np.column_stack([np.cos(wave), np.sin(2 * wave)])
     wanted = Displacement(places.translation + off, places.angle + 1e-3 * np.sin(wave))
-    return SavedLinkage(
-        "L1",
-        linkage,
-        ("D1", "D2"),
-        True,
-        "first",
-        linkage.type,
-        Task(wanted, length_unit=unit),
-        PoseError.at(places, wanted),
-    )
+    return found(linkage, Task(wanted, length_unit=unit), PoseError.at(places, wanted))
 
 
 def complex_places(chosen, scale=1.0):

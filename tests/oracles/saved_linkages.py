@@ -6,10 +6,10 @@ from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
 from tests.oracles import witness
+from tests.oracles.handed_over import found
 
 PAPER = (
     RR([-2.2000733, 0.1000512], [1.2400295, 0.1000499], 1.2377093),
@@ -21,9 +21,7 @@ def saved(first, second, rows, *, unit=None, any_order=False):
     """A linkage that passes through poses (N, 3), as a result would hold it."""
     poses = Displacement.from_poses(rows)
     task = Task(poses, length_unit=unit, requirements=Requirements(any_order=any_order))
-    linkage, ids = Linkage(first, second), ("D1", "D2")
-    error = PoseError.at(poses, poses)
-    return SavedLinkage("L1", linkage, ids, True, "first", linkage.type, task, error)
+    return found(Linkage(first, second), task, PoseError.at(poses, poses))
 
 
 def paper(**more):

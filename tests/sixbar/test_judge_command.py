@@ -143,20 +143,18 @@ def test_what_is_saved_is_read_again(folder, capsys, poses):
     assert code == (poses == "swapped.csv")
     result = read_result(saved)
     assert result.synthesis.outcome.code == ("R331" if code else "R330")
-    chosen = result.choose_six_bar("S1")
+    chosen = result.choose("S1")
     judged = burmester.judge(
         task([TURNING[k] for k in (0, 2, 1, 3, 4)] if code else TURNING), chosen
     )
     assert chosen.usable is judged.best.usable is not bool(code)
-    assert chosen.found.drive == pytest.approx(judged.best.drive, abs=1e-7)
+    assert chosen.drive == pytest.approx(judged.best.drive, abs=1e-7)
     for name in ("csv", "json"):
         done = run(capsys, "export", saved, "-o", f"{saved}.{name}")
         assert done[0] == 0
         assert ("not usable: `burmester judge`" in done[2]) == bool(code)
     again = json.loads((folder / f"{poses}.json.json").read_text())
-    assert dimensions(read_linkage(f"{saved}.json")) == pytest.approx(
-        dimensions(chosen.found.linkage)
-    )
+    assert dimensions(read_linkage(f"{saved}.json")) == pytest.approx(dimensions(chosen.linkage))
     assert len(again["places"]) == 5
     for change in ("usable", "outcome"):
         tree = copy.deepcopy(json.loads(saved.read_text()))
@@ -165,7 +163,7 @@ def test_what_is_saved_is_read_again(folder, capsys, poses):
         tree["outcome"]["code"] = "R330" if code else "R331"
         read = read_result("-", json.dumps(tree).encode())
         (told,) = [each for each in read.synthesis.warnings if each.code == "W244"]
-        assert read.choose_six_bar("S1").usable is not bool(code)
+        assert read.choose("S1").usable is not bool(code)
         assert ("S1 is" in told.message) == (change == "usable")
 
 

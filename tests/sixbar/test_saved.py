@@ -44,9 +44,9 @@ def test_what_is_read_is_what_was_written(answer, tree):
         assert saved.transmission == pytest.approx(found.transmission, abs=1e-9)
         places, wanted = (each.body(found.drive) for each in (saved, found))
         assert np.abs(places.translation - wanted.translation).max() < 1e-9
-    assert result.choose_six_bar("s2").id == "S2"
+    assert result.choose("s2").id == "S2"
     with pytest.raises(InputError, match="S99") as refused:
-        result.choose_six_bar("S99")
+        result.choose("S99")
     assert refused.value.code == "E151"
 
 
@@ -75,7 +75,7 @@ def test_one_that_cannot_be_used_is_left_out(tree, fault):
         assert [each.id for each in result.synthesis.six_bars.found][:1] == ["S2"]
         assert "S1 cannot be used" in result.synthesis.warnings[-1].message
         with pytest.raises(InputError) as refused:
-            result.choose_six_bar("S1")
+            result.choose("S1")
         assert refused.value.code == "E150"
     del wrong["six_bars"]["found"][1:]
     with pytest.raises(InputError) as refused:
@@ -107,10 +107,3 @@ def test_what_follows_from_the_dimensions_is_not_read(tree, key):
     changed["six_bars"]["found"][0][key] = "x"
     one, other = (synthesis_data(read(each).synthesis) for each in (tree, changed))
     assert one == other
-
-
-def test_where_a_four_bar_is_needed_six_bars_are_told(tree):
-    with pytest.raises(InputError, match="this result has six-bars") as at:
-        read(tree).choose()
-    assert at.value.code == "E151"
-    assert "export" in at.value.help

@@ -11,8 +11,8 @@ from burmester.errors import InputError
 from burmester.export.coupler_motion import CouplerMotion
 from burmester.fourbar.dyad import PP
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
 from burmester.plot.plane import span_of
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.still import own_circuit
 
 if TYPE_CHECKING:
@@ -25,9 +25,9 @@ SWEPT_PLACES = 49  # of the body along the motion; each is a thin outline
 MOST_PLACES = 12  # at which the linkage is drawn; a path has too many
 
 
-def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
+def linkage_figure(saved: FoundLinkage, ax: Axes | None = None) -> Figure:
     """The linkage at the middle one of its places, faintly at others, over the poses."""
-    linkage, places, poses = saved.linkage, saved.error.places, saved.task.poses
+    linkage, places, poses = saved.driver_first, saved.error.places, saved.task.poses
     with plot.house_style():
         if ax is None:
             ax = plot.figure(7.0, 6.0).add_axes((0.1, 0.08, 0.86, 0.82))
@@ -56,7 +56,7 @@ def linkage_figure(saved: SavedLinkage, ax: Axes | None = None) -> Figure:
     return drawing
 
 
-def _along(saved: SavedLinkage) -> Displacement | None:
+def _along(saved: FoundLinkage) -> Displacement | None:
     """Places of the body from the first pose to the last; None where nothing leads there."""
     try:
         return CouplerMotion.of(saved, SWEPT_PLACES).places

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Set
-from pathlib import Path
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.api.result import Result
+from burmester.api.result import AnyResult, Result
 from burmester.api.synthesize import require_callable
 from burmester.errors import Advice, InputError
 from burmester.functions.found_generator import FoundGenerator
-from burmester.io import files
 from burmester.io.function_result import function_data
 from burmester.io.reading.functions.function_options import (
     FunctionSettings,
@@ -22,7 +20,6 @@ from burmester.io.reading.functions.function_options import (
     task_of_function,
     task_of_pairs,
 )
-from burmester.io.result import json_line
 from burmester.numerics.arrays import FloatArray
 from burmester.progress import Listener, shown
 from burmester.synthesis.function_generation import (
@@ -43,8 +40,11 @@ MOST_LINES = 8  # generators in the text of a result
 
 
 @final
-class FunctionGenerators:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class FunctionGenerators(AnyResult[FoundGenerator]):
     """What came of a function task: the generators by rank, to look at, save and hand over.
+
+    synthesis: all that came of the task.
 
     Examples
     --------
@@ -56,80 +56,51 @@ class FunctionGenerators:
     'double-rocker'
     """
 
-    __slots__ = ("_synthesis",)
-
-    def __init__(self, synthesis: FunctionSynthesis) -> None:
-        self._synthesis = synthesis
-
-    @property
-    def synthesis(self) -> FunctionSynthesis:
-        """All that came of the task."""
-        return self._synthesis
+    synthesis: FunctionSynthesis
 
     @property
     def outcome(self) -> Outcome:
         """What came of the task, as a code and a sentence."""
-        return self._synthesis.outcome
+        return self.synthesis.outcome
 
     @property
     def warnings(self) -> tuple[Advice, ...]:
         """What is to be told beside it."""
-        return self._synthesis.warnings
+        return self.synthesis.warnings
 
     @property
     def generators(self) -> tuple[FoundGenerator, ...]:
         """All generators, the best one first."""
-        return self._synthesis.generators
+        return self.synthesis.generators
 
     @property
-    def usable(self) -> tuple[FoundGenerator, ...]:
-        """Those that go through the whole range on one branch."""
-        return self._synthesis.usable
-
-    @property
-    def best(self) -> FoundGenerator | None:
-        """The best one that works; None where none does."""
-        return next(iter(self.usable), None)
-
-    def __len__(self) -> int:
-        return len(self.generators)
-
-    def __getitem__(self, which: int | str) -> FoundGenerator:
-        """A generator by its place in the ranking, or by its id; raises E151."""
-        for place, each in enumerate(self.generators):
-            if which in (place, each.id):
-                return each
-        known = ", ".join(each.id for each in self.generators)
-        raise InputError(
-            "E151",
-            f"there is no linkage {which} in this result",
-            why=f"it has {known}" if known else self.outcome.message,
-            help="choose one of them, such as L1" if known else self.outcome.help,
-        )
+    def candidates(self) -> tuple[FoundGenerator, ...]:
+        """All generators, the best one first."""
+        return self.synthesis.generators
 
     def coupler_motion(self, which: int | str = 0) -> Result:
         """A generator as a linkage that guides its coupler, to draw, animate and export."""
-        return Result.of(coupler_synthesis(self._synthesis.task, self[which]))
+        return Result.of(coupler_synthesis(self.synthesis.task, self[which]))
 
     def to_dict(self) -> dict[str, Any]:
         """The object of `burmester synthesize --json`."""
-        return function_data(self._synthesis)
+        return function_data(self.synthesis)
 
-    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
-        """Write that object to a file; raises E140 and E141."""
-        files.write(os.fspath(path), json_line(self.to_dict()), force=force)
-        return Path(path)
+    def _page(self, title: str) -> str:
+        from burmester.report.page import function_page  # noqa: PLC0415
+
+        return function_page(self.synthesis, title)
 
     def plot(self) -> Figure:
         """The structural error over the input, by Matplotlib."""
         from burmester import plot  # noqa: PLC0415  Matplotlib may be missing
 
         with plot.house_style():
-            return plot.structural_error_figure(self._synthesis)
+            return plot.structural_error_figure(self.synthesis)
 
     def __repr__(self) -> str:
         lines = [self.outcome.message]
-        for each in self._synthesis.leading(MOST_LINES):
+        for each in self.synthesis.leading(MOST_LINES):
             error = np.degrees(each.max_error)
             said = "works" if each.usable else each.defects[0].message
             lines.append(f"{each.id}  {each.type}: {error:.3g} deg at most, {said}")

@@ -17,8 +17,6 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_file import read_linkage
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.progress import Listener
 from burmester.progress import shown as told
 from burmester.sixbar.found import FoundSixBar
@@ -34,8 +32,8 @@ from burmester.verdicts.found_linkage import FoundLinkage
 __all__ = ["judge"]
 
 Pivots: TypeAlias = tuple[ArrayLike, ArrayLike]
-FourBar: TypeAlias = Linkage | FoundLinkage | SavedLinkage | Sequence[Dyad | Pivots]
-SixBar: TypeAlias = WattLinkage | FoundSixBar | SavedSixBar
+FourBar: TypeAlias = Linkage | FoundLinkage | Sequence[Dyad | Pivots]
+SixBar: TypeAlias = WattLinkage | FoundSixBar
 LinkageFile: TypeAlias = str | os.PathLike[str]
 
 
@@ -111,7 +109,7 @@ def judge(
 
     Returns
     -------
-    Result or SixBarResult
+    Result
         The given linkage as L1, with its errors and its verdict, then the better ones.  Of a
         six-bar it alone, as S1.
 
@@ -144,7 +142,7 @@ def judge(
         given = _linkage(linkage, id, task.length_unit)
         if isinstance(given, WattLinkage):
             _require_none(improve=improve, norm=norm != "rms", tolerance=manufacturing_tolerance)
-            return SixBarResult(judge_six_bar(task, given, options))
+            return Result.of(judge_six_bar(task, given, options))
         return Result.of(judge_linkage(task, given, options, improve=improve))
 
 
@@ -154,10 +152,8 @@ def _linkage(
     """What `judge_linkage` or `judge_six_bar` takes, or E153."""
     if isinstance(given, str | os.PathLike):
         return read_linkage(given, id, unit)
-    if isinstance(given, FoundLinkage | SavedLinkage):
+    if isinstance(given, FoundLinkage):
         return given.linkage
-    if isinstance(given, SavedSixBar):
-        return given.found.linkage
     if isinstance(given, FoundSixBar | WattLinkage):
         return _one_six_bar(given if isinstance(given, WattLinkage) else given.linkage)
     if isinstance(given, Linkage):

@@ -3,61 +3,65 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, Self, final
+from typing import TYPE_CHECKING, Any, Self, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.api.moving_picture import MovingPicture
 from burmester.api.python_words import in_python_words
-from burmester.api.table import as_line, dimensions_as_html
+from burmester.api.table import as_line, dimensions_as_html, plain_html
+from burmester.describe import six_bar_words
 from burmester.errors import InputError
 from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Configuration
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.motion_task import Task
+from burmester.sixbar.found import FoundSixBar
 from burmester.values import real_numbers
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.web.still import still
+from burmester.web.still import six_bar_still, still
 from burmester.wording import with_article
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["ResultLinkage"]
+    from burmester.synthesis.result import Candidate
+    from burmester.tasks.motion_task import Task
+
+__all__ = ["Chosen", "ResultLinkage", "ResultSixBar"]
 
 
-@final
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class ResultLinkage(FoundLinkage):
-    """A `FoundLinkage` that knows its task, so that it can be drawn and handed over.
+class Chosen:
+    """What a linkage of a result can do, four-bar or six-bar."""
 
-    Examples
-    --------
-    >>> import burmester
-    >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
-    >>> best
-    L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
-    """
+    __slots__ = ()
 
-    task: Task = field(kw_only=True)
+    if TYPE_CHECKING:  # what linkages of any kind have
+
+        @property
+        def id(self) -> str: ...
+
+        @property
+        def type(self) -> str: ...
+
+        @property
+        def task(self) -> Task: ...
 
     @classmethod
-    def of(cls, found: FoundLinkage, task: Task) -> Self:
-        """A linkage with the task that it belongs to."""
-        return cls(**{each.name: getattr(found, each.name) for each in fields(found)}, task=task)
+    def of(cls, found: Any) -> Self:
+        """A linkage of an answer, to be drawn and handed over."""
+        return cls(**{each.name: getattr(found, each.name) for each in fields(found)})
 
-    def saved(self) -> SavedLinkage:
-        """The linkage as it is handed to other programs, its driver first."""
-        return SavedLinkage.of(self, self.task)
+    def saved(self) -> Self:
+        """The linkage itself; exports take it as it is."""
+        return self
 
     def export(
         self,
@@ -104,8 +108,80 @@ class ResultLinkage(FoundLinkage):
                     help=f"choose among {', '.join(known)}",
                 )
         with in_python_words():
-            (written,) = export(self.saved(), to, path, Options(**dimensions), force)
+            (written,) = export(cast("Candidate", self), to, path, Options(**dimensions), force)
         return written
+
+    def plot(self, ax: Axes | None = None) -> Figure:
+        """The linkage at its poses, with the curve of the body's origin, by Matplotlib.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Axes to draw on; a new figure if not given.
+
+        Raises
+        ------
+        InputError
+            E130, where Matplotlib is missing.
+        """
+        raise NotImplementedError
+
+    def animate(self, *, seconds: float = 4.0, width_px: int = 640) -> MovingPicture:
+        """The linkage on its way through the poses, as a GIF that a notebook shows.
+
+        Parameters
+        ----------
+        seconds : float
+            How long it takes.
+        width_px : int
+            The width of the picture.
+
+        Raises
+        ------
+        InputError
+            E130, where Matplotlib or Pillow is missing.
+        """
+        with TemporaryDirectory() as folder:
+            path = Path(folder) / "linkage.gif"
+            self.export(path, seconds=seconds, width_px=width_px)
+            return MovingPicture(path.read_bytes(), self._title())
+
+    def _title(self) -> str:
+        return f"{self.id}, {with_article(self.type)}, and {len(self.task.poses.angle)} poses"
+
+    def _drawing(self) -> str:
+        """The linkage at its poses, as SVG."""
+        raise NotImplementedError
+
+    def _dimensions(self) -> str:
+        """A table of its dimensions, as HTML."""
+        raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        caption = f"<figcaption>{escape(self._title())}</figcaption>"
+        return f"<figure>{self._drawing()}{caption}{self._dimensions()}</figure>"
+
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
+        """In a notebook: text, HTML without scripts, and the drawing alone."""
+        return {
+            "text/plain": repr(self),
+            "text/html": self._repr_html_(),
+            "image/svg+xml": self._drawing(),
+        }
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ResultLinkage(FoundLinkage, Chosen):
+    """A `FoundLinkage` that can be drawn and handed over.
+
+    Examples
+    --------
+    >>> import burmester
+    >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
+    >>> best
+    L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
+    """
 
     def at(self, driver: ArrayLike) -> Configuration:
         """Where body and joints are for the driver's angle, or for an array of angles.
@@ -140,7 +216,7 @@ class ResultLinkage(FoundLinkage):
         from burmester.export.coupler_motion import CouplerMotion  # noqa: PLC0415
 
         given = real_numbers(driver, (...,), "the driver")
-        motion = CouplerMotion.of(self.saved(), 3)
+        motion = CouplerMotion.of(self, 3)
         middle = circuit_of(self.driver_first, motion.places[1], as_given=True)
         own = motion.circuit
         inputs = np.radians(given) if own.turns else given
@@ -157,7 +233,7 @@ class ResultLinkage(FoundLinkage):
         """
         from burmester.export.coupler_motion import CouplerMotion  # noqa: PLC0415
 
-        motion = CouplerMotion.of(self.saved(), count)
+        motion = CouplerMotion.of(self, count)
         turns = motion.circuit.turns
         driver = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
         return self._configuration(driver, motion.places)
@@ -175,61 +251,38 @@ class ResultLinkage(FoundLinkage):
         return Configuration(driver, places, joints)
 
     def plot(self, ax: Axes | None = None) -> Figure:
-        """The linkage at its poses, with the curve of the body's origin, by Matplotlib.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Axes to draw on; a new figure if not given.
-
-        Raises
-        ------
-        InputError
-            E130, where Matplotlib is missing.
-        """
+        """The linkage at its poses; see `Chosen.plot`."""
         from burmester.api.figure import linkage_figure  # noqa: PLC0415
 
-        return linkage_figure(self.saved(), ax)
-
-    def animate(self, *, seconds: float = 4.0, width_px: int = 640) -> MovingPicture:
-        """The linkage on its way through the poses, as a GIF that a notebook shows.
-
-        Parameters
-        ----------
-        seconds : float
-            How long it takes.
-        width_px : int
-            The width of the picture.
-
-        Raises
-        ------
-        InputError
-            E130, where Matplotlib or Pillow is missing.
-        """
-        with TemporaryDirectory() as folder:
-            path = Path(folder) / "linkage.gif"
-            self.export(path, seconds=seconds, width_px=width_px)
-            return MovingPicture(path.read_bytes(), self._title())
-
-    def _title(self) -> str:
-        saved = self.saved()
-        return f"{saved.id}, {with_article(saved.type)}, and {len(saved.task.poses.angle)} poses"
+        return linkage_figure(self, ax)
 
     def _drawing(self) -> str:
-        saved = self.saved()
-        return still(saved.linkage, saved.error.places, saved.task, self._title())
+        return still(self.driver_first, self.error.places, self.task, self._title())
 
-    def _repr_html_(self) -> str:
-        caption = f"<figcaption>{escape(self._title())}</figcaption>"
-        return f"<figure>{self._drawing()}{caption}{dimensions_as_html(self.saved())}</figure>"
-
-    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
-        """In a notebook: text, HTML without scripts, and the drawing alone."""
-        return {
-            "text/plain": repr(self),
-            "text/html": self._repr_html_(),
-            "image/svg+xml": self._drawing(),
-        }
+    def _dimensions(self) -> str:
+        return dimensions_as_html(self)
 
     def __repr__(self) -> str:
-        return as_line(self.saved())
+        return as_line(self)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class ResultSixBar(FoundSixBar, Chosen):
+    """A `FoundSixBar` that can be drawn and handed over."""
+
+    def plot(self, ax: Axes | None = None) -> Figure:
+        """The six-bar at its poses; see `Chosen.plot`."""
+        from burmester import plot  # noqa: PLC0415  it loads Matplotlib
+
+        return plot.six_bar_figure(self, self.task, ax=ax)
+
+    def _drawing(self) -> str:
+        return six_bar_still(self, self.task, self._title())
+
+    def _dimensions(self) -> str:
+        rows = six_bar_words.joint_rows(self) + six_bar_words.length_rows(self)
+        return plain_html((), rows, ())
+
+    def __repr__(self) -> str:
+        return six_bar_words.headline(self)

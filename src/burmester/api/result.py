@@ -3,38 +3,168 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields
+from abc import abstractmethod
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
 from html import escape
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, SupportsIndex, final, overload
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Generic,
+    Protocol,
+    SupportsIndex,
+    TypeVar,
+    cast,
+    final,
+    overload,
+)
 
-from burmester.api.linkage import ResultLinkage
+from burmester.api.linkage import ResultLinkage, ResultSixBar
 from burmester.api.moving_picture import MovingPicture
 from burmester.api.python_words import in_python_words
-from burmester.api.table import as_html, as_text
+from burmester.api.table import as_html, as_text, plain_html
+from burmester.describe import six_bar_words
 from burmester.describe.sentences import best_sentences
 from burmester.errors import InputError
 from burmester.io import files
 from burmester.io.result import json_line, synthesis_data
-from burmester.synthesis.result import Synthesis
+from burmester.synthesis.result import Outcome, Synthesis
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["Result"]
+__all__ = ["AnyResult", "Result"]
 
 LINES = 12  # of a `repr`, at most
 SENTENCES = 5  # of these, above the table; `outcome` and `warnings` have them all
 
 
+class _Named(Protocol):
+    """What every result has some of, by rank."""
+
+    @property
+    def id(self) -> str: ...
+
+    @property
+    def usable(self) -> bool: ...
+
+
+Kind = TypeVar("Kind", bound=_Named)
+
+
+class AnyResult(Generic[Kind]):
+    """What every result can do, whatever it is a result of."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def outcome(self) -> Outcome: ...
+
+    @property
+    @abstractmethod
+    def candidates(self) -> tuple[Kind, ...]:
+        """All of them, the best one first."""
+
+    @property
+    def usable(self) -> tuple[Kind, ...]:
+        """Those that work, the best one first."""
+        return tuple(each for each in self.candidates if each.usable)
+
+    @property
+    def best(self) -> Kind | None:
+        """The best one that works; None where none does."""
+        return next(iter(self.usable), None)
+
+    def __iter__(self) -> Iterator[Kind]:
+        return iter(self.candidates)
+
+    def __len__(self) -> int:
+        return len(self.candidates)
+
+    def __bool__(self) -> bool:
+        return True
+
+    @overload
+    def __getitem__(self, which: SupportsIndex | str) -> Kind: ...
+
+    @overload
+    def __getitem__(self, which: slice) -> tuple[Kind, ...]: ...
+
+    def __getitem__(self, which: SupportsIndex | str | slice) -> Kind | tuple[Kind, ...]:
+        """One by its id ("L2") or by its place in the ranking (from 0); raises E151."""
+        every = self.candidates
+        if isinstance(which, slice):
+            return every[which]
+        known = [each.id for each in every]
+        if isinstance(which, str):
+            if which.upper() in known:
+                return every[known.index(which.upper())]
+        elif -len(every) <= which.__index__() < len(every):
+            return every[which]
+        raise InputError(
+            "E151",
+            f"there is no linkage {which} in this result",
+            why=f"it has {', '.join(known)}" if known else self.outcome.message,
+            help=f"choose one of them, such as {known[0]}"
+            if known
+            else self.outcome.help or "give other poses",
+        )
+
+    @abstractmethod
+    def to_dict(self) -> dict[str, Any]:
+        """The object of `burmester synthesize --json`."""
+
+    def to_json(self) -> str:
+        """All of it as one JSON object, as `burmester synthesize --json` prints it."""
+        return json_line(self.to_dict())
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Write it as JSON, for `burmester.read_result` and `burmester export`.
+
+        Raises InputError E140 (the file exists, and force is not set) and E141 (it cannot be
+        written).
+        """
+        with in_python_words():
+            files.write(path, self.to_json(), force=force)
+        return Path(path)
+
+    @abstractmethod
+    def _page(self, title: str) -> str: ...
+
+    def report(
+        self, path: str | os.PathLike[str], *, title: str | None = None, force: bool = False
+    ) -> Path:
+        """Write the page on which the linkages move, one HTML file that needs no network.
+
+        title: the heading, the file's name if not given.  Raises InputError E140 and E141.
+        """
+        with in_python_words():
+            files.require_writable(path, force=force)
+            files.write(path, self._page(title or Path(path).stem), force=force)
+        return Path(path)
+
+
+if TYPE_CHECKING:
+    from typing_extensions import TypeVar as TypeVarWithDefault
+
+    Linkages = TypeVarWithDefault(
+        "Linkages", bound=ResultLinkage | ResultSixBar, default=ResultLinkage
+    )
+else:
+    Linkages = TypeVar("Linkages")
+
+
 @final
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Result(Synthesis):
+class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: of either kind
     """A `Synthesis` that can be looked at, saved and handed over.
 
-    Iterate over its linkages, ask for one by its id (`result["L2"]`) or by rank (`result[0]`).
+    Iterate over its linkages, four-bars or six-bars, ask for one by its id (`result["L2"]`) or by
+    rank (`result[0]`).
     Beside what is listed here it has all of `Synthesis`: task, outcome, dyads, warnings, fits,
     certificate, motion, method, options.
 
@@ -49,58 +179,31 @@ class Result(Synthesis):
     linkages: tuple[ResultLinkage, ...] = ()
 
     @classmethod
-    def of(cls, synthesis: Synthesis) -> Self:
-        """A synthesis whose linkages know their task."""
+    def of(cls, synthesis: Synthesis) -> Result[Any]:
+        """A synthesis whose linkages can be drawn and handed over."""
         values = {each.name: getattr(synthesis, each.name) for each in fields(Synthesis)}
-        linkages = tuple(ResultLinkage.of(each, synthesis.task) for each in synthesis.linkages)
-        return cls(**{**values, "linkages": linkages})
-
-    def __iter__(self) -> Iterator[ResultLinkage]:
-        return iter(self.linkages)
-
-    def __len__(self) -> int:
-        return len(self.linkages)
-
-    def __bool__(self) -> bool:
-        return True
-
-    @overload
-    def __getitem__(self, which: SupportsIndex | str) -> ResultLinkage: ...
-
-    @overload
-    def __getitem__(self, which: slice) -> tuple[ResultLinkage, ...]: ...
-
-    def __getitem__(
-        self, which: SupportsIndex | str | slice
-    ) -> ResultLinkage | tuple[ResultLinkage, ...]:
-        """A linkage by its id ("L2") or by its place in the ranking (from 0); raises E151."""
-        outcome, linkages = self.outcome, self.linkages
-        if isinstance(which, slice):
-            return linkages[which]
-        known = [each.id for each in linkages]
-        if isinstance(which, str):
-            if which.upper() in known:
-                return linkages[known.index(which.upper())]
-        elif -len(linkages) <= which.__index__() < len(linkages):
-            return linkages[which]
-        raise InputError(
-            "E151",
-            f"there is no linkage {which} in this result",
-            why=f"it has {', '.join(known)}" if known else outcome.message,
-            help=f"choose one of them, such as {known[0]}"
-            if known
-            else outcome.help or "give other poses",
-        )
+        values["linkages"] = tuple(map(ResultLinkage.of, synthesis.linkages))
+        if (six_bars := synthesis.six_bars) is not None:
+            found = tuple(map(ResultSixBar.of, six_bars.found))
+            values["six_bars"] = replace(six_bars, found=found)
+        return cls(**values)
 
     @property
-    def usable(self) -> tuple[ResultLinkage, ...]:
-        """The linkages that work, the best one first."""
-        return tuple(each for each in self.linkages if each.usable)
+    def synthesis(self) -> Synthesis:
+        """The same, as a search returns it."""
+        return self
 
     @property
-    def best(self) -> ResultLinkage | None:
-        """The best linkage that works; None where none does."""
-        return next(iter(self.usable), None)
+    def candidates(self) -> tuple[Linkages, ...]:
+        """All linkages, the best one first."""
+        every = self.linkages if self.six_bars is None else self.six_bars.found
+        return cast("tuple[Linkages, ...]", every)
+
+    @property
+    def best(self) -> Linkages | None:
+        """The linkage to build, the one six-bar that was given; None where none works."""
+        given = self.six_bars is not None and self.six_bars.given
+        return next(iter(self.candidates if given else self.usable), None)
 
     def export(
         self,
@@ -126,60 +229,41 @@ class Result(Synthesis):
         """One linkage on its way through the poses: the first by rank, or the one named."""
         return self[0 if linkage is None else linkage].animate(**how)
 
-    def _text(self, answer: Sequence[str] = (), warnings: Sequence[str] = ()) -> str:
-        """The result in `LINES` lines at most: the answer, what came of the task, warnings."""
-        outcome, linkages = self.outcome, self.linkages
-        lines = [*answer, outcome.message, *warnings][:SENTENCES]
-        lines += as_text([each.saved() for each in linkages], LINES - len(lines) - 1)
-        return "\n".join(lines)
+    def to_dict(self) -> dict[str, Any]:
+        """The object of `burmester synthesize --json`."""
+        return synthesis_data(self)
 
-    def _html(self, answer: Sequence[str] = (), warnings: Sequence[str] = ()) -> str:
-        outcome, linkages = self.outcome, self.linkages
-        said: list[str] = [outcome.message, *warnings]
-        sentences: list[str] = [*answer, *(f"{each}." for each in said)]
-        first: str = "".join(f"<p>{escape(each)}</p>" for each in sentences)
-        if not linkages:
-            return f"<div>{first}</div>"
-        table: str = as_html([each.saved() for each in linkages])
-        return f"<div>{first}{table}{linkages[0]._repr_html_()}</div>"
+    def _page(self, title: str) -> str:
+        from burmester.report import page  # noqa: PLC0415
+
+        return page(self, title)
+
+    def __repr__(self) -> str:
+        if self.six_bars is not None:
+            found = self.six_bars.found
+            best = [six_bar_words.headline(each) for each in found[:1]]
+            rows = ["  ".join(six_bar_words.row(self, each)) for each in found]
+            return "\n".join([*best, self.outcome.message, *rows])
+        warnings = [f"{each.code}: {each.message}" for each in self.warnings]
+        lines = [*best_sentences(self), self.outcome.message, *warnings][:SENTENCES]
+        return "\n".join([*lines, *as_text(self.linkages, LINES - len(lines) - 1)])
+
+    def _repr_html_(self) -> str:
+        """In a notebook: what to build, all linkages in a table, and the first one drawn."""
+        six_bars, every = self.six_bars, self.candidates
+        if six_bars is None:
+            answer, warnings = best_sentences(self), [each.message for each in self.warnings]
+            table = as_html(self.linkages) if every else ""
+        else:
+            found, warnings = six_bars.found, []
+            answer = [f"{six_bar_words.headline(each)}." for each in found[:1]]
+            rows = [six_bar_words.row(self, each) for each in found]
+            table = plain_html(six_bar_words.HEADS, rows, range(2, 7)) if every else ""
+        sentences = [*answer, *(f"{each}." for each in (self.outcome.message, *warnings))]
+        text = "".join(f"<p>{escape(each)}</p>" for each in sentences)
+        return f"<div>{text}{table}{every[0]._repr_html_() if every else ''}</div>"
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
         """In a notebook: text, HTML without scripts, and the first linkage as a drawing."""
-        linkages = self.linkages
-        drawing = {"image/svg+xml": linkages[0]._drawing()} if linkages else {}
+        drawing = {"image/svg+xml": self[0]._drawing()} if len(self) else {}
         return {"text/plain": repr(self), "text/html": self._repr_html_(), **drawing}
-
-    def to_json(self) -> str:
-        """All of it as one JSON object, as `burmester synthesize --json` prints it."""
-        return json_line(synthesis_data(self))
-
-    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
-        """Write it as JSON, for `burmester.read_result` and `burmester export`.
-
-        Raises InputError E140 (the file exists, and force is not set) and E141 (it cannot be
-        written).
-        """
-        with in_python_words():
-            files.write(path, self.to_json(), force=force)
-        return Path(path)
-
-    def report(
-        self, path: str | os.PathLike[str], *, title: str | None = None, force: bool = False
-    ) -> Path:
-        """Write the page on which the linkages move, one HTML file that needs no network.
-
-        title: the heading, the file's name if not given.  Raises InputError E140 and E141.
-        """
-        from burmester.report import page  # noqa: PLC0415
-
-        with in_python_words():
-            files.require_writable(path, force=force)
-            files.write(path, page(self, title or Path(path).stem), force=force)
-        return Path(path)
-
-    def __repr__(self) -> str:
-        warnings = [f"{each.code}: {each.message}" for each in self.warnings]
-        return self._text(best_sentences(self), warnings)
-
-    def _repr_html_(self) -> str:
-        return self._html(best_sentences(self), [each.message for each in self.warnings])

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
+from typing import Any
 
 from burmester.api.function import FunctionGenerators
 from burmester.api.result import Result
-from burmester.api.six_bars import SixBarResult
 from burmester.io import saved
 from burmester.io.function_result import is_function_result, read_function_result
 from burmester.io.reading.file_content import read_source
@@ -14,7 +14,7 @@ from burmester.io.reading.file_content import read_source
 __all__ = ["read_result"]
 
 
-def read_result(source: str | os.PathLike[str]) -> Result | SixBarResult | FunctionGenerators:
+def read_result(source: str | os.PathLike[str]) -> Result[Any] | FunctionGenerators:
     """What `Result.save` or `burmester synthesize -o` wrote.
 
     Parameters
@@ -24,7 +24,7 @@ def read_result(source: str | os.PathLike[str]) -> Result | SixBarResult | Funct
 
     Returns
     -------
-    Result, SixBarResult or FunctionGenerators
+    Result or FunctionGenerators
         What wrote the file, with all that it gave but what concerns the search alone: `fits`,
         `points` and `causes` are empty.  The task and the dimensions of its linkages are read, and
         the linkages judged anew.  Where the file says something else of one, or one cannot be used,
@@ -49,5 +49,4 @@ def read_result(source: str | os.PathLike[str]) -> Result | SixBarResult | Funct
     data = read_source(path)
     if is_function_result(data):
         return FunctionGenerators(read_function_result(data, path).synthesis)
-    synthesis = saved.read_result(path, data).synthesis
-    return Result.of(synthesis) if synthesis.six_bars is None else SixBarResult(synthesis)
+    return Result.of(saved.read_result(path, data).synthesis)

@@ -10,12 +10,12 @@ from burmester.describe.decimals import decimals_of_linkage
 from burmester.describe.digits import angle_error, degrees
 from burmester.describe.dimensions import dimensions_of
 from burmester.describe.quality_words import in_short
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import least_angle, length_of
 from burmester.verdicts.explanation import asked_for
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import listed
 
 __all__ = ["as_html", "as_line", "as_text", "dimensions_as_html", "plain_html"]
@@ -24,7 +24,7 @@ HEADS = ("", "type", "dyads", "worst", "angle", "transm.", "ext.", "sens.", "")
 NUMBERS = range(3, 8)  # columns of numbers, set to the right
 
 
-def as_line(linkage: SavedLinkage) -> str:
+def as_line(linkage: FoundLinkage) -> str:
     """A linkage in one line: "L1: crank-rocker of D1 and D2, misses by ..."."""
     first, second = linkage.ids
     _, _, _, worst, angle, least, *_, verdict = _cells(linkage)
@@ -41,7 +41,7 @@ def as_line(linkage: SavedLinkage) -> str:
     return f"{linkage.id}: {kind} of {first} and {second}, {how}{sure}"
 
 
-def as_text(linkages: Sequence[SavedLinkage], most: int) -> list[str]:
+def as_text(linkages: Sequence[FoundLinkage], most: int) -> list[str]:
     """A line of heads and at most `most` lines of linkages, the last one a count of the rest."""
     shown = linkages if len(linkages) <= most else linkages[: most - 1]
     if not shown:
@@ -60,7 +60,7 @@ def as_text(linkages: Sequence[SavedLinkage], most: int) -> list[str]:
     return lines
 
 
-def as_html(linkages: Sequence[SavedLinkage]) -> str:
+def as_html(linkages: Sequence[FoundLinkage]) -> str:
     """A table element; the linkages that are not usable are paler."""
     faint = {k for k, each in enumerate(linkages) if not each.usable}
     return plain_html(HEADS, list(map(_cells, linkages)), NUMBERS, faint)
@@ -83,12 +83,13 @@ def plain_html(
 
     pale = ' style="opacity:.6"'
     body = "".join(row(each, "td", pale if k in faint else "") for k, each in enumerate(rows))
-    return f"<table><thead>{row(heads, 'th')}</thead><tbody>{body}</tbody></table>"
+    head = f"<thead>{row(heads, 'th')}</thead>" if heads else ""
+    return f"<table>{head}<tbody>{body}</tbody></table>"
 
 
-def dimensions_as_html(linkage: SavedLinkage) -> str:
+def dimensions_as_html(linkage: FoundLinkage) -> str:
     """A table element of a linkage's dimensions, with the decimals that keep its error."""
-    task, own = linkage.task, linkage.linkage
+    task, own = linkage.task, linkage.driver_first
     decimals = decimals_of_linkage(
         own,
         task.poses,
@@ -105,7 +106,7 @@ def dimensions_as_html(linkage: SavedLinkage) -> str:
     return f"<table><tbody>{rows}</tbody></table>"
 
 
-def _cells(linkage: SavedLinkage) -> tuple[str, ...]:
+def _cells(linkage: FoundLinkage) -> tuple[str, ...]:
     """One linkage by columns."""
     error, task = linkage.error, linkage.task
     angle = "free" if task.angles_are_free else angle_error(float(error.angle.max()))

@@ -10,8 +10,7 @@ from burmester.cli.options import Number
 from burmester.cli.output import EXIT_FOUND, console
 
 if TYPE_CHECKING:
-    from burmester.io.saved import SavedLinkage
-    from burmester.io.saved_six_bars import SavedSixBar
+    from burmester.synthesis.result import Candidate
 
 __all__ = ["export"]
 
@@ -120,7 +119,7 @@ def export(
 
     name = require_format(output, to)
     require_writable(output, force=force, source=result)
-    chosen: SavedLinkage | SavedSixBar
+    chosen: Candidate
     with working("reading the result"):
         data = read_source(result)
         if is_function_result(data):
@@ -128,9 +127,7 @@ def export(
             chosen, warnings = functions.exported(linkage), functions.synthesis.warnings
         else:
             read = read_result(result, data)
-            six_bar = read.choose_six_bar(linkage)
-            chosen = read.choose(linkage) if six_bar is None else six_bar
-            warnings = read.synthesis.warnings
+            chosen, warnings = read.choose(linkage), read.synthesis.warnings
     for each in warnings:
         if each.code == JUDGED_OTHERWISE:  # the others were said when the result was made
             show("warning", each, console())

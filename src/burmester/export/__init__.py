@@ -20,9 +20,9 @@ from typing import Final, final
 from burmester.errors import InputError
 from burmester.export.options import Options
 from burmester.io.files import atomic_file
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.progress import step
+from burmester.synthesis.result import Candidate
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import listed
 
 __all__ = [
@@ -147,7 +147,7 @@ def require_format(path: str | os.PathLike[str], to: str | None = None) -> str:
 
 
 def export(
-    chosen: SavedLinkage | SavedSixBar,
+    chosen: Candidate,
     to: str | None,
     path: str | os.PathLike[str],
     options: Options = Options(),  # noqa: B008  frozen
@@ -157,7 +157,7 @@ def export(
 
     Parameters
     ----------
-    chosen : SavedLinkage or SavedSixBar
+    chosen : Candidate
         The linkage.
     to : str or None
         A key of `FORMATS`; None leaves the choice to the suffix of `path`.
@@ -188,14 +188,14 @@ def export(
     >>> from burmester.export import export
     >>> best = synthesize(read_task("case:ge2012-exact")).best
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     [path] = export(best.saved(), "svg", os.path.join(folder, "linkage.svg"))
+    ...     [path] = export(best, "svg", os.path.join(folder, "linkage.svg"))
     >>> path.name
     'linkage.svg'
     """
     name = require_format(path, to)
     form = FORMATS[name]
     writer = form.module
-    if isinstance(chosen, SavedSixBar):
+    if not isinstance(chosen, FoundLinkage):
         writer = SIX_BAR_MODULES.get(writer, writer)
         if name not in SIX_BAR_FORMATS:
             raise InputError(

@@ -20,9 +20,9 @@ from burmester.fourbar.defects import Driven, judge
 from burmester.fourbar.dyad import PP
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import characteristic_length
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["CouplerMotion"]
 
@@ -57,7 +57,7 @@ class CouplerMotion:
     full_turn: bool
 
     @classmethod
-    def of(cls, chosen: SavedLinkage, count: int | ArrayLike, whole: bool = False) -> Self:
+    def of(cls, chosen: FoundLinkage, count: int | ArrayLike, whole: bool = False) -> Self:
         """The motion of a linkage through its poses.
 
         count: the number of places, 2 or more, or their shares (n,) of the motion, from 0 to 1.
@@ -89,7 +89,7 @@ class CouplerMotion:
                 why="all poses that its driver reaches are the same place",
                 help="give poses that differ",
             )
-        own = Circuits.of(chosen.linkage, as_given=True)[driven.circuit]
+        own = Circuits.of(chosen.driver_first, as_given=True)[driven.circuit]
         share = np.linspace(0.0, 1.0, count) if isinstance(count, int) else np.asarray(count, float)
         # Angles are followed in small steps, and come by whole turns as the first pose has its own.
         steps = np.linspace(0.0, 1.0, ANGLE_SAMPLES)
@@ -117,9 +117,9 @@ class CouplerMotion:
         return np.flatnonzero(np.isfinite(self.pose_shares))
 
 
-def _driven(chosen: SavedLinkage) -> Driven:
+def _driven(chosen: FoundLinkage) -> Driven:
     """The linkage with its driver, judged by the poses that lie together on one branch."""
-    first, second = chosen.linkage.first, chosen.linkage.second
+    first, second = chosen.driver_first.first, chosen.driver_first.second
     if isinstance(first, PP) or isinstance(second, PP):
         raise InputError(
             "E163",
@@ -145,7 +145,7 @@ def _driven(chosen: SavedLinkage) -> Driven:
 
     driven, locks = judged(places)
     if locks:
-        here = circuit_of(chosen.linkage, places, as_given=True)
+        here = circuit_of(chosen.driver_first, places, as_given=True)
         on = np.isfinite(driven.parameter)
         more = int((on & (here.branch == 1)).sum()) > int((on & (here.branch == 0)).sum())
         keep = on & (here.branch == int(more))

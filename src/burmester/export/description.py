@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from burmester.describe import six_bar_words
 from burmester.describe.decimals import Decimals, decimals_of_linkage, figures_of
@@ -14,12 +14,15 @@ from burmester.export.six_bar_reference import SixBarReference
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import ROUNDING
+from burmester.synthesis.result import Candidate
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import characteristic_length
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import in_unit, with_article
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["description", "dimension_notes", "length_decimals", "reference_of"]
 
@@ -27,24 +30,23 @@ FINEST: Final = 1e-7  # of a six-bar's span: what the last decimal of its length
 
 
 def reference_of(
-    chosen: SavedLinkage | SavedSixBar, options: Options, unit: str = "mm"
+    chosen: Candidate, options: Options, unit: str = "mm"
 ) -> Reference | SixBarReference:
     """What a file is compared with, in a unit; raises E162, and E163 without places."""
-    if isinstance(chosen, SavedSixBar):
+    if not isinstance(chosen, FoundLinkage):
         return SixBarReference.of(chosen, options, unit)
     return Reference.of(chosen, options, unit)
 
 
-def description(
-    chosen: SavedLinkage | SavedSixBar, options: Options, unit: str | None
-) -> list[str]:
+def description(chosen: Candidate, options: Options, unit: str | None) -> list[str]:
     """Sentences on what a file holds, for its head; unit: of its lengths, None for the task's."""
     stated = stated_unit(chosen, options)
     own = stated if unit is None else unit_of(chosen, options)
     named = f" {own}" if own else ""
-    sentences = (
-        _of_six_bar(chosen) if isinstance(chosen, SavedSixBar) else _of_four_bar(chosen, named)
-    )
+    if isinstance(chosen, FoundLinkage):
+        sentences = _of_four_bar(chosen, named)
+    else:
+        sentences = _of_six_bar(chosen)
     if unit is None:
         lengths = f"Lengths are{in_unit(own)}." if own else "The task names no unit of length."
         sentences.append(lengths)
@@ -66,7 +68,7 @@ def description(
     return sentences
 
 
-def _of_four_bar(chosen: SavedLinkage, named: str) -> list[str]:
+def _of_four_bar(chosen: FoundLinkage, named: str) -> list[str]:
     """named: the unit of lengths, after a blank, or nothing."""
     number = chosen.error.places.shape[0]
     worst = float(chosen.error.position.max())
@@ -75,8 +77,8 @@ def _of_four_bar(chosen: SavedLinkage, named: str) -> list[str]:
         passes = "passes every pose exactly, up to rounding"
     sentences = [
         f"Linkage {chosen.id}, {with_article(chosen.type)}, for {number} poses.",
-        f"Its driver is {chosen.ids[0]} ({type(chosen.linkage.first).__name__}), and "
-        f"{chosen.ids[1]} ({type(chosen.linkage.second).__name__}) follows.",
+        f"Its driver is {chosen.ids[0]} ({type(chosen.driver_first.first).__name__}), and "
+        f"{chosen.ids[1]} ({type(chosen.driver_first.second).__name__}) follows.",
         f"The coupler {passes}.",
     ]
     if not chosen.usable:
@@ -84,43 +86,39 @@ def _of_four_bar(chosen: SavedLinkage, named: str) -> list[str]:
     return sentences
 
 
-def _of_six_bar(chosen: SavedSixBar) -> list[str]:
-    found = chosen.found
+def _of_six_bar(chosen: FoundSixBar) -> list[str]:
     return [
-        f"Linkage {chosen.id}, {with_article(chosen.type)}, for {len(found.drive)} poses.",
-        f"Its driver is the crank {six_bar_words.driver_name(found)}, at "
-        f"{', '.join(f'{math.degrees(each):.2f}°' for each in found.drive)} for the poses.",
+        f"Linkage {chosen.id}, {with_article(chosen.type)}, for {len(chosen.drive)} poses.",
+        f"Its driver is the crank {six_bar_words.driver_name(chosen)}, at "
+        f"{', '.join(f'{math.degrees(each):.2f}°' for each in chosen.drive)} for the poses.",
         "The body passes every pose.",
     ]
 
 
-def length_decimals(chosen: SavedLinkage | SavedSixBar, options: Options, unit: str = "mm") -> int:
+def length_decimals(chosen: Candidate, options: Options, unit: str = "mm") -> int:
     """With how many decimals lengths in a unit keep the linkage's error."""
-    if isinstance(chosen, SavedSixBar):
+    if not isinstance(chosen, FoundLinkage):
         return figures_of(FINEST * SixBarReference.of(chosen, options, unit).span)
     return _printed_decimals(chosen, options, unit)[1].lengths
 
 
 def _printed_decimals(
-    chosen: SavedLinkage, options: Options, unit: str
+    chosen: FoundLinkage, options: Options, unit: str
 ) -> tuple[Linkage, Decimals]:
     """The linkage in a unit, and with how many decimals its dimensions keep its error."""
     own = Reference.of(chosen, options, unit)
     size = characteristic_length(chosen.task) * own.scale
-    linkage = Linkage(
-        *(_scaled(each, own.scale) for each in (chosen.linkage.first, chosen.linkage.second))
-    )
+    both = chosen.driver_first
+    linkage = Linkage(_scaled(both.first, own.scale), _scaled(both.second, own.scale))
     error = PoseError.at(own.places, own.poses)
     length = default_length_per_radian(chosen.task) * own.scale
     free = chosen.task.free_angles
     return linkage, decimals_of_linkage(linkage, own.poses, error, length, size, free_angles=free)
 
 
-def dimension_notes(
-    chosen: SavedLinkage | SavedSixBar, options: Options, unit: str = "mm"
-) -> list[str]:
+def dimension_notes(chosen: Candidate, options: Options, unit: str = "mm") -> list[str]:
     """The dimensions in a unit, a line for each link, and what a builder gets of them."""
-    if isinstance(chosen, SavedSixBar):
+    if not isinstance(chosen, FoundLinkage):
         found = SixBarReference.of(chosen, options, unit).found
         links = six_bar_words.joint_rows(found) + six_bar_words.length_rows(found)
         return [f"{name}: {' '.join(each for each in own if each)}." for name, *own in links]

@@ -9,8 +9,7 @@ from dataclasses import dataclass
 from typing import final
 
 from burmester.errors import InputError
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
+from burmester.synthesis.result import Candidate
 from burmester.wording import in_unit
 
 __all__ = ["MILLIMETRES", "Options", "stated_unit", "unit_of"]
@@ -62,7 +61,7 @@ class Options:
     width_px: int = 800
 
 
-def unit_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> str:
+def unit_of(chosen: Candidate, options: Options) -> str:
     """The unit of the linkage's lengths, a key of `MILLIMETRES`; raises E162.
 
     Lengths that the task states in another unit, such as px, count as one of the unit that the
@@ -94,7 +93,7 @@ def unit_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> str:
     return own if own in MILLIMETRES else stated or "mm"
 
 
-def stated_unit(chosen: SavedLinkage | SavedSixBar, options: Options) -> str | None:
+def stated_unit(chosen: Candidate, options: Options) -> str | None:
     """The unit in which the task or the options say lengths are; None where nobody does.
 
     For formats that keep the task's lengths, which may be in px as well; raises E162.

@@ -22,8 +22,8 @@ from burmester.export.models.joints import JointMotion, directions, ground_joint
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, Reference, require_equal
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["check", "write"]
 
@@ -68,7 +68,7 @@ if __name__ == "__main__":
 '''
 
 
-def write(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write(chosen: FoundLinkage, path: Path, options: Options) -> None:
     """Write the script; raises E163."""
     reference = Reference.of(chosen, options, None)
     if not set(reference.kinds) <= {"RR", "PR"}:
@@ -198,7 +198,7 @@ def _p(point: Any) -> str:
     return f"({number(point[0])}, {number(point[1])})"
 
 
-def check(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check(chosen: FoundLinkage, path: Path, options: Options) -> None:
     """Read the script's numbers back as Python has them, and compare; raises E160."""
     reference = Reference.of(chosen, options, None)
     tolerance = PRECISION * reference.span

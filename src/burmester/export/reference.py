@@ -16,9 +16,9 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.tolerance_boxes import poses_counted
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = [
     "PRECISION",
@@ -53,7 +53,7 @@ class Reference:
     scale: float
 
     @classmethod
-    def of(cls, chosen: SavedLinkage, options: Options, unit: str | None = "mm") -> Reference:
+    def of(cls, chosen: FoundLinkage, options: Options, unit: str | None = "mm") -> Reference:
         """The linkage in a unit, None for the task's own; raises E162, and E163 without places."""
         require_places(chosen)
         scale = 1.0
@@ -67,7 +67,7 @@ class Reference:
         moving: list[FloatArray | None] = []
         radius: list[float | None] = []
         line: list[tuple[float, float] | None] = []
-        dyads = (chosen.linkage.first, chosen.linkage.second)
+        dyads = (chosen.driver_first.first, chosen.driver_first.second)
         for dyad in dyads:
             fixed.append(dyad.fixed_pivot * scale if isinstance(dyad, RR | RP) else None)
             moving.append(dyad.moving_pivot * scale if isinstance(dyad, RR | PR) else None)
@@ -128,7 +128,7 @@ class Reference:
         return worst
 
 
-def require_places(chosen: SavedLinkage) -> None:
+def require_places(chosen: FoundLinkage) -> None:
     """Raise E163 where the linkage cannot be put together near some pose."""
     places = chosen.error.places
     missing = ~(np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1))

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Self, final
+from typing import TYPE_CHECKING, Self, final
 
 import numpy as np
 
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.watt import JOINTS, LINKS, WattLinkage
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["SIX_BAR_PLATES", "SixBarReference", "six_bar_scaled"]
 
@@ -42,10 +44,10 @@ class SixBarReference:
     scale: float
 
     @classmethod
-    def of(cls, chosen: SavedSixBar, options: Options, unit: str = "mm") -> Self:
+    def of(cls, chosen: FoundSixBar, options: Options, unit: str = "mm") -> Self:
         """The six-bar in a unit; raises E162."""
         scale = MILLIMETRES[unit_of(chosen, options)] / MILLIMETRES[unit]
-        found, poses = six_bar_scaled(chosen.found, scale), chosen.task.poses
+        found, poses = six_bar_scaled(chosen, scale), chosen.task.poses
         at = found.joints(found.drive)
         joints = np.stack([at[name] for name in JOINTS], axis=1)
         places = found.body(found.drive)

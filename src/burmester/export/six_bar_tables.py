@@ -12,7 +12,7 @@ import csv
 import json
 import math
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
@@ -21,10 +21,12 @@ from burmester.export.options import Options
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.io.six_bar_data import six_bar_data
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.watt import BARS, JOINTS
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["check_csv", "check_json", "write_csv", "write_json"]
 
@@ -33,9 +35,9 @@ MOTION_ROWS: Final = 361  # along the motion, beside those of the poses
 CLOSE: Final = 1e-9  # of the greatest length; a table keeps bars and poses this well
 
 
-def write_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
+def write_csv(chosen: FoundSixBar, path: Path, options: Options) -> None:
     """A row for each step over the range of the poses, and one for each pose."""
-    found = chosen.found
+    found = chosen
     marked = [(value, 0) for value in found.along(MOTION_ROWS).tolist()]
     marked = [each for each in marked if np.abs(found.drive - each[0]).min() > 1e-9]
     marked += [(value, k + 1) for k, value in enumerate(found.drive.tolist())]
@@ -56,7 +58,7 @@ def write_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
             table.writerow([*map(number, row), pose or ""])
 
 
-def check_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
+def check_csv(chosen: FoundSixBar, path: Path, options: Options) -> None:
     """Bars, body and driver of each row, and the poses."""
     with open(path, encoding="utf-8", newline="") as file:
         _, *rows = list(csv.reader(file))
@@ -65,20 +67,20 @@ def check_csv(chosen: SavedSixBar, path: Path, options: Options) -> None:
     body = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
     _require_linkage(chosen, at, body, np.radians(numbers[:, 0]))
     poses = sorted((int(row[-1]) - 1, k) for k, row in enumerate(rows) if row[-1])
-    require_equal("the poses", [pose for pose, _ in poses], np.arange(len(chosen.found.drive)), 0)
+    require_equal("the poses", [pose for pose, _ in poses], np.arange(len(chosen.drive)), 0)
     _require_places(chosen, body[[k for _, k in poses]])
 
 
-def write_json(chosen: SavedSixBar, path: Path, options: Options) -> None:
+def write_json(chosen: FoundSixBar, path: Path, options: Options) -> None:
     """The six-bar as a result holds it, with the poses of its task and its own places there."""
     data: dict[str, Any] = {"schema": SCHEMA, "length_unit": chosen.task.length_unit}
-    data |= six_bar_data(chosen.found)
+    data |= six_bar_data(chosen)
     data["poses"] = poses_data(chosen.task.poses)
-    data["places"] = poses_data(chosen.found.body(chosen.found.drive))
+    data["places"] = poses_data(chosen.body(chosen.drive))
     path.write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
 
-def check_json(chosen: SavedSixBar, path: Path, options: Options) -> None:
+def check_json(chosen: FoundSixBar, path: Path, options: Options) -> None:
     """Joints, drives and poses."""
     data = json.loads(path.read_text(encoding="utf-8"))
     at = {name: np.array([each[name] for each in data["joints"]]) for name in JOINTS}
@@ -87,14 +89,14 @@ def check_json(chosen: SavedSixBar, path: Path, options: Options) -> None:
     _require_places(chosen, places)
     _require_same(chosen, "the poses", poses, chosen.task.poses)
     lengths = [data["lengths"][bar] for bar in BARS]
-    require_equal("the lengths", lengths, chosen.found.linkage.lengths(), CLOSE * _size(chosen))
+    require_equal("the lengths", lengths, chosen.linkage.lengths(), CLOSE * _size(chosen))
 
 
 def _require_linkage(
-    chosen: SavedSixBar, at: dict[str, FloatArray], body: Displacement, drives: FloatArray
+    chosen: FoundSixBar, at: dict[str, FloatArray], body: Displacement, drives: FloatArray
 ) -> None:
     """Compare rows of joints, of the body and of the driver with the linkage's dimensions."""
-    linkage, off = chosen.found.linkage, CLOSE * _size(chosen)
+    linkage, off = chosen.linkage, CLOSE * _size(chosen)
     for bar, length in zip(BARS, linkage.lengths().tolist(), strict=True):
         apart = np.linalg.norm(at[bar[1]] - at[bar[0]], axis=-1)
         require_equal(f"the length of {bar}", apart, np.full(len(apart), length), off)
@@ -105,7 +107,7 @@ def _require_linkage(
         ("H", body.act(linkage.link_joint)),
     ):
         require_equal(f"joint {name}", at[name], wanted, 100 * off)
-    pivot, end = ("A", "C") if chosen.found.driver == "first" else ("B", "D")
+    pivot, end = ("A", "C") if chosen.driver == "first" else ("B", "D")
     arm = (at[end] - at[pivot]) @ np.array([1, 1j])
     turned = np.abs(arm / np.abs(arm) - np.exp(1j * drives)).max()
     require_equal("the driver", turned, 0, 1e-8)
@@ -116,16 +118,16 @@ def _read_poses(rows: list[dict[str, float]]) -> Displacement:
     return Displacement.from_poses(np.array(numbers))
 
 
-def _require_places(chosen: SavedSixBar, places: Displacement) -> None:
+def _require_places(chosen: FoundSixBar, places: Displacement) -> None:
     """Compare where the body is with where it was found: at the poses, where it meets them."""
-    _require_same(chosen, "the places", places, chosen.found.error.places)
+    _require_same(chosen, "the places", places, chosen.error.places)
 
 
-def _require_same(chosen: SavedSixBar, what: str, got: Displacement, wanted: Displacement) -> None:
+def _require_same(chosen: FoundSixBar, what: str, got: Displacement, wanted: Displacement) -> None:
     require_equal(what, got.translation, wanted.translation, 1e-6 * _size(chosen))
     turned = np.abs(np.exp(1j * got.angle) - np.exp(1j * wanted.angle)).max()
     require_equal(f"the angles of {what}", turned, 0, 1e-6)
 
 
-def _size(chosen: SavedSixBar) -> float:
-    return float(chosen.found.linkage.lengths().max())
+def _size(chosen: FoundSixBar) -> float:
+    return float(chosen.linkage.lengths().max())

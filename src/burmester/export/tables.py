@@ -30,8 +30,8 @@ from burmester.export.reference import (
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
-from burmester.io.saved import SavedLinkage
 from burmester.refinement.tolerance_boxes import poses_counted
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
 
@@ -40,7 +40,7 @@ MOTION_ROWS = 361  # rows along the motion, beside those of the poses
 ROUNDING = 0.01  # of the tolerance at which a table is compared: the error of its numbers, at most
 
 
-def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write_csv(chosen: FoundLinkage, path: Path, options: Options) -> None:
     """Write the table; raises E163."""
     motion = CouplerMotion.of(chosen, 2)
     shares = np.linspace(0, 1, MOTION_ROWS)
@@ -87,7 +87,7 @@ def write_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
             )
 
 
-def check_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check_csv(chosen: FoundLinkage, path: Path, options: Options) -> None:
     """Read the table back and compare: every place is one of the linkage, and the poses' too."""
     reference = Reference.of(chosen, options, None)
     with open(path, encoding="utf-8", newline="") as file:
@@ -129,10 +129,10 @@ def check_csv(chosen: SavedLinkage, path: Path, options: Options) -> None:
     require_equal("the drive", np.abs(turned - 1).max(), 0, off)
 
 
-def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def write_json(chosen: FoundLinkage, path: Path, options: Options) -> None:
     """Write the linkage; raises E163."""
     require_places(chosen)
-    linkage = chosen.linkage
+    linkage = chosen.driver_first
     data: dict[str, Any] = {
         "schema": SCHEMA,
         "id": chosen.id,
@@ -154,7 +154,7 @@ def write_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
     path.write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
 
-def check_json(chosen: SavedLinkage, path: Path, options: Options) -> None:
+def check_json(chosen: FoundLinkage, path: Path, options: Options) -> None:
     """Read the linkage back and compare all its numbers."""
     reference = Reference.of(chosen, options, None)
     data = json.loads(path.read_text(encoding="utf-8"))

@@ -25,7 +25,6 @@ from burmester.io.reading.functions.function_file import task_of_tree
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.result import message_data
 from burmester.io.saved import (
-    SavedLinkage,
     judged_otherwise,
     linkages_by_id,
     named,
@@ -41,6 +40,7 @@ from burmester.synthesis.function_generation import (
     coupler_synthesis,
 )
 from burmester.values import shown
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = [
     "SCHEMA",
@@ -205,14 +205,13 @@ class FunctionResult(NamedTuple):
                 why="it has none",
                 help="`burmester explain R361` says more",
             )
-        return named(every, id, "linkage", self.label, self.refused)
+        return named(every, id, self.label, self.refused)
 
-    def exported(self, id: str | None = None) -> SavedLinkage:
+    def exported(self, id: str | None = None) -> FoundLinkage:
         """A linkage as exports take it: the coupler is the body."""
         chosen = self.choose(id)
         judged = coupler_synthesis(self.synthesis.task, chosen)
-        saved = SavedLinkage.of(judged.linkages[0], judged.task)
-        return replace(saved, id=chosen.id, usable=chosen.usable)
+        return replace(judged.linkages[0], id=chosen.id, usable=chosen.usable)
 
 
 def is_function_result(data: bytes) -> bool:

@@ -35,7 +35,6 @@ from burmester.printable import printable
 from burmester.sixbar.watt import WattLinkage
 from burmester.synthesis.given_linkage import GivenDyad
 from burmester.values import shown
-from burmester.verdicts.found_linkage import with_driver_first
 from burmester.wording import in_unit
 
 __all__ = ["read_linkage"]
@@ -113,17 +112,13 @@ def _is_table(text: str) -> bool:
 def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage | WattLinkage:
     """A linkage of a result, its dyads in the order of the file, or a six-bar."""
     try:
-        result = read_result(path, data)
-        if (six_bar := result.choose_six_bar(id)) is not None:
-            _require_unit(six_bar.unit, unit)
-            return six_bar.found.linkage
-        chosen = result.choose(id)
+        chosen = read_result(path, data).choose(id)
     except InputError as error:
         if error.code == "E151" and error.help:
             error.help = error.help.replace("--linkage", "--id")
         raise
     _require_unit(chosen.unit, unit)
-    return with_driver_first(chosen.linkage, chosen.driver)  # as they stand in the file
+    return chosen.linkage
 
 
 def _require_unit(stated: object, unit: str | None) -> None:

@@ -17,17 +17,15 @@ import math
 import os
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, Self, TypeVar
+from dataclasses import fields, replace
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
 from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import PP, Dyad
-from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_values import dyad_of, number
 from burmester.io.reading.file_content import read_source
@@ -39,15 +37,14 @@ from burmester.refinement.tolerance_boxes import counted_error
 from burmester.sixbar.found import FoundSixBar
 from burmester.synthesis.given_linkage import OpenLink, require_linkage
 from burmester.synthesis.judgement import judged_again
-from burmester.synthesis.result import Outcome, Synthesis
+from burmester.synthesis.result import Candidate, Outcome, Synthesis
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
-from burmester.verdicts.found_linkage import FoundLinkage, Pair, Side
-from burmester.verdicts.quality import Quality
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.verdicts.requirement_check import Violation
 from burmester.wording import listed
 
@@ -55,11 +52,9 @@ if TYPE_CHECKING:
     from burmester.certificates.certificate import Certificate
     from burmester.families.family import Family
     from burmester.functions.found_generator import FoundGenerator
-    from burmester.io.saved_six_bars import SavedSixBar
 
 __all__ = [
     "JUDGED_OTHERWISE",
-    "SavedLinkage",
     "SavedResult",
     "judged_otherwise",
     "linkages_by_id",
@@ -87,54 +82,6 @@ NOT_WORKING = ("R301", "R302", "R304", "R306", "R309", "R331", "R341", "R351", "
 PLACE = ("x", "y", "angle_deg")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class SavedLinkage:
-    """A linkage as it is handed over: its driver first, and its places for the poses.
-
-    error: of the places at the poses.
-    driver: which of the two dyads of the result is first here: the one that drives, or that would
-    drive where the linkage is not usable.
-    least_transmission: the least transmission angle between the poses, in radians.
-    other_types: the other types that the uncertainty of the links leaves possible.
-    quality: what a designer pays for; None where it has no places near the poses.
-    """
-
-    id: str
-    linkage: Linkage
-    ids: tuple[str, str]
-    usable: bool
-    driver: Side
-    type: str
-    task: Task
-    error: PoseError
-    least_transmission: float = math.nan
-    other_types: tuple[str, ...] = ()
-    quality: Quality | None = None
-
-    @classmethod
-    def of(cls, found: FoundLinkage, task: Task) -> Self:
-        """A linkage of an answer to a task."""
-        one, two = found.dyads_driver_first
-        return cls(
-            found.id,
-            found.driver_first,
-            (one.id, two.id),
-            found.usable,
-            found.preferred_driver,
-            found.type,
-            task,
-            found.error,
-            found.driven.least_over_range,
-            found.other_types,
-            found.quality,
-        )
-
-    @property
-    def unit(self) -> str | None:
-        """The unit of lengths."""
-        return self.task.length_unit
-
-
 class SavedResult(NamedTuple):
     """A result that was read: where it came from, and all that its task and dimensions give.
 
@@ -145,51 +92,24 @@ class SavedResult(NamedTuple):
     synthesis: Synthesis
     refused: Mapping[str, InputError]
 
-    def choose(self, id: str | None = None) -> SavedLinkage:
-        """A four-bar by its id, or the first; raises E150, E151."""
-        every = self.synthesis.linkages
-        six_bars = self.synthesis.six_bars
-        if not every and six_bars is not None and six_bars.found:
-            raise InputError(
-                "E151",
-                "this result has six-bars, and a four-bar is needed here",
-                where=self.label,
-                help="judge them by `burmester judge`, look at them by `burmester report "
-                "--six-bars`, or hand them over by `burmester export`",
-            )
-        if not every:
+    def choose(self, id: str | None = None) -> Candidate:
+        """A linkage by its id, or the first, four-bar or six-bar; raises E150, E151."""
+        if not (every := self.synthesis.candidates):
             raise InputError(
                 "E151",
                 "there is no linkage in this result",
                 where=self.label,
                 help="give poses that have one; `burmester explain R301` says more",
             )
-        found = named(every, id, "linkage", self.label, self.refused)
-        return SavedLinkage.of(found, self.synthesis.task)
-
-    def choose_six_bar(self, id: str | None = None) -> SavedSixBar | None:
-        """A six-bar by its id, or the first; None where this result is of four-bars.
-
-        Raises E150, and E151 where it is of six-bars and has none of that id.
-        """
-        six_bars = self.synthesis.six_bars
-        if six_bars is None:
-            return None
-        if not six_bars.found:
-            return None
-        from burmester.io.saved_six_bars import SavedSixBar
-
-        found = named(six_bars.found, id, "six-bar", self.label, self.refused)
-        return SavedSixBar(found, self.synthesis.task)
+        return named(every, id, self.label, self.refused)
 
 
-_Named = TypeVar("_Named", FoundLinkage, FoundSixBar, "FoundGenerator")
+_Named = TypeVar("_Named", Candidate, "FoundGenerator")
 
 
 def named(
     every: Sequence[_Named],
     id: str | None,
-    what: str,
     label: str,
     refused: Mapping[str, InputError],
 ) -> _Named:
@@ -201,7 +121,7 @@ def named(
             return each
     raise InputError(
         "E151",
-        f"there is no {what} {id} in this result",
+        f"there is no linkage {id} in this result",
         where=label,
         why=f"it has {', '.join(each.id for each in every)}",
         help=f"give --linkage {every[0].id}",

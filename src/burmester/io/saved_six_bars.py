@@ -6,53 +6,22 @@ E150 a six-bar that cannot be used
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
-from typing import Any, final
+from dataclasses import replace
+from typing import Any
 
 from burmester.errors import InputError
-from burmester.io.six_bar_data import TYPE
 from burmester.io.six_bar_file import DIMENSIONS, six_bar_of
 from burmester.sixbar.candidates import DRIVERS
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
 from burmester.synthesis.six_bar_judgement import judged_at_poses
-from burmester.tasks.motion_task import Task
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
 
-__all__ = ["SavedSixBar", "six_bars_again"]
+__all__ = ["six_bars_again"]
 
 HELP = "take the file as `burmester synthesize POSES --six-bars -o RESULT` wrote it"
 ID = re.compile("S[1-9][0-9]{0,6}")
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class SavedSixBar:
-    """A six-bar as it is handed over, with its task."""
-
-    found: FoundSixBar
-    task: Task
-
-    @property
-    def id(self) -> str:
-        """Its name: S1, S2, ..."""
-        return self.found.id
-
-    @property
-    def type(self) -> str:
-        """What it is, in words."""
-        return TYPE
-
-    @property
-    def unit(self) -> str | None:
-        """The unit of lengths."""
-        return self.task.length_unit
-
-    @property
-    def usable(self) -> bool:
-        """Whether it goes from pose to pose in one motion; one that was given need not."""
-        return self.found.usable
 
 
 def six_bars_again(

@@ -14,9 +14,7 @@ from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import RULE, SixBars
 from burmester.sixbar.watt import LINKS
 
-__all__ = ["TYPE", "six_bar_data", "six_bars_data"]
-
-TYPE = "Watt I six-bar"
+__all__ = ["six_bar_data", "six_bars_data"]
 
 
 def six_bars_data(result: SixBars) -> dict[str, Any]:
@@ -44,7 +42,7 @@ def six_bar_data(found: FoundSixBar) -> dict[str, Any]:
     joints = found.joints(found.drive)
     data: dict[str, Any] = {
         "id": found.id,
-        "type": TYPE,
+        "type": found.type,
         "usable": found.usable,
         "chain": found.chain,
         "driver": found.driver,

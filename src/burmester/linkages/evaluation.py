@@ -231,6 +231,7 @@ class Evaluation:
                 from_search=bool(candidates.from_search[k]),
                 clearance=clearance,
                 within_tolerance=None if shares is None else shares[k],
+                task=self.problem.given,
             )
             found = replace(found, timing_error=timing_error(found.driven.inputs, self.task))
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))

@@ -139,10 +139,10 @@ class Studio(anywidget.AnyWidget):
     def _take_result(self, proposal: Any) -> Any:
         if self._knows:
             return proposal.value
-        require_instance(
-            proposal.value, Synthesis, "result", "give what burmester.synthesize returned"
-        )
-        given: Synthesis = proposal.value
+        given = proposal.value
+        if getattr(given, "six_bars", None) is not None:  # the page is of four-bars
+            given = given.six_bars
+        require_instance(given, Synthesis, "result", "give what burmester.synthesize returned")
         return given if isinstance(given, Result) else Result.of(given)
 
     @traitlets.observe("result")

@@ -87,13 +87,14 @@ def six_bar(
             label(ax, name, place)
 
 
-def six_bar_figure(found: FoundSixBar, task: Task, pose: int = 0, width: float = 6.4) -> Figure:
+def six_bar_figure(
+    found: FoundSixBar, task: Task, pose: int = 0, width: float = 6.4, ax: Axes | None = None
+) -> Figure:
     """A six-bar at one of its poses (a number from 0), faintly at the others, with its path.
 
-    width: of the figure, in inches.
+    width: of the figure, in inches.  ax: axes to draw on, in place of a new figure.
     """
-    drawn = figure(width, width)
-    ax = drawn.add_subplot()
+    ax = figure(width, width).add_subplot() if ax is None else ax
     for k, drive in enumerate(found.drive.tolist()):
         if k != pose:
             six_bar(ax, found, drive, faint=True)
@@ -103,6 +104,8 @@ def six_bar_figure(found: FoundSixBar, task: Task, pose: int = 0, width: float =
     six_bar(ax, found, float(found.drive[pose]), names=True)
     ax.set_title(f"{found.id}  six-bar, Watt I", loc="left", fontsize=10)
     finish(ax, task.length_unit, room=0.04)
+    drawn = ax.get_figure(root=True)
+    assert drawn is not None
     return drawn
 
 

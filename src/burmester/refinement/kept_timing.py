@@ -100,7 +100,7 @@ class TimingConstraint:
         whole = np.isfinite(own).all(axis=(1, 2))
         out[np.ix_(np.flatnonzero(whole), index)] = own[whole]
         lacking = np.abs(wrapped_angle(gap - start[:, None])) * self.length
-        out[np.ix_(np.flatnonzero(~whole), index, [2])] += lacking[~whole][..., None]
+        out[np.ix_(np.flatnonzero(~whole), index, np.array([2]))] += lacking[~whole][..., None]
         return out
 
     def _missed(self, drive: FloatArray) -> ConstraintValues:

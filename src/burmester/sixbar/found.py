@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import final
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,14 +13,14 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
-from burmester.sixbar.watt import BARS, JOINTS, Drive, WattLinkage
+from burmester.sixbar.watt import BARS, JOINTS, TYPE, Drive, WattLinkage
+from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
 from burmester.verdicts.requirement_check import Violation
 
 __all__ = ["FoundSixBar"]
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundSixBar:
     """A six-bar that carries the body through the poses, or one that was given, on one branch.
@@ -57,6 +56,8 @@ class FoundSixBar:
         The limits and requirements of the task that it does not keep.
     within_tolerance : (N, 3) array, optional
         How much of its tolerance each component of each pose uses, where the task has tolerances.
+    task : Task
+        The task of the answer that it belongs to, as it was given.
     """
 
     id: str
@@ -73,6 +74,17 @@ class FoundSixBar:
     defects: tuple[Defect, ...] = ()
     violations: tuple[Violation, ...] = ()
     within_tolerance: FloatArray | None = None
+    task: Task = field(kw_only=True)
+
+    @property
+    def type(self) -> str:
+        """What it is, in words."""
+        return TYPE
+
+    @property
+    def unit(self) -> str | None:
+        """The unit of lengths."""
+        return self.task.length_unit
 
     @property
     def usable(self) -> bool:

@@ -296,6 +296,7 @@ def _found(best: _Verdict, problem: SynthesisProblem) -> FoundSixBar:
         within_tolerance=None
         if task.tolerances is None
         else shares_used(driven.errors[k].places, task, problem.length),
+        task=task,
     )
 
 

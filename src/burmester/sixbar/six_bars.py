@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final, final
 
@@ -79,6 +80,15 @@ class SixBars:
     free_poses: int
     given: bool = False
 
+    def __iter__(self) -> Iterator[FoundSixBar]:
+        return iter(self.found)
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __getitem__(self, number: int) -> FoundSixBar:
+        return self.found[number]
+
 
 def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
     """The best six-bars of a random search; raises E195 and E196, as `SearchSpace.of`."""
@@ -116,4 +126,5 @@ def _found(result: ChainSearch, k: int, space: SearchSpace, task: Task) -> Found
         error=PoseError.at(places, task.poses),
         shortcomings=shortcomings(linkage, transmission, extent, space.size, task),
         chain=int(best.chain[k]),
+        task=task,
     )

@@ -20,10 +20,11 @@ import numpy as np
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["BARS", "FIGURES", "JOINTS", "LINKS", "Drive", "WattLinkage", "pairs_of"]
+__all__ = ["BARS", "FIGURES", "JOINTS", "LINKS", "TYPE", "Drive", "WattLinkage", "pairs_of"]
 
 Drive: TypeAlias = Literal["first", "second"]
 
+TYPE: Final = "Watt I six-bar"
 JOINTS: Final = "ABCDEGH"
 LINKS: Final = {
     "ground": "AB",

@@ -37,6 +37,7 @@ from burmester.studio.placed import placed
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.result import Synthesis
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import report_data
 
 __all__ = ["Road"]
@@ -155,9 +156,10 @@ class Road:
         linkage = given.get("linkage")
         saved = read_result("-", data=self._result(head, given))
         chosen = saved.choose(linkage if isinstance(linkage, str) else None)
+        assert isinstance(chosen, FoundLinkage)  # the page has no others
         options = options_of(given.get("options"), head.get("time_limit"))
         task = task_of(given.get("document"))
-        return _json(report_data(judge_linkage(task, chosen.linkage, options, improve=True)))
+        return _json(report_data(judge_linkage(task, chosen.driver_first, options, improve=True)))
 
     def solve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The whole road: the result as a file holds it first, then what the page draws."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, final
+from typing import TYPE_CHECKING, Any, TypeAlias, final
 
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice
@@ -18,10 +18,13 @@ if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to l
     from burmester.certificates.certificate import Certificate
     from burmester.families.family import Family
     from burmester.points.real_linkages import PointLinkages
+    from burmester.sixbar.found import FoundSixBar
     from burmester.sixbar.six_bars import SixBars
     from burmester.synthesis.loosening import Loosening
 
-__all__ = ["JUDGED", "Outcome", "Synthesis"]
+__all__ = ["JUDGED", "Candidate", "Outcome", "Synthesis"]
+
+Candidate: TypeAlias = "FoundLinkage | FoundSixBar"  # what files and pictures are made of
 
 JUDGED = ("R330", "R331")  # the outcomes of a linkage that was given
 
@@ -117,12 +120,16 @@ class Synthesis:
         return tuple(each for each in self.linkages if each.usable)
 
     @property
+    def candidates(self) -> tuple[Candidate, ...]:
+        """All linkages, four-bars or six-bars, by rank."""
+        return self.linkages if self.six_bars is None else self.six_bars.found
+
+    @property
     def works(self) -> bool:
         """Whether any linkage works, of four bars or of six."""
-        six_bars = () if self.six_bars is None else self.six_bars.found
-        return bool(self.usable) or any(each.usable for each in six_bars)
+        return any(each.usable for each in self.candidates)
 
     @property
     def determined(self) -> bool:
         """Whether a linkage works whose pivots the poses determine."""
-        return any(each.determined for each in self.usable)
+        return any(each.usable and each.determined for each in self.linkages)

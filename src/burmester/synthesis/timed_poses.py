@@ -16,7 +16,7 @@ import numpy as np
 
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.dyads.local_minima import best_dyads
-from burmester.dyads.selection import Fit, FoundDyad, found_dyads, same_dyad
+from burmester.dyads.selection import Fit, Found, FoundDyad, found_dyads, same_dyads
 from burmester.dyads.timed_dyads import nearest_timed, timed_dyads
 from burmester.errors import Advice
 from burmester.families.dyad_samples import drawn_dyads
@@ -51,10 +51,11 @@ def near_timed_poses(problem: SynthesisProblem, findings: Sequence[Advice]) -> S
     problem = replace(problem, options=replace(problem.options, method="complete"))
     fits, dyads = _dyads(problem)
     sides = [[each for each in dyads if each.limits == number] for number in (1, 2)]
+    length = np.array([problem.length])
     pairs: list[Pair] = [
         (one, other)
         for one, other in product(*sides)
-        if not same_dyad(one.dyad, other.dyad, problem.length)
+        if not len(same_dyads(Found.of((one, other)), length)[0])
     ]
     pairs.sort(key=lambda pair: pair[0].rms_error + pair[1].rms_error)
     found = linkages_from_dyads(problem, pairs[:MOST_PAIRS])

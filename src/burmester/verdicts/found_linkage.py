@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from burmester.dyads.selection import FoundDyad
@@ -10,6 +10,7 @@ from burmester.fourbar.defects import Defect, Driven, Verdict
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import Task
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.requirement_check import Violation
 from burmester.verdicts.tolerances import Spread
@@ -94,6 +95,8 @@ class FoundLinkage:
     timing_error : (N,) array, optional
         How far the driver is from the stated crank angles at the poses, signed, in radians, where
         the task has some; nan at poses that are not timed.
+    task : Task
+        The task of the answer that it belongs to, as it was given.
 
     Examples
     --------
@@ -124,6 +127,12 @@ class FoundLinkage:
     error_before_rounding: PoseError | None = None
     clearance: Clearance | None = None
     timing_error: FloatArray | None = None
+    task: Task = field(kw_only=True)
+
+    @property
+    def unit(self) -> str | None:
+        """The unit of lengths."""
+        return self.task.length_unit
 
     @property
     def type(self) -> str:
@@ -152,6 +161,17 @@ class FoundLinkage:
     def dyads_driver_first(self) -> Pair:
         """The dyads, the preferred driver first."""
         return self.dyads if self.preferred_driver == "first" else (self.dyads[1], self.dyads[0])
+
+    @property
+    def ids(self) -> tuple[str, str]:
+        """The names of the dyads, the preferred driver first."""
+        one, two = self.dyads_driver_first
+        return one.id, two.id
+
+    @property
+    def least_transmission(self) -> float:
+        """The least transmission angle between the poses with the preferred driver, in radians."""
+        return self.driven.least_over_range
 
     @property
     def driver_first(self) -> Linkage:

@@ -13,7 +13,6 @@ import numpy as np
 
 from burmester.describe import six_bar_words
 from burmester.io.result import message_data
-from burmester.io.six_bar_data import TYPE
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import RULE, SixBars
@@ -78,7 +77,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
     ends = (middle - 180, middle + 180) if found.turns_fully else (low - below, high + above)
     return {
         "id": found.id,
-        "type": TYPE,
+        "type": found.type,
         "usable": found.usable,
         "sound": not found.shortcomings,
         "driver": found.driver,

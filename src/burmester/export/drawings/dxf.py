@@ -38,9 +38,8 @@ from burmester.export.parts.plates import Assembly, Plate, assembly_of, slot_out
 from burmester.export.parts.stock import stock_for
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
 
 __all__ = ["check", "write"]
 
@@ -71,7 +70,7 @@ LAYERS = {  # and their colours, beside those of links
 }
 
 
-def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
     reference = reference_of(chosen, options)
@@ -225,7 +224,7 @@ def _point(at: FloatArray) -> tuple[float, float]:
     return float(at[0]), float(at[1])
 
 
-def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the drawing back, audit it and compare it; raises E160."""
     reference = reference_of(chosen, options)
     assembly = assembly_of(chosen, options)

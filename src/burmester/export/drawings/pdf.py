@@ -33,9 +33,8 @@ from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import assembly_of
 from burmester.export.reference import require_equal
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
 
 __all__ = ["check", "write"]
 
@@ -56,7 +55,7 @@ STYLE: Final[dict[Any, Any]] = {  # whatever a person's own style says
 }
 
 
-def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the pages; raises E162."""
     assembly = assembly_of(chosen, options)
     pages = pages_of(assembly, length_decimals(chosen, options), options.dimensions)
@@ -216,7 +215,7 @@ def _curve(outline: FloatArray) -> Curve:
     return Curve(np.array([[each.real, each.imag] for each in points]), codes)
 
 
-def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the pages back and compare them; raises E160.
 
     Each page has its size and its ruler, each plate its outline, its slots and its dimension lines;

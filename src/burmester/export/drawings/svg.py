@@ -34,9 +34,8 @@ from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import Plate, assembly_of, slot_outline
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
 
 __all__ = ["check", "write"]
 
@@ -61,7 +60,7 @@ STYLE = """
 """
 
 
-def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the drawing."""
     assembly = assembly_of(chosen, options)
     reference = reference_of(chosen, options)
@@ -217,7 +216,7 @@ def _n(value: float) -> str:
     return f"{float(value) + 0.0:.{DIGITS}g}"
 
 
-def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the drawing back by its XML and compare it; raises E160."""
     reference = reference_of(chosen, options)
     assembly = assembly_of(chosen, options)

@@ -19,9 +19,9 @@ from burmester.export.coupler_motion import CouplerMotion
 from burmester.export.options import Options
 from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import with_unit
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = [
     "DPI",
@@ -126,7 +126,7 @@ def looks_of(count: int) -> NDArray[np.intp]:
 class Film:
     """A film that is to be drawn: its motion, picture by picture, and the size of the pictures."""
 
-    chosen: SavedLinkage
+    chosen: FoundLinkage
     width: int
     count: int
 
@@ -144,7 +144,7 @@ class Film:
     @property
     def linkage(self) -> Linkage:
         """The driver first."""
-        return self.chosen.linkage
+        return self.chosen.driver_first
 
     @property
     def outline(self) -> FloatArray | None:

@@ -27,11 +27,11 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export.films.film import Film, Picture, Scene, blob, looks_of, require_film
 from burmester.export.films.linkage_scene import LinkageScene
 from burmester.export.films.six_bar_scene import SixBarScene
-from burmester.io.saved_six_bars import SavedSixBar
+from burmester.synthesis.result import Candidate
+from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:
     from burmester.export.options import Options
-    from burmester.io.saved import SavedLinkage
 
 __all__ = ["check_gif", "check_mp4", "write_gif", "write_mp4"]
 
@@ -40,13 +40,13 @@ MAX_GIF_RATE: Final = 25.0  # pictures a second; more would only make the file l
 MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
 
 
-def write_gif(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write_gif(chosen: Candidate, path: Path, options: Options) -> None:
     """Write a film as an endless GIF of 25 pictures a second or fewer."""
     scene, rate = _gif(chosen, options)
     plot.write_gif(path, scene.pictures(), seconds=1 / rate, force=True)
 
 
-def write_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     """Write a film as an MP4 that every player shows: H.264, yuv420p, made to begin at once."""
     ffmpeg = _ffmpeg()
     pictures = _mp4(chosen, options).pictures()
@@ -88,7 +88,7 @@ def write_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) 
         writer.close()
 
 
-def check_gif(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check_gif(chosen: Candidate, path: Path, options: Options) -> None:
     """Read a GIF back with Pillow; raises E160 unless it shows this linkage's motion."""
     scene, rate = _gif(chosen, options)
     with Image.open(path) as image:
@@ -108,7 +108,7 @@ def check_gif(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) 
     _compare(scene, looks, [pictures[k] for k in at])
 
 
-def check_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     """Read an MP4 back with ffmpeg; raises E160 unless it shows this linkage's motion."""
     scene, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
     report = subprocess.run(
@@ -135,20 +135,20 @@ def check_mp4(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) 
     _compare(scene, looks, kept)
 
 
-def _gif(chosen: SavedLinkage | SavedSixBar, options: Options) -> tuple[Scene, float]:
+def _gif(chosen: Candidate, options: Options) -> tuple[Scene, float]:
     """What is drawn, and its rate: a GIF counts in hundredths of a second."""
     most = min(MAX_GIF_RATE, options.frames_per_second)
     rate = 100 / math.ceil(100 / most - 1e-9) if most > 0 else most
     return _scene(chosen, options, require_film(options, rate, kept=True)), rate
 
 
-def _mp4(chosen: SavedLinkage | SavedSixBar, options: Options) -> Scene:
+def _mp4(chosen: Candidate, options: Options) -> Scene:
     rate = options.frames_per_second
     return _scene(chosen, options, require_film(options, rate, kept=False))
 
 
-def _scene(chosen: SavedLinkage | SavedSixBar, options: Options, count: int) -> Scene:
-    if isinstance(chosen, SavedSixBar):
+def _scene(chosen: Candidate, options: Options, count: int) -> Scene:
+    if not isinstance(chosen, FoundLinkage):
         return SixBarScene(chosen, options.width_px, count)
     return LinkageScene(Film(chosen, options.width_px, count))
 

@@ -24,7 +24,6 @@ from burmester.export.films.film import (
     Picture,
     there_and_back,
 )
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.six_bar import limits_of
 from burmester.plot.style import BLACK, BLUE, GREY, with_unit
@@ -33,6 +32,8 @@ from burmester.progress import step
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["SixBarScene"]
 
@@ -52,7 +53,7 @@ class Stage(NamedTuple):
 class SixBarScene:
     """A film of a six-bar, to be drawn; see `film.Scene`."""
 
-    def __init__(self, chosen: SavedSixBar, width: int, count: int) -> None:
+    def __init__(self, chosen: FoundSixBar, width: int, count: int) -> None:
         self.chosen = chosen
         self.width = width
         self.count = count
@@ -60,7 +61,7 @@ class SixBarScene:
     @cached_property
     def drives(self) -> FloatArray:
         """The driver's angle in each picture (count,)."""
-        found = self.chosen.found
+        found = self.chosen
         start, end = float(found.drive[0]), float(found.drive[-1])
         if found.turns_fully:
             way = math.copysign(2 * math.pi, end - start)
@@ -72,12 +73,12 @@ class SixBarScene:
     @cached_property
     def followed(self) -> FloatArray:
         """The moving pivot (count, 2) of the driver in each picture, which is marked."""
-        found = self.chosen.found
+        found = self.chosen
         return found.joints(self.drives)["C" if found.driver == "first" else "D"]
 
     def pictures(self) -> Iterator[Picture]:
         """The pictures (rows, columns, 3), all of one size."""
-        found = self.chosen.found
+        found = self.chosen
         path = found.body(self.drives).translation
         there = np.abs(self.drives - self.drives[0])
         grown = np.minimum(np.arange(1, self.count + 1), there.argmax() + 1)
@@ -122,7 +123,7 @@ class SixBarScene:
 
     def _stage(self) -> Stage:
         """Axes that hold the whole motion, with the path and the poses, drawn once."""
-        found, task = self.chosen.found, self.chosen.task
+        found, task = self.chosen, self.chosen.task
         low, high = limits_of(found, np.append(self.drives, found.drive))
         low = np.minimum(low, task.poses.translation.min(axis=0))
         high = np.maximum(high, task.poses.translation.max(axis=0))

@@ -7,7 +7,7 @@ generalized force that holds the linkage, and twice the kinetic energy its reduc
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Final, NamedTuple, final
+from typing import TYPE_CHECKING, Final, NamedTuple, final
 
 import numpy as np
 
@@ -19,8 +19,10 @@ from burmester.fourbar.instantaneous import velocity
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.watt import JOINTS
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["DIRECTIONS", "STANDARD_GRAVITY", "DriverLoad", "require_up"]
 

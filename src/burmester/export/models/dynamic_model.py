@@ -31,9 +31,9 @@ from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference, require_equal
 from burmester.export.six_bar_reference import SixBarReference
 from burmester.fourbar.linkage import Linkage
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["DAMPING_RATE", "DynamicModel"]
 
@@ -68,14 +68,14 @@ class DynamicModel:
     up: FloatArray
 
     @classmethod
-    def of(cls, chosen: SavedLinkage | SavedSixBar, options: Options) -> Self:
+    def of(cls, chosen: Candidate, options: Options) -> Self:
         """The model of a linkage made of plates; raises E162 and E163."""
         reference: Reference | SixBarReference
         names, driver = FOUR_BAR_JOINTS, "driver"
         axes = np.zeros((len(names), 2))
-        if isinstance(chosen, SavedSixBar):
+        if not isinstance(chosen, FoundLinkage):
             reference = SixBarReference.of(chosen, options, "m")
-            names, driver = tuple(SIX_BAR_JOINTS), six_bar_driver(chosen.found)
+            names, driver = tuple(SIX_BAR_JOINTS), six_bar_driver(chosen)
             joints = JointMotion.of_six_bar(reference.found)
             axes = np.zeros((len(names), 2))
             axes[names.index("body-link")] = reference.found.linkage.body_joint
@@ -111,16 +111,14 @@ class DynamicModel:
         """The number of the driver's joint."""
         return self.names.index(self.driver)
 
-    def load(self, chosen: SavedLinkage | SavedSixBar) -> DriverLoad:
+    def load(self, chosen: Candidate) -> DriverLoad:
         """What the driver bears at the poses."""
-        if isinstance(chosen, SavedSixBar):
+        if not isinstance(chosen, FoundLinkage):
             assert isinstance(self.reference, SixBarReference)
             return DriverLoad.of_six_bar(self.reference.found, self.masses, self.up)
-        first, second = (
-            scaled(each, self.reference.scale)
-            for each in (chosen.linkage.first, chosen.linkage.second)
-        )
-        return DriverLoad.of(Linkage(first, second), self.reference.places, self.masses, self.up)
+        both, scale = chosen.driver_first, self.reference.scale
+        linkage = Linkage(scaled(both.first, scale), scaled(both.second, scale))
+        return DriverLoad.of(linkage, self.reference.places, self.masses, self.up)
 
     def damping(self) -> FloatArray:
         """Of the joints (k,): N m s, or N s/m of slides."""

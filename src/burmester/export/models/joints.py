@@ -11,7 +11,7 @@ E163 a linkage that a model of bodies cannot hold
 from __future__ import annotations
 
 from contextlib import suppress
-from typing import Final, Literal, NamedTuple, Self, final
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +22,11 @@ from burmester.export.parts.links import GROUND
 from burmester.export.parts.six_bar_links import frames_of
 from burmester.export.reference import Reference
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.found import FoundSixBar
+from burmester.verdicts.found_linkage import FoundLinkage
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = [
     "FOUR_BAR_JOINTS",
@@ -50,7 +52,7 @@ LOOKS: Final = 721  # places along the motion at which the joints' range is foun
 TURN: Final = 2 * np.pi
 
 
-def require_bodies(chosen: SavedLinkage, reference: Reference) -> None:
+def require_bodies(chosen: FoundLinkage, reference: Reference) -> None:
     """Raise E163 for a body that only translates."""
     if reference.only_translates:
         raise InputError(
@@ -106,7 +108,7 @@ class JointMotion(NamedTuple):
     turns_fully: bool
 
     @classmethod
-    def of(cls, chosen: SavedLinkage, reference: Reference) -> Self:
+    def of(cls, chosen: FoundLinkage, reference: Reference) -> Self:
         """The joints of a linkage, without jumps from place to place."""
         kinds = reference.kinds
         turning = np.array([kinds[0] != "PR", kinds[0] != "RP", kinds[1] == "RR"])

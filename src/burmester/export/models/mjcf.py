@@ -28,9 +28,8 @@ from burmester.export.models.servo import Servo
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, as_rows, require_equal
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
 
 __all__ = ["check", "write"]
 
@@ -50,7 +49,7 @@ COLOURS = {
 SEEN_ONLY = ' contype="0" conaffinity="0" group="1"'
 
 
-def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the model; raises E162 and E163."""
     model = DynamicModel.of(chosen, options)
     reference = model.reference
@@ -231,7 +230,7 @@ def _xyz(point: FloatArray, z: float = 0.0) -> str:
     return f"{xy(point)} {number(z)}"
 
 
-def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the model's XML back, put its joints to every key frame and compare; raises E160.
 
     The bodies' masses, the joints' limits and the motor's lead are compared, too.

@@ -14,9 +14,8 @@ import numpy as np
 from burmester.export.models.driver_load import STANDARD_GRAVITY
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.export.six_bar_reference import SixBarReference
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
 
 __all__ = ["Servo"]
 
@@ -49,7 +48,7 @@ class Servo(NamedTuple):
     controls: FloatArray
 
     @classmethod
-    def of(cls, model: DynamicModel, chosen: SavedLinkage | SavedSixBar) -> Servo:
+    def of(cls, model: DynamicModel, chosen: Candidate) -> Servo:
         """A servo with critical damping for the median of the inertia at the poses."""
         step = min(LONGEST_STEP, STEP_SHARE * math.sqrt(model.reference.span / STANDARD_GRAVITY))
         step = float(f"{step:.1e}")

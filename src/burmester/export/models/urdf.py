@@ -26,9 +26,8 @@ from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, require_equal
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
 from burmester.wording import listed
 
 __all__ = ["check", "write"]
@@ -45,7 +44,7 @@ TILT = {  # roll, pitch, yaw by which the ground stands in a world with z upward
 }
 
 
-def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the description; raises E162 and E163."""
     model = DynamicModel.of(chosen, options)
     tree = tree_of(model, options.pose - 1)
@@ -180,7 +179,7 @@ def _link(model: DynamicModel, name: str, origin: FloatArray = ORIGIN) -> list[s
     return [*lines, "  </link>"]
 
 
-def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the XML back, put its joints to every pose and compare; raises E160.
 
     The masses of the links and the limits of the joints are compared, too.

@@ -24,8 +24,8 @@ from burmester.export.reference import require_places
 from burmester.export.six_bar_reference import six_bar_scaled
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
+from burmester.synthesis.result import Candidate
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = [
     "Assembly",
@@ -71,12 +71,12 @@ class Assembly:
         return self.poses[self.pose]
 
 
-def assembly_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> Assembly:
+def assembly_of(chosen: Candidate, options: Options) -> Assembly:
     """The plates and pins of a linkage; raises E162 and E163."""
     unit = unit_of(chosen, options)
     scale = MILLIMETRES[unit]
     number = chosen.task.poses.shape[0]
-    if isinstance(chosen, SavedLinkage):
+    if isinstance(chosen, FoundLinkage):
         require_places(chosen)
         number = chosen.error.places.shape[0]
     if not 1 <= options.pose <= number:
@@ -104,11 +104,12 @@ def assembly_of(chosen: SavedLinkage | SavedSixBar, options: Options) -> Assembl
     )
 
 
-def _links(chosen: SavedLinkage | SavedSixBar, scale: float) -> Links:
+def _links(chosen: Candidate, scale: float) -> Links:
     """The links of a linkage, in millimetres; raises E163."""
-    if isinstance(chosen, SavedSixBar):
-        return six_bar_links(six_bar_scaled(chosen.found, scale))
-    first, second = (scaled(dyad, scale) for dyad in (chosen.linkage.first, chosen.linkage.second))
+    if not isinstance(chosen, FoundLinkage):
+        return six_bar_links(six_bar_scaled(chosen, scale))
+    both = chosen.driver_first
+    first, second = scaled(both.first, scale), scaled(both.second, scale)
     places = chosen.error.places
     in_mm = Displacement(places.translation * scale, places.angle)
     return four_bar_links(Linkage(first, second), in_mm)

@@ -26,10 +26,9 @@ from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, require_equal
 from burmester.export.six_bar_reference import SIX_BAR_PLATES, SixBarReference
 from burmester.geometry.displacement import Displacement
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.watt import JOINTS
+from burmester.synthesis.result import Candidate
 
 __all__ = ["check", "write"]
 
@@ -81,7 +80,7 @@ module pin(low, high) {
 """
 
 
-def write(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the model."""
     assembly = assembly_of(chosen, options)
     made = assembly.dimensions
@@ -170,7 +169,7 @@ def _places(places: Displacement) -> str:
     return "[\n  " + ",\n  ".join(_list(row) for row in rows) + "\n]"
 
 
-def check(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the numbers back and compare them; raises E160."""
     reference = reference_of(chosen, options)
     tolerance = PRECISION * reference.span

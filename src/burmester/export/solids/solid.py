@@ -29,8 +29,7 @@ from burmester.export.reference import PRECISION
 from burmester.export.solids.solid_parts import Part, area_of, laid, parts_of, placed
 from burmester.export.solids.step_order import settle
 from burmester.export.solids.stl import Triangles, read_stl, shells_of, volume_of
-from burmester.io.saved import SavedLinkage
-from burmester.io.saved_six_bars import SavedSixBar
+from burmester.synthesis.result import Candidate
 
 __all__ = [
     "check_flat",
@@ -53,7 +52,7 @@ FIXED_TIME: Final = (
 )
 
 
-def write_step(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write_step(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the assembly at `options.pose` as STEP: named parts in colours, in their places."""
     cad, made = _cad(), assembly_of(chosen, options)
     parts = [placed(cad, part) for part in parts_of(cad, made)]
@@ -62,19 +61,19 @@ def write_step(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options)
     settle(path)
 
 
-def write_stl(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write_stl(chosen: Candidate, path: Path, options: Options) -> None:
     """Write all parts as a binary STL: each a closed shell of its own, flat, or in its place."""
     cad, made = _cad(), assembly_of(chosen, options)
     parts = parts_of(cad, made)
     _write_stl(cad, parts if options.assembled else laid(parts, made), path)
 
 
-def write_flat(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def write_flat(chosen: Candidate, path: Path, options: Options) -> None:
     """Write all parts beside each other on z = 0, as they are printed or cut, as a binary STL."""
     write_stl(chosen, path, replace(options, assembled=False))
 
 
-def check_step(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check_step(chosen: Candidate, path: Path, options: Options) -> None:
     """Read a STEP file back; raises E160 unless its holes are at this linkage's pivots.
 
     Axes to 1e-9 of the span, volumes to 1e-9 of themselves, and no part is inside another.
@@ -98,7 +97,7 @@ def check_step(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options)
         raise _off(f"the {clash[0]} and the {clash[1]} collide along the motion")
 
 
-def check_stl(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check_stl(chosen: Candidate, path: Path, options: Options) -> None:
     """Read an STL back; raises E160 unless it is closed, with holes at this linkage's pivots."""
     if not options.assembled:
         check_flat(chosen, path, options)
@@ -124,7 +123,7 @@ def check_stl(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) 
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
 
 
-def check_flat(chosen: SavedLinkage | SavedSixBar, path: Path, options: Options) -> None:
+def check_flat(chosen: Candidate, path: Path, options: Options) -> None:
     """Read such an STL back; raises E160 unless its shells are closed and lie apart on z = 0.
 
     Each plate is put back to where the assembly has it, and its holes are compared as there.
