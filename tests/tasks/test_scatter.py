@@ -7,6 +7,7 @@ import pytest
 from benchmarks.two_origins import pair_of_tasks, same
 
 from burmester import read_task, synthesize
+from burmester.geometry.displacement import Displacement
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import General, Rotation, TwoSliders
 from burmester.tasks.motion_task import Task
