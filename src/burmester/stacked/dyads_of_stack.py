@@ -22,16 +22,22 @@ from burmester.dyads.selection import (
 )
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.dyad import RR, Dyad
+from burmester.fourbar.dyad import RR
 from burmester.numerics.bundles import take
 from burmester.stacked.answers import Depth, DyadRows, Outcome, StackedAnswers, Status
 from burmester.stacked.task_stack import TaskStack
-from burmester.synthesis.dyad_search import Searched, dyads_of_tasks, exact_dyads, search_dyads
+from burmester.synthesis.dyad_search import (
+    Searched,
+    dyads_of_motion,
+    dyads_of_tasks,
+    exact_dyads,
+    search_dyads,
+)
 from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import NEAR_DIGITS, dyad_advice
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import Undetermined
-from burmester.tasks.motion_task import CONDITIONS, Task
+from burmester.tasks.motion_task import CONDITIONS
 from burmester.tasks.options import Method, SynthesisOptions
 from burmester.tasks.plain_motions import plain_motions
 from burmester.tasks.problem import SynthesisProblem
@@ -169,10 +175,10 @@ def _looked_at(stack: TaskStack, index: int, method: Method) -> SynthesisProblem
 def _special(index: int, problem: SynthesisProblem) -> Group:
     """A task whose motion itself says which dyads there are."""
     assert problem.motion is not None
-    kind, task = problem.motion.kind, problem.given
+    kind = problem.motion.kind
     if isinstance(kind, Undetermined):
         return _of_one(index, ("not determined", kind.code))
-    dyads = [FoundDyad("", each, *_miss(each, task)) for each in kind.dyads]
+    dyads = dyads_of_motion(kind, problem.given)
     given = GivenPoses.of(problem.merged().task, problem.length) if len(dyads) > 1 else None
     status: Status = "of the motion"
     told: tuple[Outcome, str] = ("special motion", kind.code)
@@ -215,9 +221,3 @@ def _of_one(
         np.array([told[1]]),
         [(index, each) for each in warnings],
     )
-
-
-def _miss(dyad: Dyad, task: Task) -> tuple[float, float]:
-    """The root mean square and the greatest distance of a dyad from the poses of a task."""
-    distance = np.abs(dyad.residual(task.poses))
-    return float(np.sqrt((distance**2).mean())), float(distance.max())

@@ -49,7 +49,6 @@ from burmester.tasks.rotation_fit import (
     rms,
 )
 from burmester.tasks.scatter import (
-    MAX_RESIDUAL_ERRORS,
     SLIDERS,
     is_scatter,
     max_scatter,
@@ -159,8 +158,9 @@ def _kind(
     elif nullity > max(3, 8 - distinct):
         turned = rotation_range(task.poses.angle)
         kind = Undetermined(nullity, as_given, count, turned, float(motion.length), unit)
-    elif (angles := _two_angles(motion)) is not None:
-        kind = TwoOrientations(angles, nullity)
+    elif motion.two_angles[1]:
+        low, high = sorted(np.angle([motion.turn[0], motion.two_angles[0]]).tolist())
+        kind = TwoOrientations((low, high), nullity)
     return kind
 
 
@@ -271,20 +271,6 @@ def _two_sliders(motion: RotationFit, most_scatter: float, unit: str | None) -> 
             swing = abs(b), phase, middle, rotation
             return TwoSliders(inverse, *centres, *swing, not sure, scatter, unit)
     return None
-
-
-def _two_angles(motion: RotationFit) -> tuple[float, float] | None:
-    """The two angles of the poses, if there are no more."""
-    angle_offsets = motion.angle_offsets
-    second = motion.turn[np.abs(angle_offsets).argmax()]
-    other = np.angle(motion.turn * second.conj())
-    if (
-        np.minimum(np.abs(angle_offsets), np.abs(other)).max()
-        > 2 * MAX_RESIDUAL_ERRORS * motion.angle_error
-    ):
-        return None
-    low, high = sorted((float(np.angle(motion.turn[0])), float(np.angle(second))))
-    return low, high
 
 
 def _circle(points: ComplexArray) -> tuple[complex, float]:

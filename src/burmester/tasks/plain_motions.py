@@ -17,7 +17,6 @@ from burmester.tasks.motion_class import MAX_COUNTED_POSES
 from burmester.tasks.motion_task import CONDITIONS
 from burmester.tasks.rotation_fit import RotationFit, residual_of_turn
 from burmester.tasks.scatter import (
-    MAX_RESIDUAL_ERRORS,
     SLIDERS,
     is_scatter,
     is_steady,
@@ -60,7 +59,7 @@ def plain_motions(
     near = np.flatnonzero(plain & special)
     if len(near):
         some = take(motions, near)
-        plain[near] = ~_two_sliders(some) & ~_two_angles(some)
+        plain[near] = ~_two_sliders(some) & ~some.two_angles[1]
     return plain, nullity
 
 
@@ -114,12 +113,3 @@ def _two_sliders(motions: RotationFit) -> Mask:
         miss = residual - b[:, None] * term
         may |= motions.explains(miss, lever) | is_scatter(miss, turn, SLIDERS)
     return may
-
-
-def _two_angles(motions: RotationFit) -> Mask:
-    """Which have two angles only."""
-    offsets = motions.angle_offsets
-    second = motions.turn[np.arange(len(offsets)), np.abs(offsets).argmax(axis=1)]
-    other = np.angle(motions.turn * second[:, None].conj())
-    off = np.minimum(np.abs(offsets), np.abs(other)).max(axis=1)
-    return np.asarray(off <= 2 * MAX_RESIDUAL_ERRORS * motions.angle_error)

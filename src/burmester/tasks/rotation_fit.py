@@ -111,6 +111,17 @@ class RotationFit(NamedTuple):
         most = max_residual_errors(self.d.shape[-1]) * self.error(lever)
         return np.asarray(np.abs(miss).max(axis=-1) <= most)
 
+    @property
+    def two_angles(self) -> tuple[ComplexArray, Mask]:
+        """The turn (*,) that is farthest from the first, and whether there are these two only."""
+        offsets = self.angle_offsets
+        at = np.abs(offsets).argmax(axis=-1)[..., None]
+        second = np.take_along_axis(self.turn, at, axis=-1)
+        other = np.angle(self.turn * second.conj())
+        off = np.minimum(np.abs(offsets), np.abs(other)).max(axis=-1)
+        only = np.asarray(off <= 2 * MAX_RESIDUAL_ERRORS * self.angle_error)
+        return second[..., 0], only
+
     def tolerance(self, *, as_given: bool = False) -> FloatArray:
         """The most (*,) that errors of the poses make of a singular value of zero.
 
