@@ -302,7 +302,7 @@ def _check(task: FunctionTask, source: str, notes: tuple[Advice, ...], *, as_jso
     """Show a function task and what stands out in it; returns the exit code."""
     from burmester.functions.pair_checks import pair_findings
     from burmester.io.files import quoted
-    from burmester.io.function_overview import function_check_data, show_function_check
+    from burmester.io.function_table import function_check_data, show_function_check
 
     findings = pair_findings(task)
     if as_json:

@@ -240,7 +240,12 @@ def _no_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     """Too few conditions, and no linkage that meets them within the limits."""
     from burmester.synthesis.family_outcome import none_within_limits  # noqa: PLC0415  seldom
 
-    return Synthesis(problem, none_within_limits(problem), warnings=tuple(findings))
+    outcome = none_within_limits(problem)
+    if problem.task.timing is not None:
+        from burmester.synthesis.timed_poses import of_timed_drivers  # noqa: PLC0415  the same
+
+        outcome = of_timed_drivers(problem, outcome)
+    return Synthesis(problem, outcome, warnings=tuple(findings))
 
 
 def _within_digits(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:

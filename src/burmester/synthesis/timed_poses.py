@@ -75,10 +75,11 @@ def of_timed_drivers(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
     found = timed_dyads(task.poses, task.timing)
     if found is None:
         return outcome
-    what = f"{count(len(found), 'link')} from the ground {'has' if len(found) == 1 else 'have'}"
-    text = f"{what} these crank angles at the poses, and no other"
     if not found:
-        return Outcome("R306", f"no linkage: {text.removesuffix(', and no other')}", None)
+        help = "move a pose, or give another crank angle, or leave one blank"
+        return Outcome("R306", "no linkage: no driving link turns by these crank angles", help)
+    turns = f"{count(len(found), 'driving link')} {'turns' if len(found) == 1 else 'turn'}"
+    text = f"{turns} by these crank angles, and no other"
     return replace(outcome, message=f"{outcome.message}; {text}")
 
 

@@ -34,10 +34,7 @@ from burmester.io.reading.pose_table import Source, held_float, shown
 
 __all__ = ["read_function", "settings_of_tree", "task_of_tree"]
 
-SETTINGS: Final = (
-    "minimax", "input_phase_deg", "output_phase_deg", "ground", "transmission_deg", "link_ratio",
-    "types",
-)  # fmt: skip
+SETTINGS: Final = FunctionSettings._fields
 KEYS: Final = (
     "expression", "x", "input_deg", "output_deg", "opposite", "pairs", "spacing", *SETTINGS,
 )  # fmt: skip
@@ -116,15 +113,9 @@ def settings_of_tree(tree: Any, *, known: Sequence[str] = SETTINGS) -> FunctionS
                 f"[function] has an unknown key {shown(key)}",
                 help=f"the keys are {', '.join(known)}",
             )
-    return FunctionSettings(
-        _number(tree, "input_phase_deg"),
-        _number(tree, "output_phase_deg"),
-        _number(tree, "ground") or 1.0,
-        _flag(tree, "minimax"),
-        _number(tree, "transmission_deg"),
-        _number(tree, "link_ratio"),
-        _names(tree, "types"),
-    )
+    read: dict[str, Any] = {"minimax": _flag, "types": _names}
+    stated = {k: read.get(k, _number)(tree, k) for k in SETTINGS if tree.get(k) is not None}
+    return FunctionSettings(**stated)
 
 
 def task_of_tree(tree: Any, settings: FunctionSettings = FunctionSettings()) -> FunctionTask:  # noqa: B008
