@@ -238,14 +238,13 @@ def _settings(given: dict[str, Any]) -> FunctionSettings:
     from burmester.io.reading.functions.function_options import FunctionSettings
     from burmester.io.reading.requirements_text import requirements_from_options
 
-    asked = {name: given[name] for name in ("min_transmission", "link_ratio", "types")}
     ground = _number(given, "ground")
     return FunctionSettings(
         _number(given, "input_phase"),
         _number(given, "output_phase"),
         1.0 if ground is None else ground,
         given["minimax"],
-        **{each.field: each.value for each in requirements_from_options(**asked)},
+        {each.field: each.value for each in requirements_from_options(**given)},
     )
 
 

@@ -12,11 +12,11 @@ from burmester.fourbar.linkage import Configuration
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.requirements.table import Violation
 from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
 from burmester.sixbar.watt import BARS, JOINTS, TYPE, Drive, WattLinkage
 from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
-from burmester.verdicts.requirement_check import Violation
 
 __all__ = ["FoundSixBar"]
 
