@@ -26,6 +26,7 @@ from burmester.functions.exact_pairs import generators_of_phases
 from burmester.functions.function_task import FunctionTask, SampledFunction, even_spacing
 from burmester.functions.further_starts import FurtherStarts
 from burmester.synthesis.function_generation import generate_function
+from burmester.tasks.requirements import Requirements
 
 # Function, range of x, degrees of input and output, and the greatest error with 30 degrees of
 # transmission that a search by SLSQP alone had found, degrees.
@@ -57,10 +58,16 @@ LEAST = 1.0  # degree of transmission, below which neither looks
 WORSE = 1.05
 
 
-def task_of(values, x, input_deg, output_deg, **asked):
-    """The task of a function at 61 even inputs."""
+def task_of(values, x, input_deg, output_deg, *, minimax=False, output_phase=None, **asked):
+    """The task of a function at 61 even inputs; asked: of `Requirements`."""
     function = SampledFunction("f", values, x, np.radians(input_deg), np.radians(output_deg))
-    return FunctionTask(*function.at(even_spacing(PAIRS)), function=function, **asked)
+    return FunctionTask(
+        *function.at(even_spacing(PAIRS)),
+        function=function,
+        minimax=minimax,
+        output_phase=output_phase,
+        requirements=Requirements(**asked),
+    )
 
 
 def drawn(rng):
@@ -76,9 +83,9 @@ def drawn(rng):
     minimax = bool(rng.random() < 0.7)
     task = task_of(
         values, x, turns[0], sign * turns[1], minimax=minimax,
-        least_transmission=np.radians(float(least)) if least else None,
-        link_ratio=float(ratio) if ratio else None,
-        types=frozenset({kind}) if kind else None,
+        transmission_deg=float(least),
+        link_ratio=float(ratio) if ratio else np.inf,
+        types={kind} if kind else None,
     )  # fmt: skip
     norm = "minimax" if minimax else "rms"
     asks = f"{least}° ratio {ratio or '-'} {kind or 'any type'}"
@@ -106,8 +113,8 @@ def sums(v):
 
 def slsqp(task, start, side, signs):
     """The end of a descent from v (5,), its error; infinite where it keeps not what is asked."""
-    least = max(task.least_transmission or 0.0, np.radians(LEAST))
-    ratio = task.link_ratio or 1e4
+    least = max(task.requirements.transmission, np.radians(LEAST))
+    ratio = min(task.requirements.link_ratio, 1e4)
 
     def errors(v, inputs, outputs):
         return np.angle(made(v, side, inputs)[0] * np.exp(-1j * outputs))
@@ -163,7 +170,8 @@ def witnessed(task, starts, rng, *, every=1):
     same, _ = generators_of_phases(task, points.input_phase, points.output_phase)
     same = same[np.isfinite(same.sizes).all(axis=-1)]
     same = same.with_better_side(task.inputs, task.outputs)
-    asked = task.least_transmission or 0.0, task.link_ratio or np.inf, task.types
+    wanted = task.requirements
+    asked = wanted.transmission, wanted.link_ratio, task.types
     same = type(same).joined([same, FurtherStarts.of(task).near(*asked, 16)])
     begins = [
         (np.array([np.log(g.input_link), np.log(g.coupler), np.log(g.output_link), g.input_phase,
@@ -201,7 +209,7 @@ if __name__ == "__main__":
     rng = np.random.default_rng(given.seed)
     tasks = []
     for name, values, x, turn, made_turn, known in TABLE:
-        task = task_of(values, x, turn, made_turn, minimax=True, least_transmission=np.radians(30))
+        task = task_of(values, x, turn, made_turn, minimax=True, transmission_deg=30)
         tasks.append((f"{name} {x[0]:g}:{x[1]:.4g} {turn}/{made_turn} table {known}°", task))
     tasks += [drawn(rng) for _ in range(given.count)]
     none, worse, better, seconds = [], [], 0, []

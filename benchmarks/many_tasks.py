@@ -1,4 +1,4 @@
-"""How fast stacks of tasks are, each figure beside a loop over the road of one task.
+"""How fast stacks of tasks are, each figure beside a loop over stacks of one task.
 
     python -m benchmarks.many_tasks
     python -m benchmarks.many_tasks --only dyads --rounds 5
@@ -27,7 +27,6 @@ import numpy as np  # noqa: E402  after the number of threads
 
 from burmester.linkages.from_dyads import linkages_from_dyads  # noqa: E402
 from burmester.stacked import SampleOptions, TaskStack, random_linkages, stacked_answers  # noqa: E402
-from burmester.stacked.one_task import dyads_of_task  # noqa: E402
 from burmester.synthesis.dyad_search import search_dyads  # noqa: E402
 from burmester.synthesis.method import with_method  # noqa: E402
 from burmester.tasks.motion_class import classify_motion  # noqa: E402
@@ -71,10 +70,10 @@ def tasks(row, count):
 def one_by_one(stack, depth):
     """The loop that nobody needs any more."""
     for k in range(len(stack)):
-        task = stack.task(k)
         if depth != "linkages":
-            dyads_of_task(task, depth)
+            stacked_answers(stack[k : k + 1], depth)
             continue
+        task = stack.task(k)
         problem = SynthesisProblem.of(task, classify_motion(task), SynthesisOptions())
         if not problem.is_special:
             problem = with_method(problem)
@@ -84,23 +83,23 @@ def one_by_one(stack, depth):
 
 def seconds(call, *arguments):
     start = time.process_time()
-    result = call(*arguments)
-    return time.process_time() - start, result
+    call(*arguments)
+    return time.process_time() - start
 
 
 def measured(row, rounds):
-    """Seconds of one task: in the stack, in the loop; and how many took the road of one task."""
+    """Seconds of one task: in the stack, in the loop."""
     stack = tasks(row, row.count)
     some = stack[: row.alone]
     stacked_answers(some, row.depth)
     one_by_one(some[:3], row.depth)
     times = []
     for _ in range(rounds):
-        together, answers = seconds(stacked_answers, stack, row.depth)
-        alone, _ = seconds(one_by_one, some, row.depth)
+        together = seconds(stacked_answers, stack, row.depth)
+        alone = seconds(one_by_one, some, row.depth)
         times.append((together / row.count, alone / row.alone))
     stacked, loop = (statistics.median(each) for each in zip(*times, strict=True))
-    return stacked, loop, float(answers.alone.mean())
+    return stacked, loop
 
 
 def greatest_memory(count):
@@ -129,15 +128,15 @@ def main():
         few, many = greatest_memory(10_000), greatest_memory(200_000)
         print(f"10,000 tasks {few:.0f} MB, 200,000 tasks {many:.0f} MB: {many / few:.2f} times")
         return
-    print("| | a second, one core | two cores, goal | one task in a loop | times as fast | alone |")
-    print("|---|---|---|---|---|---|")
+    print("| | a second, one core | two cores, goal | one task in a loop | times as fast |")
+    print("|---|---|---|---|---|")
     for row in ROWS:
         if asked.only in row.name:
-            stacked, loop, alone = measured(row, asked.rounds)
+            stacked, loop = measured(row, asked.rounds)
             rate = f"{1 / stacked:,.0f}"
             print(
                 f"| {row.name} | {rate} | {row.goal:,.0f} | {loop * 1e3:.3g} ms "
-                f"| {loop / stacked:.0f} | {100 * alone:.1f} % |",
+                f"| {loop / stacked:.0f} |",
                 flush=True,
             )
 

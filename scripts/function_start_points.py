@@ -9,7 +9,7 @@ all.  Three tries with different seeds have to agree on the count.
 
 import numpy as np
 
-from burmester.functions.critical_generators import COUNTS, exponents, follow, gradient, terms
+from burmester.functions.critical_generators import exponents, follow, gradient, terms
 from burmester.numerics.unique_rows import unique_index
 
 SAME_POINT = 1e-6  # relative, of the products of the terms
@@ -69,7 +69,7 @@ def all_points(e, seed):
 
 if __name__ == "__main__":
     table = {}
-    for name, count in COUNTS.items():
+    for name, count in (("both", 28), ("one", 6)):
         tries = [all_points(exponents(name == "both"), seed) for seed in range(3)]
         counts = [len(points) for _, points in tries]
         print(name, counts)

@@ -71,6 +71,7 @@ if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar as FoundSixBar
     from burmester.sixbar.watt import WattLinkage as WattLinkage
     from burmester.synthesis.result import Synthesis as Synthesis
+    from burmester.tasks.crank_timing import CrankTiming as CrankTiming
     from burmester.tasks.limits import Limits as Limits
     from burmester.tasks.motion_task import Task as Task
     from burmester.tasks.rails import Rail as Rail
@@ -91,6 +92,7 @@ _ROOMS = {
     "RR": "fourbar.dyad",
     "BurmesterError": "errors",
     "Change": "following.followed",
+    "CrankTiming": "tasks.crank_timing",
     "Diagnosis": "diagnosis.checks",
     "Displacement": "geometry.displacement",
     "Followed": "following.followed",
@@ -155,6 +157,7 @@ __all__ = [
     "RR",
     "BurmesterError",
     "Change",
+    "CrankTiming",
     "Diagnosis",
     "Displacement",
     "Followed",

@@ -16,8 +16,8 @@ def test_a_bent_valley_is_followed_in_few_steps(monkeypatch, seed):
     rows, dyads = driven(rng, near_parallelogram(rng, 0.1), np.linspace(0, 1, 12))
     c, m, r = ((a + 3 * b) / 4 for a, b in zip(*dyads, strict=True))
     start = np.array([[c.real, c.imag, m.real, m.imag, r]])
-    share = np.full(12, 1 / 12)
-    found = circle_descent.circle_minima(start, Displacement.from_poses(rows), share, narrow=True)
+    share, poses = np.full((1, 12), 1 / 12), Displacement.from_poses(rows[None])
+    found = circle_descent.circle_minima(start, np.zeros(1, dtype=int), poses, share, narrow=True)
     assert len(found.z) == 1
     ends = [np.array([c.real, c.imag, m.real, m.imag, r]) for c, m, r in dyads]
     assert min(np.abs(found.z[0] - end).max() for end in ends) < 1e-6

@@ -2,8 +2,10 @@
 
 import io
 import json
+import shlex
 from pathlib import Path
 
+import click
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -122,12 +124,14 @@ def test_check_says_what_pairs_ask_for(run):
     done = run("check", "pairs.csv")
     assert done.return_value == 0
     assert "5 pairs, both phases open: 3 linkages at most" in done.output
-    data = json.loads(run("check", "pairs.csv", "--json", "--input-phase", "20").output)
+    data = json.loads(
+        run("function", "pairs.csv", "--check", "--json", "--input-phase", "20").output
+    )
     assert data["asks"] == {
         "pairs": 5, "open_phases": 1, "kind": "nearest", "solutions": 6,
     }  # fmt: skip
-    waves = ["--function", "sin(x)", "--x", "0:20", "--input", "90", "--output", "90"]
-    done = run("check", *waves)
+    waves = ["sin(x)", "--x", "0:20", "--input", "90", "--output", "90"]
+    done = run("function", *waves, "--check")
     assert done.return_value == 1
     assert "the output turns round 6 times" in done.output
     Path("small.csv").write_text("input_deg,output_deg\n0,0\n.5,.2\n1,.5\n1.5,1\n")
@@ -179,7 +183,7 @@ def test_judge_takes_lengths(run):
     run("synthesize", "pairs.csv", "-o", "a.json")
     data = json.loads(Path("a.json").read_text())["linkages"][0]
     links = ",".join(f"{100 * v!r}" for v in data["links"].values())
-    done = run("judge", "pairs.csv", "--links", links, "--json")
+    done = run("function", "pairs.csv", "--links", links, "--json")
     assert done.return_value == 0
     (judged,) = json.loads(done.output)["linkages"]
     assert judged["links"]["ground"] == 100
@@ -187,17 +191,108 @@ def test_judge_takes_lengths(run):
     assert judged["side"] == data["side"]
     for more in ("--ground 3", "--linkage a.json", "--id L1"):
         with pytest.raises(InputError) as caught:
-            run_raising(run, "judge", "pairs.csv", "--links", links, *more.split())
+            run_raising(run, "function", "pairs.csv", "--links", links, *more.split())
         assert caught.value.code == "E194"
     for wrong in ("1,2,3", "1,2,3,-4", "1,2,3,x"):
         with pytest.raises(InputError):
-            run_raising(run, "judge", "pairs.csv", "--links", wrong)
+            run_raising(run, "function", "pairs.csv", "--links", wrong)
 
 
 def run_raising(run, *arguments):
     done = run(*arguments)
     if done.exception is not None:
         raise done.exception
+
+
+# --- one command, and the words of those of poses
+
+SQUARE = "--x 0:1 --input 90 --output 60 --pairs 5"
+LINKS = "pairs.csv --links 1,2.2,0.7,2"
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (f"synthesize --function x**2 {SQUARE}", f"function x**2 {SQUARE}"),
+        (f"synthesize {SQUARE} --function=-x**2", f"function {SQUARE} -- -x**2"),
+        (f"check --function x**2 {SQUARE}", f"function x**2 {SQUARE} --check"),
+        (f"judge {LINKS}", f"function {LINKS}"),
+        ("synthesize --ground=50 pairs.csv", "function pairs.csv --ground 50"),
+        ("synthesize pairs.csv", "function pairs.csv"),
+        ("check pairs.csv", "function pairs.csv --check"),
+    ],
+)
+def test_functions_in_commands_of_poses_go_to_their_own(run, old, new):
+    before, after = (
+        json.loads(run(name, "--json", *words).output)
+        for name, *words in (old.split(), new.split())
+    )
+    told = [each for each in before["warnings"] if each["code"] == "W245"]
+    assert len(told) == (any(word in old for word in ("--function", "--links", "--ground")))
+    for each in told:
+        _, name, *words = shlex.split(each["help"].split("`")[1])
+        assert json.loads(run(name, "--json", *words).output) == after
+    before["warnings"] = [each for each in before["warnings"] if each not in told]
+    assert before == after
+
+
+def test_files_of_old_commands_get_the_names_they_had(run):
+    run("synthesize", "pairs.csv", "--output", "a.json")
+    run("report", "pairs.csv", "--title", "Scale")
+    run("report", *f"--function x**2 {SQUARE} -o b.html".split())
+    run("function", "pairs.csv", *["-o", "c.json", "--plot", "c.svg", "--report", "c.html"])
+    assert Path("a.json").read_bytes() == Path("c.json").read_bytes()
+    assert "Scale" in Path("pairs.html").read_text()
+    assert {each.name for each in Path().iterdir()} == {
+        "pairs.csv", "pairs.html", "a.json", "b.html", "c.json", "c.svg", "c.html",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("words", "code"),
+    [
+        ("synthesize poses.csv --output 60", "E194"),
+        ("report poses.csv --output=60", "E194"),
+        ("judge pairs.csv", "E194"),
+        ("function x**2", "E194"),
+        ("function x**2 --x 0:1 --input 90 --output a.json", "E194"),
+        ("function x**2 --x 1 --input 90 --output 60", "E194"),
+        ("function pairs.csv --output 60", "E194"),
+        ("function pairs.csv --check -o a.json", "E194"),
+        ("function pairs.csv --side left", "E194"),
+        ("function pairs.csv --id L1", "E194"),
+        ("function pairs.csv --plot a.bmp", "E161"),
+        ("function pairs", "E101"),
+        ("function pears.csv", "E101"),
+        ("function poses.csv", "E107"),
+        ("function pairs.csv -o pairs.csv --force", "E142"),
+    ],
+)
+def test_words_that_make_no_sense_are_refused_before_anything_is_solved(run, words, code):
+    Path("poses.csv").write_text("x,y,angle_deg\n0,0,0\n1,2,30\n3,3,50\n")
+    with pytest.raises(InputError) as caught:
+        run_raising(run, *words.split())
+    assert caught.value.code == code
+    assert caught.value.help
+    assert {each.name for each in Path().iterdir()} == {"pairs.csv", "poses.csv"}
+
+
+def test_options_of_poses_are_not_those_of_functions(run):
+    with pytest.raises(click.UsageError, match="--fixed-pivot"):
+        run_raising(run, "synthesize", "pairs.csv", "--fixed-pivot", "0,0")
+
+
+def test_pairs_come_from_standard_input_too(run):
+    whole = run("function", "pairs.csv", "--json").output
+    for words in (["function", "-"], ["synthesize", "-"]):
+        done = CliRunner().invoke(command, [*words, "--json"], TABLE, standalone_mode=False)
+        assert done.output == whole
+
+
+def test_a_linkage_that_exists_has_a_page_too(run):
+    done = run("function", *LINKS.split(), "--report", "a.html")
+    assert done.return_value == 0
+    assert "double-rocker" in Path("a.html").read_text()
 
 
 # --- batch
@@ -266,7 +361,7 @@ def test_a_table_of_pairs_with_other_columns_is_refused(tmp_path, head, code):
 
 def test_pairs_without_any_phase_are_no_fault(run):
     """Where no output phase fits the input phase, there is nothing to decompose."""
-    words = "--function x**2 --x 1:2 --input 30.5276 --output 65.3747 --pairs 4"
-    done = run("synthesize", *words.split(" "), "--input-phase", "118.42297963372516")
+    words = "x**2 --x 1:2 --input 30.5276 --output 65.3747 --pairs 4"
+    done = run("function", *words.split(" "), "--input-phase", "118.42297963372516")
     assert done.return_value == 1
     assert "R361" in done.output

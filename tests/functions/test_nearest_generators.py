@@ -32,7 +32,7 @@ def driven(found, inputs):
 @pytest.mark.parametrize("row", TABLE, ids=lambda row: f"{row[0]} to {row[2][1]:.3g}")
 def test_the_table_is_met_at_30_degrees(row):
     _, values, x, turn, made, known = row
-    task = task_of(values, x, turn, made, minimax=True, least_transmission=30 * DEG)
+    task = task_of(values, x, turn, made, minimax=True, transmission_deg=30)
     best = generate_function(task).usable[0]
     inputs = np.linspace(*task.input_ends, 31)
     outputs, transmission = driven(best, inputs)
@@ -77,7 +77,7 @@ def test_types_are_searched_for_and_not_only_sorted_out():
     plain = generate_function(task_of(np.exp, (0, 1), 60, 90))
     types = {"crank-rocker", "rocker-crank"}
     assert not types & {each.type for each in plain.usable}
-    task = task_of(np.exp, (0, 1), 60, 90, types=frozenset(types))
+    task = task_of(np.exp, (0, 1), 60, 90, types=types)
     found = generate_function(task)
     assert found.usable
     assert {each.type for each in found.usable} <= types
@@ -88,7 +88,7 @@ def test_types_are_searched_for_and_not_only_sorted_out():
 
 def test_what_none_keeps_is_told_and_the_advice_is_right():
     types = frozenset({"double-crank"})
-    asked = {"least_transmission": 60 * DEG, "link_ratio": 1.1, "types": types}
+    asked = {"transmission_deg": 60, "link_ratio": 1.1, "types": types}
     task = task_of(np.log, (1, 10), 90, 90, minimax=True, **asked)
     found = generate_function(task)
     assert not found.usable
@@ -97,7 +97,7 @@ def test_what_none_keeps_is_told_and_the_advice_is_right():
     for way in ways:
         option, value = way.split()[:2]
         looser = {
-            "--min-transmission": lambda v: {"least_transmission": float(v) * DEG},
+            "--min-transmission": lambda v: {"transmission_deg": float(v)},
             "--link-ratio": lambda v: {"link_ratio": float(v)},
             "--type": lambda v: {"types": frozenset({v})},
         }[option](value)

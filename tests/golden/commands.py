@@ -76,7 +76,7 @@ def _exports(*formats: str) -> tuple[str, ...]:
 EVERY = ("dxf", "svg", "pdf", "step", "stl", "openscad", "mjcf", "urdf", "gif", "csv", "json")
 SOLVE = "synthesize poses.csv -o result.json"
 JUDGE = "judge poses.csv --linkage result.json"
-FUNCTION = "synthesize --function 'log10(x)' --x 1:10 --input 60 --output 60"
+FUNCTION = "function 'log10(x)' --x 1:10 --input 60 --output 60"
 
 SCENES = {
     "five poses": _poses(FIVE, SOLVE, *_exports(*EVERY, "pylinkage"),
@@ -119,7 +119,8 @@ SCENES = {
     "function": Scene({}, (
         FUNCTION + " -o result.json", *_exports("svg", "openscad", "csv"),
         FUNCTION + " --minimax --min-transmission 30", FUNCTION + " --pairs 3",
-        "report --function 'x**2' --x 0:1 --input 90 --output 90 -o page.html")),
+        "function 'x**2' --x 0:1 --input 90 --output 90 --report page.html",
+        "report --function 'x**2' --x 0:1 --input 90 --output 90 --pairs 4 -o old.html")),
     "pairs of angles": Scene({"pairs.csv": PAIRS}, (
         "synthesize pairs.csv -o result.json", "check pairs.csv",
         "judge pairs.csv --linkage result.json")),

@@ -23,11 +23,11 @@ from burmester.synthesis.function_generation import generate_function
 
 SCHEMA = json.loads(resources.files("burmester").joinpath("io/function.schema.json").read_text())
 PAIRS = "input_deg,output_deg\n0,0\n15,10\n30,25\n45,45\n60,75\n"
-SINE = ["--function", "sin(x)", "--x", "0:pi/2", "--input", "90", "--output", "90"]
+SINE = ["function", "sin(x)", "--x", "0:pi/2", "--input", "90", "--output", "90"]
 
 
 def values(text, x):
-    return read_expression(Source("--function", text))(np.asarray(x, dtype=float))
+    return read_expression(Source("expression", text))(np.asarray(x, dtype=float))
 
 
 @pytest.mark.parametrize(
@@ -163,7 +163,7 @@ def test_a_result_is_exported_as_the_linkage_that_it_holds(run):
 
 def test_a_changed_result_is_judged_again(run):
     """No number is taken on trust: a link made longer loses its verdict and its error."""
-    run("synthesize", *SINE, "--pairs", "5", "-o", "a.json")
+    run(*SINE, "--pairs", "5", "-o", "a.json")
     data = json.loads(Path("a.json").read_text())
     data["linkages"][0]["links"]["coupler"] *= 3
     Path("a.json").write_text(json.dumps(data))
@@ -185,7 +185,7 @@ def test_a_changed_result_is_judged_again(run):
 
 
 def test_every_task_says_itself_in_its_result(run):
-    run("synthesize", *SINE, "--pairs", "4", "--input-phase", "100", "--opposite", "-o", "a.json")
+    run(*SINE, "--pairs", "4", "--input-phase", "100", "--opposite", "-o", "a.json")
     data = json.loads(Path("a.json").read_text())
     jsonschema.validate(data, SCHEMA)
     task = read_function(Path("a.json").read_bytes(), "a.json")

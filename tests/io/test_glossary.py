@@ -85,9 +85,9 @@ def test_every_key_is_printed(tmp_path):
     for task, more in zip(tasks, options, strict=True):
         done = CliRunner().invoke(burmester, ["synthesize", task, "--json", *more])
         printed |= keys(json.loads(done.stdout))
-    function = "--function x**2 --x 1:2 --input 60 --output 60 --pairs 3 --json"
+    function = "x**2 --x 1:2 --input 60 --output 60 --pairs 3 --json"
     phases = "--input-phase 50 --output-phase 60"
-    done = CliRunner().invoke(burmester, ["synthesize", *function.split(), *phases.split()])
+    done = CliRunner().invoke(burmester, ["function", *function.split(), *phases.split()])
     printed |= keys(json.loads(done.stdout))
     (tmp_path / "rails.json").write_text(json.dumps(RAILS))
     done = CliRunner().invoke(burmester, ["synthesize", str(tmp_path / "rails.json"), "--json"])

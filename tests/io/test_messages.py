@@ -109,8 +109,8 @@ LID = (
 )
 OPENING = "0,0,0 30,77,45 95,110,95"
 FOUR_OPENING = "0,0,0 12.5,40,20 30,77,45 95,110,95"
-LOG = 'synthesize --function "log10(x)" --x 1:2 --input 60 --output 60'
-SQUARE = 'synthesize --function "x**2" --x=-1:1 --input 90 --output 60'
+LOG = 'function "log10(x)" --x 1:2 --input 60 --output 60'
+SQUARE = 'function "x**2" --x=-1:1 --input 90 --output 60'
 PAIRS = "input_deg,output_deg\n0,0\n15,10\n30,25\n45,45\n60,75\n"
 ODD_PAIR = (
     "input_deg,output_deg\n0,0\n10,15.63\n20,30.78\n30,45\n40,57.85\n50,69.94\n60,77.94\n"
@@ -1179,6 +1179,13 @@ CASES: dict[str, Case] = {
         "E193", f"{J} {FIRST} {SECOND}", Args(S), {"poses.csv": PAIRS}
     ),
     "a function without its range": Case("E194", LOG.replace("--input 60 ", ""), Args(LOG)),
+    "a file named as an angle is": Case("E194", f"{S} --output 60", Args(f"{S} -o 60"), GOOD),
+    "a function of another command": Case(
+        "W245",
+        f"{LOG} --pairs 5".replace("function", "synthesize --function"),
+        Args(f"{LOG} --pairs 5"),
+        exit=0,
+    ),
     "function generators": Case("R360", LOG, None, exit=0),
     "no function generator that works": Case(
         "R361", S, Write("poses.csv", PAIRS), {"poses.csv": LOCKED}, exit=1
@@ -1827,7 +1834,7 @@ def test_the_same_message_in_json(name, run, broken, hurried):
         text = drawn(raised(case.run), 10_000)
     elif case.run.startswith(("new", "export")):  # which have no --json
         return
-    elif not case.run.startswith(("synthesize", "judge")):
+    elif not case.run.startswith(SOLVED_BY):
         done = run(f"{case.run} --json", 10_000)
         shown = done.err if case.exit > 1 else run(case.run, 10_000).out
         data, text = json.loads(done.out), shown
@@ -1852,6 +1859,7 @@ def test_the_same_message_in_json(name, run, broken, hurried):
             assert not told.get(key) or " ".join(told[key].split()) in flat
 
 
+SOLVED_BY = ("synthesize", "function", "judge")
 WAY_ON = {"R303": "W203"}  # an outcome whose help is that of a warning beside it
 
 
@@ -1907,7 +1915,7 @@ def test_following_the_help_to_the_letter_works(name, run, broken, hurried):
         case Call():
             follow.call()
             return
-    if not line.startswith(("synthesize", "judge")) or "--help" in line:
+    if not line.startswith(SOLVED_BY) or "--help" in line:
         done = run(line)
         assert (done.exit, done.err) == (0, "")
         assert f"[{case.code}]" not in done.out

@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+from burmester.dyads import selection
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.geometry import constraint_manifold
@@ -12,14 +13,18 @@ from burmester.stacked import (
     DyadRows,
     StackedAnswers,
     TaskStack,
-    found_dyads,
     joined,
     stacked_answers,
 )
-from burmester.stacked.one_task import dyads_of_task
+from burmester.synthesis.dyad_search import search_dyads
+from burmester.synthesis.method import with_method
 from burmester.synthesis.motion_generation import synthesize
+from burmester.synthesis.outcome import dyad_advice
+from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.motion_kinds import Undetermined
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
 from tests.oracles.mixed_tasks import mixed_tasks
 
 NEAR = 1e-9  # of the size of a dyad and its poses
@@ -28,12 +33,30 @@ STACKS = [("pencil", 6), ("pencil", 10), ("dyads", 5), ("dyads", 6), ("dyads", 1
 
 def alone(stack, index, depth):
     """The outcome, the code, the dyads and the warnings of one task without a stack."""
+    options = SynthesisOptions(method="pencil" if depth == "pencil" else "auto")
     try:
         task = stack.task(index)
     except InputError as error:
         return "refused", error.code, (), []
-    found = dyads_of_task(task, depth)
-    return found.outcome, found.code, found.dyads, list(found.warnings)
+    problem = SynthesisProblem.of(task, classify_motion(task), options)
+    kind, repeats = (
+        problem.motion.kind,
+        ["W208"] * (len(problem.motion.first) < stack.poses.shape[1]),
+    )
+    if problem.is_special:
+        outcome = "not determined" if isinstance(kind, Undetermined) else "special motion"
+        return outcome, kind.code, kind.dyads, []
+    if depth != "pencil" and max(problem.missing_conditions) > 0:
+        return "infinitely many", "R303", (), repeats
+    try:
+        problem = with_method(problem)
+    except InputError as error:
+        return "not at this depth", error.code, (), repeats
+    found = search_dyads(problem)
+    pairs, twice = found.pairs(problem.length)
+    told = {each.code for each in dyad_advice(problem, found)} | ({"W205"} if twice else set())
+    outcome = ("solved", "") if pairs else ("too few dyads", "R302")
+    return *outcome, [each.dyad for each in found.dyads], [*repeats, *told]
 
 
 def dyad_in(rows, at):
@@ -75,15 +98,10 @@ def test_each_task_of_a_stack_gets_the_answer_of_the_road_of_one_task(depth, cou
         here = np.flatnonzero(answers.dyads.task == k)
         found = [dyad_in(answers.dyads, at) for at in here]
         size = np.abs(rows[k, :, :2]).max()
-        assert [type(each) for each in found] == [type(each.dyad) for each in dyads], name
+        assert [type(each) for each in found] == [type(each) for each in dyads], name
         for one, other in zip(found, dyads, strict=True):
-            assert same_dyad(one, other.dyad, size), (name, one, other)
-        errors = [each.rms_error for each in dyads], [each.max_error for each in dyads]
-        for mine, theirs in zip((answers.dyads.rms, answers.dyads.worst), errors, strict=True):
-            np.testing.assert_allclose(mine[here], theirs, rtol=1e-7, atol=NEAR * size)
+            assert same_dyad(one, other, size), (name, one, other)
         assert sorted(c for task, c in answers.warnings if task == k) == sorted(warnings), name
-    plain = [name.split()[0] for k, name in enumerate(names) if not answers.alone[k]]
-    assert {"four-bar", "noisy", "rough"} & set(plain), "nothing was computed as a stack"
 
 
 @pytest.mark.parametrize(("depth", "count"), STACKS)
@@ -99,18 +117,21 @@ def test_tasks_that_no_stack_is_vouched_for_are_answered_alone_too(depth, count)
 
 
 @pytest.mark.parametrize(("depth", "method"), [("pencil", "pencil"), ("dyads", "auto")])
-def test_the_road_of_one_task_has_the_dyads_of_a_synthesis(depth, method):
+def test_a_stack_has_the_dyads_of_a_synthesis(depth, method):
     rows, names = mixed_tasks(10)
-    wanted = ["noisy four-bar 1", "translation", "two sliders"]
-    for name in wanted:
-        task = Task.from_rows(rows[names.index(name)], angle_unit="rad")
-        found = dyads_of_task(task, depth)
+    wanted = [names.index(name) for name in ("noisy four-bar 1", "translation", "two sliders")]
+    answers = stacked_answers(TaskStack(rows[wanted]), depth)
+    for k, index in enumerate(wanted):
+        task = Task.from_rows(rows[index], angle_unit="rad")
         whole = synthesize(task, SynthesisOptions(method=method))
-        assert [each.id for each in found.dyads] == [each.id for each in whole.dyads]
-        for one, other in zip(found.dyads, whole.dyads, strict=True):
-            assert same_dyad(one.dyad, other.dyad, np.abs(rows).max())
+        here = np.flatnonzero(answers.dyads.task == k)
+        for at, other in zip(here, whole.dyads, strict=True):
+            assert same_dyad(dyad_in(answers.dyads, at), other.dyad, np.abs(rows).max())
+            assert answers.dyads.rms[at] == pytest.approx(other.rms_error, rel=1e-7, abs=NEAR)
+            assert answers.dyads.worst[at] == pytest.approx(other.max_error, rel=1e-7, abs=NEAR)
         told = [each.code for each in whole.warnings if each.code in ("W205", "W206", "W207")]
-        assert [code for code in found.warnings if code in told] == told
+        mine = [code for at, code in answers.warnings if at == k]
+        assert [code for code in mine if code in told] == told
 
 
 def test_distances_are_those_that_a_hand_would_reckon():
@@ -191,7 +212,7 @@ def test_no_slider_is_ruled_out_that_stands_for_a_circle(noise, monkeypatch):
     rows, _ = mixed_tasks(9)
     rows = rows + noise * np.random.default_rng(6).normal(size=rows.shape)
     few = stacked_answers(TaskStack(rows), "pencil").dyads
-    monkeypatch.setattr(found_dyads, "least_slider_angle", lambda p: np.zeros(len(p)))
+    monkeypatch.setattr(selection, "least_slider_angle", lambda p: np.zeros(len(p)))
     every = stacked_answers(TaskStack(rows), "pencil").dyads
     assert (every.kind > 0).any()
     for name in ("task", "kind", "fixed", "moving", "length", "point", "rms", "worst"):
@@ -213,6 +234,6 @@ def test_no_slider_is_nearer_than_the_angle_that_rules_it_out(of):
     p = q + 10 ** rng.uniform(-6, 0, (320, 1)) * beside
     own, line_own = (v / metric / size(v)[:, None] for v in (p, q))
     sine = np.linalg.norm(own - (own * line_own).sum(axis=1, keepdims=True) * line_own, axis=1)
-    share = found_dyads.least_slider_angle(p) / size(p) / sine
+    share = selection.least_slider_angle(p) / size(p) / sine
     assert share.max() <= 1 + 1e-9
     assert share.max() > 0.9

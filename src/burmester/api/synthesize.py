@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.api.result import Result
@@ -11,8 +13,10 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.progress import Listener, shown
 from burmester.synthesis import motion_generation
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.options import Method, Norm, Preference, SynthesisOptions
+from burmester.values import real_numbers
 from burmester.values import shown as shortly
 
 __all__ = ["require_callable", "synthesize", "task_of"]
@@ -24,6 +28,7 @@ def synthesize(
     *,
     angle_unit: AngleUnit | None = None,
     length_unit: str | None = None,
+    crank: ArrayLike | None = None,
     norm: Norm = "rms",
     normalise: bool = True,
     certify: bool = False,
@@ -51,6 +56,10 @@ def synthesize(
         The unit of the angles of rows; it is never guessed.  A `Displacement` has radians.
     length_unit : str, optional
         The unit of x and y, such as "mm".  It is shown, and decides the scale of drawings.
+    crank : (N,) array_like, optional
+        The angle of the driver at each pose, in the unit of the angles of rows, or in radians;
+        nan where there is none.  They count from the first one, but for whole turns; a `Task` with
+        a `CrankTiming` says more.
     norm : {"rms", "worst"}
         What is least: the sum of squared distances, or the greatest distance.
     normalise : bool
@@ -117,8 +126,19 @@ def synthesize(
     )
     require_callable(progress)
     task = task_of(poses, angle_unit, length_unit)
+    if crank is not None:
+        task = replace(task, timing=_timing(crank, task, angle_unit))
     with shown(progress):
         return Result.of(motion_generation.synthesize(task, options))
+
+
+def _timing(crank: ArrayLike, task: Task, angle_unit: AngleUnit | None) -> CrankTiming:
+    """The timing of a task by angles of its driver; E108 where it has one already."""
+    if task.timing is not None:
+        help = "leave crank out, or make the task without its timing"
+        raise InputError("E108", "a Task that is timed has its crank angles already", help=help)
+    angles = real_numbers(crank, (None,), "the crank angles", code="E186", finite=False)
+    return CrankTiming(np.radians(angles) if angle_unit == "deg" else angles)
 
 
 def require_callable(progress: object) -> None:

@@ -1,4 +1,4 @@
-"""Function tasks of a batch: read as `burmester synthesize` reads them, and their rows."""
+"""Function tasks of a batch: read as `burmester function` reads them, and their rows."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def function_task(
 
 
 def function_rows(found: Mapping[int, Mapping[str, Any]]) -> pa.Table:
-    """Function syntheses as `burmester synthesize --json` tells them, by their places in a part."""
+    """Function syntheses as `burmester function --json` tells them, by their places in a part."""
     every = list(found.values())
     return answer_table(
         np.array(list(found), dtype=np.intp),

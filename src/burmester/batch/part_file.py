@@ -299,6 +299,7 @@ def _beyond_poses(task: Task) -> str:
         "requirements": task.requirements.has_any,
         "tolerances": task.tolerances is not None,
         "surroundings": task.surroundings is not None,
+        "crank angles": task.timing is not None,
     }
     return " and ".join(name for name, given in stated.items() if given)
 

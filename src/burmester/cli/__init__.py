@@ -19,9 +19,11 @@ from burmester.cli.cases import cases
 from burmester.cli.check import check
 from burmester.cli.explain import explain
 from burmester.cli.export import export
+from burmester.cli.function import function
 from burmester.cli.judge import judge
 from burmester.cli.new import new
 from burmester.cli.output import EXIT_FOUND, EXIT_INTERRUPT, EXIT_NOTHING, console, print_json
+from burmester.cli.pairs import words_of_function
 from burmester.cli.report import report
 from burmester.cli.reproduce import reproduce
 from burmester.cli.studio import studio
@@ -31,7 +33,24 @@ from burmester.errors import BurmesterError, InputError
 __all__ = ["main"]
 
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"]}, invoke_without_command=True)
+class _Commands(click.Group):
+    """The commands; those of poses hand functions on."""
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command, and the words that follow it."""
+        name, command, words = super().resolve_command(ctx, args)
+        if command is not None and (of_pairs := words_of_function(ctx, command, words)) is not None:
+            return function.name, function, of_pairs
+        return name, command, words
+
+
+@click.group(
+    cls=_Commands,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    invoke_without_command=True,
+)
 @click.version_option(__version__, prog_name="burmester")
 @click.pass_context
 def burmester(context: click.Context) -> None:
@@ -44,7 +63,8 @@ def burmester(context: click.Context) -> None:
 
 
 COMMANDS = (
-    new, check, synthesize, judge, batch, report, export, studio, explain, cases, reproduce,
+    new, check, synthesize, function, judge, batch, report, export, studio, explain, cases,
+    reproduce,
 )  # fmt: skip
 for command in COMMANDS:
     burmester.add_command(command)

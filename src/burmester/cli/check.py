@@ -7,7 +7,6 @@ from typing import Any
 import click
 
 from burmester.cli.options import (
-    FUNCTION,
     POSES,
     Sectioned,
     pose_arguments,
@@ -19,31 +18,16 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 __all__ = ["check"]
 
 
-OF_FUNCTIONS = (
-    "function", "x", "input_range", "opposite", "pairs", "spacing", "minimax", "input_phase",
-    "output_phase", "ground", "output",
-)  # fmt: skip
-OUTPUT_RANGE = (
-    click.option("--output", metavar="DEG", help="How far the output link turns, with --function."),
-)
-
-
 @click.command(cls=Sectioned)
-@with_options(POSES, FUNCTION, OUTPUT_RANGE, poses_required=False)
+@with_options(POSES)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
-def check(poses: str | None, *, as_json: bool, **given: Any) -> int:
+def check(poses: str, *, as_json: bool, **given: Any) -> int:
     """Read POSES, or pairs of angles, and report anything unusual.
 
     Exit code 0: nothing unusual; 1: a finding; 2: the file cannot be used.
     """
     from dataclasses import replace
 
-    from burmester.cli.function import check_function, function_task
-
-    if (function := function_task(poses, given)) is not None:
-        return check_function(function, poses, as_json=as_json)
-    assert poses is not None
-    given = {name: value for name, value in given.items() if name not in OF_FUNCTIONS}
     from burmester.cli.progress_line import working
     from burmester.diagnosis.checks import diagnose, disagreement
     from burmester.io import overview

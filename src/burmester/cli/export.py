@@ -107,7 +107,6 @@ def export(
 
     RESULT is the file of `burmester synthesize POSES -o RESULT`.
     """
-    from burmester.cli.function import export_choice
     from burmester.cli.progress_line import working
     from burmester.export import Options, require_format
     from burmester.export import export as run
@@ -125,7 +124,7 @@ def export(
         data = read_source(result)
         if is_function_result(data):
             functions = read_function_result(data, result)
-            chosen, warnings = export_choice(functions, linkage), functions.synthesis.warnings
+            chosen, warnings = functions.exported(linkage), functions.synthesis.warnings
         else:
             read = read_result(result, data)
             chosen, warnings = read.choose(linkage), read.synthesis.warnings

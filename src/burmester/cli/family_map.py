@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 from io import BytesIO
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from burmester.errors import InputError
 from burmester.synthesis.result import Synthesis
 
-__all__ = ["require_map_file", "write_map"]
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["figure_bytes", "figure_format", "require_map_file", "write_map"]
 
 FIGURES: Final = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
@@ -19,16 +22,32 @@ def require_map_file(path: str) -> None:
 
     Raises InputError E161 (no such format), E130 (a figure needs Matplotlib).
     """
+    figure_format(path, "a map", ".json")
+
+
+def figure_format(path: str, what: str, *others: str) -> str:
+    """The suffix of a file that holds a figure, or of another format; raises E161."""
     suffix = os.path.splitext(path)[1].lower()
-    if suffix in FIGURES:
-        pass
-    elif suffix != ".json":
+    known = (*others, *FIGURES)
+    if suffix not in known:
+        examples = [f"{what.rsplit(maxsplit=1)[-1]}{each}" for each in (*others, ".png")]
         raise InputError(
             "E161",
             f"the name {path} does not determine a format",
-            why=f"a map is written as json, {', '.join(each[1:] for each in FIGURES)}",
-            help="give a name such as map.json or map.png",
+            why=f"{what} is written as {', '.join(each[1:] for each in known)}",
+            help=f"give a name such as {' or '.join(examples)}",
         )
+    return suffix
+
+
+def figure_bytes(drawing: Figure, suffix: str) -> bytes:
+    """A figure of Matplotlib as a file whose bytes do not depend on the time."""
+    from burmester import plot
+
+    content = BytesIO()
+    with plot.house_style():
+        drawing.savefig(content, format=suffix[1:], metadata=FIGURES[suffix])
+    return content.getvalue()
 
 
 def write_map(synthesis: Synthesis, path: str, *, force: bool) -> str:
@@ -49,10 +68,7 @@ def write_map(synthesis: Synthesis, path: str, *, force: bool) -> str:
     if suffix in FIGURES:
         from burmester import plot
 
-        drawing, content = plot.family_figure(found, best), BytesIO()
-        with plot.house_style():
-            drawing.savefig(content, format=suffix[1:], metadata=FIGURES[suffix])
-        files.write(path, content.getvalue(), force=force)
+        files.write(path, figure_bytes(plot.family_figure(found, best), suffix), force=force)
     else:
         files.write(path, json_line(family_map_data(found, best)), force=force)
     return f"wrote {printable(path)}"

@@ -1,210 +1,131 @@
-"""Function tasks on the command line: `synthesize`, `report`, `judge` and `export` ask here.
-
-A task is a function's by --function, or by the columns or the table [function] of its file.
-"""
+"""`burmester function`: from a function, or pairs of angles, to the four-bars that make it."""
 
 from __future__ import annotations
 
 import os
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 import click
 
-from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
+from burmester.cli.options import Sectioned, SectionOption
+from burmester.cli.output import CONTENT, EXIT_FOUND, EXIT_NOTHING, NOTES, console, print_json
 
 if TYPE_CHECKING:
+    from burmester.errors import Advice, InputError
     from burmester.functions.function_task import FunctionTask
-    from burmester.io.function_result import FunctionResult
-    from burmester.synthesis.function_generation import FunctionSynthesis
-    from burmester.verdicts.found_linkage import FoundLinkage
-
-__all__ = [
-    "check_function",
-    "export_choice",
-    "function_task",
-    "hand_over_function",
-    "judge_function",
-    "page_of_function",
-]
-
-OWN: Final = (
-    "function", "x", "input_range", "opposite", "pairs", "spacing", "minimax", "input_phase",
-    "output_phase", "ground", "plot", "links", "side",
-)  # fmt: skip
-SHARED: Final = (
-    "poses", "min_transmission", "link_ratio", "types", "as_json", "file", "output", "force",
-    "everything", "title", "linkage", "id", "sheet",
-)  # fmt: skip
-FIGURES: Final = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
-
-
-def function_task(poses: str | None, given: dict[str, Any]) -> FunctionTask | None:
-    """The task of a function, if the options or the file state one; else None.
-
-    What standard input held is put into `given` as "data".  Raises E190, E191, E192 and E194.
-    """
-    if given.get("function") is not None:
-        if poses is not None:
-            raise _contradiction(
-                "a file and --function are given", "give one of the two", f"the file is {poses}"
-            )
-        _require_own()
-        return _of_expression(given)
-    if poses is None:
-        raise click.UsageError("Missing argument 'POSES'.")
-    data = _function_bytes(poses, given)
-    if data is None:
-        _require_none()
-        return None
-    _require_own()
-    for name in ("x", "input_range", "opposite", "pairs", "spacing"):
-        if given.get(name):
-            raise _contradiction(
-                f"{_option(name)} is given, and the file states the pairs",
-                f"leave {_option(name)} out, or write it into the table [function] of a TOML file",
-            )
-    from burmester.io.reading.functions.function_file import read_function
-
-    return read_function(data, poses, _settings(given), given.get("sheet"))
-
-
-def _function_bytes(poses: str, given: dict[str, Any]) -> bytes | None:
-    from burmester.cli.progress_line import working
-    from burmester.errors import InputError
-    from burmester.io.reading.file_content import read_source
-    from burmester.io.reading.functions.function_kind import is_function
-
-    if poses.startswith("case:"):
-        return None
-    try:
-        with working("reading the poses"):
-            data = read_source(poses)
-    except InputError:
-        return None  # it is read again as poses, and refused there
-    if poses == "-":
-        given["data"] = data
-    return data if is_function(data, poses, given.get("sheet")) else None
-
-
-def _of_expression(given: dict[str, Any]) -> FunctionTask:
-    from burmester.io.reading.functions.function_options import task_of_function
-    from burmester.io.reading.pose_table import Source
-
-    for name in ("x", "input_range", "output"):
-        if given.get(name) is None:
-            raise _contradiction(
-                f"{_option(name)} is missing",
-                f'give {_option(name)}, as in `burmester synthesize --function "log10(x)" --x 1:2 '
-                "--input 60 --output 60`",
-            )
-    text = given["function"]
-    return task_of_function(
-        text,
-        _ends(given["x"]),
-        _number("--input", given["input_range"]),
-        _number("--output", given["output"]),
-        pairs=given["pairs"],
-        spacing=given["spacing"],
-        opposite=given["opposite"],
-        settings=_settings(given),
-        source=Source("--function", text),
-    )
-
-
-def _settings(given: dict[str, Any]) -> Any:
     from burmester.io.reading.functions.function_options import FunctionSettings
-    from burmester.io.reading.requirements_text import requirements_from_options
+    from burmester.synthesis.function_generation import FunctionSynthesis
 
-    def number(name: str) -> float | None:
-        value = given.get(name)
-        return None if value is None else _number(_option(name), value)
+__all__ = ["function"]
 
-    ground = number("ground")
-    types = requirements_from_options(types=given.get("types") or ())
-    return FunctionSettings(
-        number("input_phase"),
-        number("output_phase"),
-        1.0 if ground is None else ground,
-        bool(given.get("minimax")),
-        number("min_transmission"),
-        number("link_ratio"),
-        types[0].value if types else None,
-    )
+TABLES: Final = (".csv", ".tsv", ".txt", ".xlsx", ".parquet", ".toml", ".json")  # no expressions
+OF_EXPRESSIONS: Final = ("x", "input_range", "output", "opposite", "pairs", "spacing")
+NOT_CHECKED: Final = ("links", "linkage", "plot", "report", "file")
+EXAMPLE: Final = '`burmester function "log10(x)" --x 1:2 --input 60 --output 60`'
+HELP: Final = """\b
+EXPRESSION
+        numbers, x, pi, e, + - * / **, brackets, and sin, cos, tan, asin,
+        acos, atan (radians), sqrt, exp, log (natural), log10, abs
+PAIRS   a CSV, .xlsx or Parquet file with the columns input_deg and output_deg
+        (or input_rad, output_rad), and weight if wanted: what the two links
+        turn to together, each from a zero of its own; a TOML or JSON file
+        with a table [function]; "-" for standard input
 
+\b
+burmester function "log10(x)" --x 1:2 --input 60 --output 60
+burmester function pairs.csv --check
+burmester function pairs.csv --report page.html -o result.json
+burmester function pairs.csv --links 1,2.2,0.7,2"""
 
-def _ends(text: str) -> tuple[float, float]:
-    from burmester.io.reading.functions.expression import read_number
-    from burmester.io.reading.pose_table import Source
-
-    low, colon, high = text.partition(":")
-    source = Source("--x", text)
-    if not colon:
-        raise _contradiction("--x has no range", "give both ends, such as --x 1:2")
-    return read_number(source, 0, low), read_number(source, len(low) + 1, high)
-
-
-def _number(option: str, text: str) -> float:
-    from burmester.io.reading.functions.expression import read_number
-    from burmester.io.reading.pose_table import Source
-
-    return read_number(Source(option, text), 0, text)
+_function, _kept, _linkage = (
+    partial(click.option, cls=SectionOption, section=head)
+    for head in ("Function", "Requirements", "A linkage that exists")
+)
 
 
-def _option(name: str) -> str:
-    return {"input_range": "--input", "file": "-o"}.get(name, f"--{name.replace('_', '-')}")
-
-
-def _contradiction(message: str, help: str, why: str | None = None) -> Exception:
-    from burmester.errors import InputError
-
-    return InputError("E194", message, why=why, help=help)
-
-
-def _stated() -> list[str]:
-    """The names of options that were given on the command line."""
-    context = click.get_current_context()
-    source = click.core.ParameterSource.COMMANDLINE
-    return [name for name in context.params if context.get_parameter_source(name) is source]
-
-
-def _require_own() -> None:
-    """Refuse options that are for poses: E194."""
-    for name in _stated():
-        if name not in (*OWN, *SHARED):
-            option = next(
-                (p.opts[-1] for p in click.get_current_context().command.params if p.name == name),
-                _option(name),
-            )
-            raise _contradiction(
-                f"{option} is for poses, and this is a function", f"leave {option} out"
-            )
-
-
-def _require_none() -> None:
-    """Refuse options of functions where poses are given: E194."""
-    for name in _stated():
-        if name in OWN:
-            raise _contradiction(
-                f"{_option(name)} is for functions, and these are poses",
-                f"leave {_option(name)} out, or give pairs of angles under the columns "
-                "input_deg,output_deg",
-            )
-
-
-# --- what comes out
-
-
-def hand_over_function(
-    task: FunctionTask,
-    file: str | None,
+@click.command(cls=Sectioned, epilog=HELP)
+@click.argument("source", metavar="EXPRESSION|PAIRS")
+@_function("--x", metavar="FROM:TO", help="The range of x, such as 1:2 or 0:pi/2.")
+@_function("--input", "input_range", metavar="DEG", help="How far the input link turns over it.")
+@_function("--output", metavar="DEG", help="How far the output link turns over it.")
+@_function("--opposite", is_flag=True, help="The output link turns against the input link.")
+@_function(
+    "--pairs",
+    metavar="N",
+    type=int,
+    help="Take N pairs of angles from the function: 3 to 5 are met exactly; by default 61, as "
+    "nearly as possible.",
+)
+@_function(
+    "--spacing",
+    type=click.Choice(["chebyshev", "even"]),
+    help="Where these pairs are; by default Chebyshev's spacing up to 5, even beyond.",
+)
+@_function("--sheet", metavar="NAME|NUMBER", help="The sheet of a workbook; by default the first.")
+@_function("--minimax", is_flag=True, help="Make the greatest error least, not the sum of squares.")
+@_function(
+    "--input-phase",
+    metavar="DEG",
+    help="Angle of the input link from the ground link where the input is 0; by default it is "
+    "found.",
+)
+@_function("--output-phase", metavar="DEG", help="The same of the output link.")
+@_function("--ground", metavar="LENGTH", help="Length of the ground link; by default 1.")
+@_kept("--min-transmission", metavar="DEG", help="Least transmission angle over the range.")
+@_kept("--link-ratio", metavar="R", help="Longest link divided by the shortest, at most.")
+@_kept(
+    "--type",
+    "types",
+    metavar="NAME[,NAME]",
+    multiple=True,
+    help="Types of linkage allowed, such as double-rocker.",
+)
+@_linkage(
+    "--links",
+    metavar="GROUND,INPUT,COUPLER,OUTPUT",
+    help="Judge the linkage with these lengths; phases that are not given are those that fit best.",
+)
+@_linkage(
+    "--side",
+    type=click.Choice(["left", "right"]),
+    help="Where its output pin lies, seen from the input link's pin to the output's pivot; by "
+    "default on the better side.",
+)
+@_linkage("--linkage", metavar="FILE", help="Judge a linkage of this result.")
+@_linkage("--id", metavar="ID", help="Which one, such as L2; by default the first.")
+@click.option("--check", is_flag=True, help="Show the pairs and what stands out; solve nothing.")
+@click.option("--all", "everything", is_flag=True, help="List every linkage, with the reasons.")
+@click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
+@click.option("-o", "file", metavar="FILE", help="Write that object to FILE as well.")
+@click.option("--plot", metavar="FILE", help="Draw the structural error (.png, .svg, .pdf).")
+@click.option("--report", metavar="FILE", help="Write a page on which the linkages move (.html).")
+@click.option("--title", metavar="TEXT", help="Title of that page.")
+@click.option("--force", is_flag=True, help="Write files even if they exist.")
+def function(
+    source: str,
     *,
-    poses: str | None,
-    force: bool,
-    as_json: bool,
-    plot: str | None,
+    check: bool,
     everything: bool,
+    as_json: bool,
+    file: str | None,
+    plot: str | None,
+    report: str | None,
+    title: str | None,
+    force: bool,
+    **given: Any,
 ) -> int:
-    """Solve a function task, and write, draw and show what comes of it; returns the exit code."""
+    """Find four-bars whose output link turns as a function of the input link.
+
+    The function is an EXPRESSION in x, or PAIRS of angles in a file.  A linkage that exists is
+    judged by --links or --linkage.
+
+    Exit code 0: a linkage works; 1: none does, or --check finds something; 2: the input cannot be
+    used.
+    """
+    from dataclasses import replace
+
+    from burmester.cli.family_map import figure_format
     from burmester.cli.progress_line import working
     from burmester.io import files
     from burmester.io.function_result import function_data
@@ -212,64 +133,172 @@ def hand_over_function(
     from burmester.printable import printable
     from burmester.synthesis.function_generation import generate_function
 
-    for each in (file, plot):
+    task = _task(source, given)
+    notes = click.get_current_context().meta.get(NOTES, ())
+    if check:
+        for name, value in {**given, "plot": plot, "report": report, "file": file}.items():
+            if name in NOT_CHECKED and value is not None:
+                raise _contradiction(
+                    f"--check and {_option(name)} are given", "give one of the two"
+                )
+        return _check(task, source, notes, as_json=as_json)
+    for each in (file, plot, report):
         if each is not None:
-            files.require_writable(each, force=force, source=poses or "")
-    suffix = _figure_format(plot)
+            files.require_writable(each, force=force, source="" if task.function else source)
+    suffix = figure_format(plot or "error.png", "a figure")
+    name = os.path.basename(source) if os.path.exists(source) else source
     with working("looking for function generators"):
-        synthesis = generate_function(task)
-    if file is not None:
-        files.write(file, json_line(function_data(synthesis)), force=force)
-        click.echo(f"wrote {printable(file)}", err=True)
-    if plot is not None:
-        files.write(plot, _figure(synthesis, suffix), force=force)
-        click.echo(f"wrote {printable(plot)}", err=True)
+        synthesis = _judged(task, given) or generate_function(task)
+    synthesis = replace(synthesis, warnings=(*notes, *synthesis.warnings))
+    for path, content in (
+        (file, lambda: json_line(function_data(synthesis))),
+        (plot, lambda: _figure(synthesis, suffix)),
+        (report, lambda: _page(synthesis, title or name)),
+    ):
+        if path is not None:
+            files.write(path, content(), force=force)
+            click.echo(f"wrote {printable(path)}", err=True)
     if as_json:
         print_json(function_data(synthesis))
     else:
         from burmester.io.function_table import show_function
 
-        show_function(synthesis, console(), everything=everything)
+        judged = synthesis.method == "judged"
+        show_function(synthesis, console(), everything=everything or judged)
     return EXIT_FOUND if synthesis.usable else EXIT_NOTHING
 
 
-def _figure_format(path: str | None) -> str:
+def _contradiction(message: str, help: str, why: str | None = None) -> InputError:
+    """E194: settings that are missing or exclude each other."""
     from burmester.errors import InputError
 
-    suffix = ".png" if path is None else os.path.splitext(path)[1].lower()
-    if suffix not in FIGURES:
-        raise InputError(
-            "E161",
-            f"the name {path} does not determine a format",
-            why=f"a figure is written as {', '.join(each[1:] for each in FIGURES)}",
-            help="give a name such as error.png",
+    return InputError("E194", message, why=why, help=help)
+
+
+def _task(source: str, given: dict[str, Any]) -> FunctionTask:
+    """The task; raises E101 to E109, E190, E191, E192 and E194."""
+    from burmester.io.reading.functions.expression import read_number
+    from burmester.io.reading.functions.function_file import read_function
+    from burmester.io.reading.functions.function_options import task_of_function
+    from burmester.io.reading.pose_table import Source
+
+    stated = [name for name in OF_EXPRESSIONS if given[name]]
+    named = source == "-" or source.lower().endswith(TABLES)
+    if named or ("x" not in stated and os.path.exists(source)):
+        if stated:
+            option = _option(stated[0])
+            file = "; a file to write is named by -o" if stated[0] == "output" else ""
+            raise _contradiction(
+                f"{option} is given, and the file states the pairs",
+                f"leave {option} out, or write it into the table [function] of a TOML file{file}",
+            )
+        return read_function(_content(source), source, _settings(given), given["sheet"])
+    for name in ("x", "input_range", "output"):
+        if given[name] is None:
+            if not stated and not any(sign in source for sign in "x()*+ "):
+                _content(source)  # which says that there is no such file
+            option = _option(name)
+            raise _contradiction(f"{option} is missing", f"give {option}, as in {EXAMPLE}")
+    low, colon, high = given["x"].partition(":")
+    ends = Source("--x", given["x"])
+    if not colon:
+        raise _contradiction("--x has no range", "give both ends, such as --x 1:2")
+    if given["output"].lower().endswith(TABLES):
+        raise _contradiction(
+            "--output is the range of the output link, in degrees",
+            f"give --output 60, say, and name the file by -o {given['output']}",
         )
-    return suffix
+    return task_of_function(
+        source,
+        (read_number(ends, 0, low), read_number(ends, len(low) + 1, high)),
+        _number(given, "input_range") or 0.0,
+        _number(given, "output") or 0.0,
+        pairs=given["pairs"],
+        spacing=given["spacing"],
+        opposite=given["opposite"],
+        settings=_settings(given),
+    )
 
 
-def _figure(synthesis: FunctionSynthesis, suffix: str) -> bytes:
-    from io import BytesIO
+def _content(source: str) -> bytes:
+    """The bytes of a file of pairs; raises E101."""
+    from burmester.errors import InputError
+    from burmester.io.reading.file_content import read_source
+    from burmester.printable import printable
 
-    from burmester import plot
-
-    content = BytesIO()
-    with plot.house_style():
-        drawing = plot.structural_error_figure(synthesis)
-        drawing.savefig(content, format=suffix[1:], metadata=FIGURES[suffix])
-    return content.getvalue()
-
-
-def page_of_function(task: FunctionTask, title: str) -> tuple[str, str, bool]:
-    """The page on which function generators move, its headline, and whether one works."""
-    from burmester.report.page import function_page
-    from burmester.synthesis.function_generation import generate_function
-
-    synthesis = generate_function(task)
-    good = bool(synthesis.usable)
-    return function_page(synthesis, title), f"{synthesis.outcome.message}.", good
+    try:
+        return click.get_current_context().meta.get(CONTENT) or read_source(source)
+    except InputError as error:
+        error.message = error.message.replace("poses", "pairs of angles")
+        error.where = error.where or printable(source)
+        raise
 
 
-def check_function(task: FunctionTask, poses: str | None, *, as_json: bool) -> int:
+def _settings(given: dict[str, Any]) -> FunctionSettings:
+    from burmester.io.reading.functions.function_options import FunctionSettings
+    from burmester.io.reading.requirements_text import requirements_from_options
+
+    asked = {name: given[name] for name in ("min_transmission", "link_ratio", "types")}
+    ground = _number(given, "ground")
+    return FunctionSettings(
+        _number(given, "input_phase"),
+        _number(given, "output_phase"),
+        1.0 if ground is None else ground,
+        given["minimax"],
+        **{each.field: each.value for each in requirements_from_options(**asked)},
+    )
+
+
+def _number(given: dict[str, Any], name: str) -> float | None:
+    from burmester.io.reading.functions.expression import read_number
+    from burmester.io.reading.pose_table import Source
+
+    text = given[name]
+    return None if text is None else read_number(Source(_option(name), text), 0, text)
+
+
+def _option(name: str) -> str:
+    return next(each.opts[0] for each in function.params if each.name == name)
+
+
+def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | None:
+    """The judgement of a linkage that exists; None where none is given."""
+    from dataclasses import replace
+
+    from burmester.io.function_result import read_function_result
+    from burmester.io.reading.file_content import read_source
+    from burmester.io.reading.requirements_text import lengths
+    from burmester.synthesis.function_generation import judge_generator, judge_links
+
+    links, linkage = given["links"], given["linkage"]
+    if links is not None:
+        for name in ("linkage", "id", "ground"):
+            if given[name] is not None:
+                raise _contradiction(
+                    f"--links and --{name} are given", f"leave --{name} out, or --links"
+                )
+        every = lengths("--links", [links])
+        if len(every) != 4:
+            raise _contradiction(
+                f"--links has {len(every)} numbers, and a four-bar has four links",
+                "give the ground link, the input link, the coupler and the output link, such as "
+                "--links 1,0.5,1.2,0.9",
+            )
+        ground, a, r, b = every
+        side = {None: None, "left": 1.0, "right": -1.0}[given["side"]]
+        return judge_links(replace(task, ground=ground), (a, r, b), side)
+    for name, needed in (("side", "--links"), ("id", "--linkage")):
+        if given[name] is not None and (name == "side" or linkage is None):
+            raise _contradiction(
+                f"--{name} is given, and no {needed}", f"leave --{name} out, or give {needed}"
+            )
+    if linkage is None:
+        return None
+    result = read_function_result(read_source(linkage), linkage)
+    return judge_generator(task, result.choose(given["id"]).generator)
+
+
+def _check(task: FunctionTask, source: str, notes: tuple[Advice, ...], *, as_json: bool) -> int:
     """Show a function task and what stands out in it; returns the exit code."""
     from burmester.functions.pair_checks import pair_findings
     from burmester.io.files import quoted
@@ -277,95 +306,27 @@ def check_function(task: FunctionTask, poses: str | None, *, as_json: bool) -> i
 
     findings = pair_findings(task)
     if as_json:
-        print_json(function_check_data(task, findings))
+        print_json(function_check_data(task, (*notes, *findings)))
     else:
-        show_function_check(task, findings, console())
-        if not findings and poses is not None:
-            click.echo(f"\nNothing stands out. Next: burmester synthesize {quoted(poses)}")
-        elif not findings:
-            click.echo("\nNothing stands out. Next: burmester synthesize with the same options")
+        show_function_check(task, (*notes, *findings), console())
+        if not findings:
+            again = f"burmester function {quoted(source)}"
+            more = " with the same options" if task.function else ""
+            click.echo(f"\nNothing stands out. Next: {again}{more}")
     return EXIT_NOTHING if findings else EXIT_FOUND
 
 
-def export_choice(result: FunctionResult, id: str | None) -> FoundLinkage:
-    """A linkage of a function's result as exports take it: the coupler is the body."""
-    from dataclasses import replace
+def _figure(synthesis: FunctionSynthesis, suffix: str) -> bytes:
+    from burmester import plot
+    from burmester.cli.family_map import figure_bytes
 
-    from burmester.synthesis.function_generation import coupler_synthesis
-
-    chosen = result.choose(id)
-    judged = coupler_synthesis(result.synthesis.task, chosen)
-    return replace(judged.linkages[0], id=chosen.id, usable=chosen.usable)
+    with plot.house_style():
+        drawing = plot.structural_error_figure(synthesis)
+    return figure_bytes(drawing, suffix)
 
 
-def judge_function(
-    task: FunctionTask,
-    linkage: str | None,
-    given: dict[str, Any],
-    *,
-    file: str | None,
-    force: bool,
-    as_json: bool,
-) -> int:
-    """Judge a linkage of a function's result, or one by its links; returns the exit code."""
-    from dataclasses import replace
+def _page(synthesis: FunctionSynthesis, title: str) -> str:
+    from burmester.printable import printable
+    from burmester.report.page import function_page
 
-    from burmester.io import files
-    from burmester.io.function_result import function_data, read_function_result
-    from burmester.io.function_table import show_function
-    from burmester.io.reading.file_content import read_source
-    from burmester.io.result import json_line
-    from burmester.synthesis.function_generation import judge_generator, judge_links
-
-    if file is not None:
-        files.require_writable(file, force=force, source=linkage or "")
-    if given["links"] is not None:
-        for name, value in {
-            "linkage": linkage,
-            "id": given["id"],
-            "ground": given["ground"],
-        }.items():
-            if value is not None:
-                help = f"leave --{name} out, or --links"
-                raise _contradiction(f"--links and --{name} are given", help)
-        ground, *links = _link_lengths(given["links"])
-        side = {None: None, "left": 1.0, "right": -1.0}[given["side"]]
-        synthesis = judge_links(replace(task, ground=ground), (links[0], links[1], links[2]), side)
-    elif linkage is None:
-        message = "there is no linkage to judge"
-        help = "give its lengths, such as --links 1,0.5,1.2,0.9, or --linkage FILE"
-        raise _contradiction(message, help)
-    else:
-        result = read_function_result(read_source(linkage), linkage)
-        synthesis = judge_generator(task, result.choose(given["id"]).generator)
-    if file is not None:
-        files.write(file, json_line(function_data(synthesis)), force=force)
-    if as_json:
-        print_json(function_data(synthesis))
-    else:
-        show_function(synthesis, console(), everything=True)
-    return EXIT_FOUND if synthesis.usable else EXIT_NOTHING
-
-
-def _link_lengths(text: str) -> list[float]:
-    """The four lengths of --links; raises E190 and E194."""
-    from burmester.io.reading.functions.expression import read_number
-    from burmester.io.reading.pose_table import Source
-
-    source, at, lengths = Source("--links", text), 0, []
-    parts = text.split(",")
-    if len(parts) != 4:
-        raise _contradiction(
-            f"--links has {len(parts)} numbers, and a four-bar has four links",
-            "give the ground link, the input link, the coupler and the output link, such as "
-            "--links 1,0.5,1.2,0.9",
-        )
-    for part in parts:
-        length = read_number(source, at, part)
-        if not 0 < length < 1e9:
-            raise _contradiction(
-                f"--links has the length {part.strip()}", "give lengths above 0 and below 1e9"
-            )
-        lengths.append(length)
-        at += len(part) + 1
-    return lengths
+    return function_page(synthesis, printable(title))

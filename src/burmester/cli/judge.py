@@ -7,8 +7,6 @@ from typing import Any
 import click
 
 from burmester.cli.options import (
-    FUNCTION,
-    FUNCTION_LINKAGE,
     JUDGEMENT,
     Sectioned,
     run_judgement,
@@ -33,22 +31,19 @@ FILE    a result of `burmester synthesize POSES -o FILE`, an export to JSON, or
         JSON; of a six-bar (Watt I) its joints: [ground] A, B, [coupler] D, E,
         [second_crank] D, G, [body] E, H, and [lengths] AC, GH
 
-PAIRS of angles stand in the place of POSES, for a linkage in a FILE or by --links.
+PAIRS of angles stand in the place of POSES, for a linkage in a FILE; by its four
+lengths `burmester function` judges one.
 POSES, REGION and NAME are those of `burmester synthesize`."""
 
 
 @click.command(cls=Sectioned, epilog=DYAD_HELP)
-@with_options(*JUDGEMENT, FUNCTION_LINKAGE, FUNCTION, poses_required=False)
+@with_options(*JUDGEMENT)
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
 @click.option("-o", "file", metavar="FILE", help="Write that object to FILE as well.")
-@click.option(
-    "--output",
-    metavar="FILE|DEG",
-    help="The same as -o; with --function, how far the output link turns, in degrees.",
-)
+@click.option("--output", metavar="FILE", help="The same as -o.")
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
 def judge(
-    poses: str | None,
+    poses: str,
     *,
     linkage: str | None,
     as_json: bool,
@@ -62,14 +57,8 @@ def judge(
     It is told what `burmester synthesize` tells of its own linkages.  Exit code 0: the linkage
     works; 1: it does not; 2: the input cannot be used.
     """
-    from burmester.cli.function import function_task, judge_function
     from burmester.io import files
 
-    given["output"] = output
-    if not given["dyad"] and (task := function_task(poses, given)) is not None:
-        file = file or (None if given["function"] else output)
-        return judge_function(task, linkage, given, file=file, force=force, as_json=as_json)
-    assert poses is not None
     output = file or output
     if output is not None:
         for source in (poses, linkage):

@@ -37,5 +37,6 @@ def new(template: str | None, output: str | None, force: bool, as_list: bool) ->
     path = output or f"{name}.toml"
     write(path, text, force=force)
     click.echo(f"wrote {printable(path)}: {templates.summary(name)}")
-    click.echo(f"next: burmester synthesize {quoted(path)}")
+    command = "function" if "[function]" in text else "synthesize"
+    click.echo(f"next: burmester {command} {quoted(path)}")
     return EXIT_FOUND

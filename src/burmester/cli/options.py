@@ -13,6 +13,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import click
 
+from burmester.cli.output import CONTENT
+
 if TYPE_CHECKING:
     from burmester.fourbar.linkage import Linkage
     from burmester.synthesis.given_linkage import GivenDyad
@@ -20,8 +22,6 @@ if TYPE_CHECKING:
     from burmester.tasks.motion_task import Task
 
 __all__ = [
-    "FUNCTION",
-    "FUNCTION_LINKAGE",
     "JUDGEMENT",
     "MANUFACTURING",
     "METHOD",
@@ -30,6 +30,7 @@ __all__ = [
     "SIX_BARS",
     "SPECIFICATION",
     "Number",
+    "SectionOption",
     "Sectioned",
     "pose_arguments",
     "read_poses",
@@ -90,7 +91,7 @@ class Number(click.FloatRange):
         return float(super().convert(value, param, ctx))
 
 
-class _Option(click.Option):
+class SectionOption(click.Option):
     """An option with the section of the help that lists it."""
 
     def __init__(self, *args: Any, section: str, **settings: Any) -> None:
@@ -103,28 +104,21 @@ class Sectioned(click.Command):
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the options, section by section."""
-        records: dict[str, list[tuple[str, str]]] = {head: [] for head in HEADS}
+        records: dict[str, list[tuple[str, str]]] = {}
         for option in self.get_params(ctx):
             record = option.get_help_record(ctx)
             if record and isinstance(option, click.Option):
-                records[getattr(option, "section", HEADS[-1])].append(record)
+                records.setdefault(getattr(option, "section", OUTPUT), []).append(record)
+        records[OUTPUT] = records.pop(OUTPUT)  # last
         for head, rows in records.items():
-            if rows:
-                with formatter.section(head):
-                    formatter.write_dl(rows)
+            with formatter.section(head):
+                formatter.write_dl(rows)
 
 
-HEADS = (
-    "Linkage",
-    "Poses",
-    "Function",
-    "Limits and requirements",
-    "Method",
-    "Manufacturing",
-    "Output",
-)
-_linkage, _poses, _function, _specification, _method, _manufacturing = (
-    partial(click.option, cls=_Option, section=head) for head in HEADS[:-1]
+OUTPUT = "Output"  # the section of all options that name none
+_linkage, _poses, _specification, _method, _manufacturing = (
+    partial(click.option, cls=SectionOption, section=head)
+    for head in ("Linkage", "Poses", "Limits and requirements", "Method", "Manufacturing")
 )
 
 LINKAGE: tuple[Decorator, ...] = (
@@ -202,6 +196,20 @@ POSES: tuple[Decorator, ...] = (
         help="Points x,y that are traced lead back to the first one, and the crank turns fully.",
     ),
     _poses(
+        "--absolute-crank",
+        is_flag=True,
+        help="The crank angles of poses are directions on the ground, and not rotations from the "
+        "first of them.",
+    ),
+    _poses(
+        "--within-crank",
+        "within_crank_deg",
+        metavar="DEG",
+        type=click.FloatRange(min=0, min_open=True),
+        help="How far the crank may be from its angle at a pose; by default a twentieth of the "
+        "range of its angles.",
+    ),
+    _poses(
         "--pose-tolerance",
         metavar="X,Y,DEG[,body]",
         help="How far from a pose the body may be: to both sides in x, y and angle, for all poses "
@@ -215,76 +223,6 @@ POSES: tuple[Decorator, ...] = (
         "the number of digits printed.",
     ),
 )
-
-# Of a function generator; a file with the columns input_deg and output_deg states its pairs itself.
-FUNCTION: tuple[Decorator, ...] = (
-    _function(
-        "--function",
-        metavar="EXPRESSION",
-        help="The function y of x that the output link is to make of the input link, such as "
-        '"log10(x)"; see the end of this page.',
-    ),
-    _function("--x", metavar="FROM:TO", help="The range of x, such as 1:2 or 0:pi/2."),
-    _function(
-        "--input",
-        "input_range",
-        metavar="DEG",
-        help="How far the input link turns over the range of x; --output says it of the output.",
-    ),
-    _function("--opposite", is_flag=True, help="The output link turns against the input link."),
-    _function(
-        "--pairs",
-        metavar="N",
-        type=int,
-        help="Take N pairs of angles from the function: 3 to 5 are met exactly; by default 61, as "
-        "nearly as possible.",
-    ),
-    _function(
-        "--spacing",
-        type=click.Choice(["chebyshev", "even"]),
-        help="Where these pairs are; by default Chebyshev's spacing up to 5, even beyond.",
-    ),
-    _function(
-        "--minimax", is_flag=True, help="Make the greatest error least, not the sum of squares."
-    ),
-    _function(
-        "--input-phase",
-        metavar="DEG",
-        help="Angle of the input link from the ground link where the input is 0; by default it is "
-        "found.",
-    ),
-    _function("--output-phase", metavar="DEG", help="The same of the output link."),
-    _function("--ground", metavar="LENGTH", help="Length of the ground link; by default 1."),
-)
-# Of a function generator that exists.
-FUNCTION_LINKAGE: tuple[Decorator, ...] = (
-    _function(
-        "--links",
-        metavar="GROUND,INPUT,COUPLER,OUTPUT",
-        help="The lengths of a function generator to judge; phases that are not given are those "
-        "that fit best.",
-    ),
-    _function(
-        "--side",
-        type=click.Choice(["left", "right"]),
-        help="Where its output pin lies, seen from the input link's pin to the output's pivot; by "
-        "default on the better side.",
-    ),
-)
-_plot: Decorator = _function(
-    "--plot", metavar="FILE", help="Draw the structural error (.png, .svg, .pdf)."
-)
-FUNCTION_WITH_PLOT = (*FUNCTION, _plot)
-FUNCTION_HELP = """\b
-PAIRS   a CSV file with the columns input_deg and output_deg (or input_rad,
-        output_rad), and weight if wanted: what the two links of a function
-        generator turn to together, each from a zero of its own. It stands
-        in the place of POSES, as does a TOML or JSON file with a table
-        [function].
-EXPRESSION
-        numbers, x, pi, e, + - * / **, brackets, and sin, cos, tan, asin,
-        acos, atan (radians), sqrt, exp, log (natural), log10, abs
-"""
 
 _length: Decorator = _specification(
     "--length",
@@ -502,10 +440,9 @@ JUDGEMENT = (
 )
 
 
-def with_options(*groups: tuple[Decorator, ...], poses_required: bool = True) -> Decorator:
+def with_options(*groups: tuple[Decorator, ...]) -> Decorator:
     """A decorator that gives a command the argument POSES and groups of options."""
-    argument = click.argument("poses", required=poses_required)
-    options = [argument, *(option for group in groups for option in group)]
+    options = [click.argument("poses"), *(option for group in groups for option in group)]
     return lambda command: reduce(lambda made, option: option(made), reversed(options), command)
 
 
@@ -549,7 +486,7 @@ def read_poses(poses: str, **given: Any) -> Task:
         angle_unit=given["angle_unit"],
         pose_sigma=None if sigma is None else text.pose_sigma(sigma),
         tolerance=None if tolerance is None else text.pose_tolerance(tolerance),
-        data=given.get("data"),
+        data=click.get_current_context().meta.get(CONTENT),
         **{name: given[name] for name in _ROWS if given[name]},
         **further,
     )
@@ -692,6 +629,7 @@ _NOT_FOR_SIX_BARS = (
 _NOT_FOR_JUDGED_SIX_BARS = ("improve", "norm", "manufacturing_tolerance")
 _ROWS = (
     "columns", "sheet", "points", "plane", "drop", "every", "first", "last", "closed", "convention",
+    "absolute_crank", "within_crank_deg",
 )  # fmt: skip
 _LENGTH_OPTIONS = {
     "length_per_radian": "--angle-weight",

@@ -1,4 +1,4 @@
-"""`burmester report`: the linkages for a motion, or a function, as a page that moves."""
+"""`burmester report`: the linkages for a motion as a page that moves."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from burmester.cli.options import (
-    FUNCTION,
     MANUFACTURING,
     METHOD,
     POSES,
@@ -29,19 +28,15 @@ __all__ = ["report"]
 
 
 @click.command(cls=Sectioned)
-@with_options(POSES, FUNCTION, SPECIFICATION, METHOD, SIX_BARS, MANUFACTURING, poses_required=False)
+@with_options(POSES, SPECIFICATION, METHOD, SIX_BARS, MANUFACTURING)
 @click.option(
     "-o", "file", metavar="FILE", help="Name of the page; by default that of POSES with .html."
 )
-@click.option(
-    "--output",
-    metavar="FILE|DEG",
-    help="The same as -o; with --function, how far the output link turns, in degrees.",
-)
+@click.option("--output", metavar="FILE", help="The same as -o.")
 @click.option("--title", metavar="TEXT", help="Title of the page; by default the name of POSES.")
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
 def report(
-    poses: str | None,
+    poses: str,
     *,
     file: str | None,
     output: str | None,
@@ -55,38 +50,22 @@ def report(
     With --six-bars, the six-bars.  It is one file, and needs no network.  The options are those
     of `burmester synthesize`, where REGION and NAME are explained.
     """
-    from burmester.cli.function import function_task, page_of_function
     from burmester.cli.progress_line import working
     from burmester.io import files
     from burmester.printable import printable
     from burmester.report import page
 
-    given["output"] = output
-    task = function_task(poses, given)
-    if given["function"] is None:
-        file = file or output
-    name = {"-": "poses", None: "function"}.get(
-        poses, os.path.basename((poses or "").removeprefix("case:"))
-    )
-    path = file or f"{os.path.splitext(name)[0]}.html"
-    files.require_writable(path, force=force, source=poses or "")
-    if task is not None:
-        with working("looking for function generators"):
-            text, first, good = page_of_function(
-                task, printable(title or given["function"] or name)
-            )
-    else:
-        assert poses is not None
-        if not six_bars:
-            require_six_bars(**given)
-        synthesis = (run_six_bars if six_bars else run_synthesis)(poses, **given)
-        with working("drawing the page"):
-            text = page(synthesis, printable(title or name))
-        good = synthesis.works
-        first = _answer(synthesis)
+    name = "poses" if poses == "-" else os.path.basename(poses.removeprefix("case:"))
+    path = file or output or f"{os.path.splitext(name)[0]}.html"
+    files.require_writable(path, force=force, source=poses)
+    if not six_bars:
+        require_six_bars(**given)
+    synthesis = (run_six_bars if six_bars else run_synthesis)(poses, **given)
+    with working("drawing the page"):
+        text = page(synthesis, printable(title or name))
     files.write(path, text, force=force)
-    click.echo(f"{first}\nwrote {printable(path)}; open it in any browser")
-    return EXIT_FOUND if good else EXIT_NOTHING
+    click.echo(f"{_answer(synthesis)}\nwrote {printable(path)}; open it in any browser")
+    return EXIT_FOUND if synthesis.works else EXIT_NOTHING
 
 
 def _answer(synthesis: Synthesis) -> str:

@@ -1,4 +1,4 @@
-"""`burmester synthesize`: from poses, or a function, to linkages."""
+"""`burmester synthesize`: from poses to linkages."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ from typing import Any
 import click
 
 from burmester.cli.options import (
-    FUNCTION_HELP,
-    FUNCTION_WITH_PLOT,
     MANUFACTURING,
     METHOD,
     POSES,
@@ -26,16 +24,8 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 __all__ = ["synthesize"]
 
 
-@click.command(cls=Sectioned, epilog=f"{POSES_HELP}\n\n{FUNCTION_HELP}")
-@with_options(
-    POSES,
-    FUNCTION_WITH_PLOT,
-    SPECIFICATION,
-    METHOD,
-    SIX_BARS,
-    MANUFACTURING,
-    poses_required=False,
-)
+@click.command(cls=Sectioned, epilog=POSES_HELP)
+@with_options(POSES, SPECIFICATION, METHOD, SIX_BARS, MANUFACTURING)
 @click.option(
     "--all",
     "everything",
@@ -57,14 +47,10 @@ __all__ = ["synthesize"]
     "figure (.png, .svg, .pdf).",
 )
 @click.option("-o", "file", metavar="FILE", help="Write that object to FILE as well.")
-@click.option(
-    "--output",
-    metavar="FILE|DEG",
-    help="The same as -o; with --function, how far the output link turns, in degrees.",
-)
+@click.option("--output", metavar="FILE", help="The same as -o.")
 @click.option("--force", is_flag=True, help="Write files even if they exist.")
 def synthesize(
-    poses: str | None,
+    poses: str,
     *,
     everything: bool,
     dyads: bool,
@@ -77,30 +63,15 @@ def synthesize(
     six_bars: bool,
     **given: Any,
 ) -> int:
-    """Find four-bars that guide a body through POSES, or that make a function of angles.
+    """Find four-bars that guide a body through POSES.
 
-    With --six-bars, six-bars for the poses.
+    With --six-bars, six-bars for the poses.  Functions of angles are for `burmester function`.
     """
-    from burmester.cli.function import function_task, hand_over_function
-
-    given["output"] = output
-    task = function_task(poses, given)
-    if task is not None:
-        return hand_over_function(
-            task,
-            file or (None if given["function"] else output),
-            poses=poses,
-            force=force,
-            as_json=as_json,
-            plot=given["plot"],
-            everything=everything,
-        )
     output = file or output
     from burmester.cli.family_map import require_map_file, write_map
     from burmester.cli.progress_line import working
     from burmester.io import files
 
-    assert poses is not None
     if output is not None:
         files.require_writable(output, force=force, source=poses)
     if family_map is not None:

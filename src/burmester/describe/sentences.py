@@ -41,6 +41,7 @@ __all__ = [
     "pose_tolerance_note",
     "rounding_note",
     "standard_note",
+    "timing_note",
     "tolerance_note",
     "tracing_note",
     "type_doubt",
@@ -54,6 +55,7 @@ NOT_DETERMINED = (
 )
 
 
+EXACT_TURN = 1e-9  # radians; a crank that is off by less is at its angle
 MAX_NAMED_TYPES = 3  # other types that a sentence names; there are four
 
 
@@ -215,6 +217,7 @@ def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
         pose_tolerance_note,
         tolerance_note,
         tracing_note,
+        timing_note,
         rounding_note,
     )
     return [text for note in every if (text := note(synthesis, found)) is not None]
@@ -261,6 +264,18 @@ def tracing_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
         f"The curve of {found.id} {points}; between them it leaves the path by {path_rms} rms and "
         f"{path_most} at most."
     )
+
+
+def timing_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
+    """How near the driver is to the angles at which the crank times the poses."""
+    if found.timing_error is None:
+        return None
+    away = [abs(each) for each in found.timing_error.tolist()]
+    most = max((each for each in away if math.isfinite(each)), default=0.0)
+    if most <= EXACT_TURN:
+        return f"The crank of {found.id} is at its stated angles."
+    at = notation.poses_in_words(synthesis.task, [away.index(most)])
+    return f"The crank of {found.id} misses its stated angles by up to {degrees(most)}, at {at}."
 
 
 def dyads_title(synthesis: Synthesis) -> str:

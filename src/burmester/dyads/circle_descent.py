@@ -53,14 +53,15 @@ MET_ROUNDING = 4.0  # units in the last place of a circle's size; within them it
 
 
 class CircleMinima(NamedTuple):
-    """Circles z (k, 5), c, m, r, each a local minimum, by rising sum of squares.
+    """Circles z (m, 5), c, m, r, each a local minimum: by rising task, then by sum of squares.
 
-    unfinished: (u,), the sums of squares where ways down were given up.
+    unfinished: (T,), how many ways down were given up where they were better already than the
+    second minimum.
     """
 
+    task: NDArray[np.intp]
     z: FloatArray
-    cost: FloatArray
-    unfinished: FloatArray
+    unfinished: NDArray[np.intp]
 
 
 class _Point(NamedTuple):
@@ -72,17 +73,31 @@ class _Point(NamedTuple):
 
 
 def circle_minima(
-    z: FloatArray, poses: Displacement, share: FloatArray, *, narrow: bool
+    z: FloatArray,
+    task: NDArray[np.intp],
+    poses: Displacement,
+    share: FloatArray,
+    *,
+    narrow: bool,
 ) -> CircleMinima:
-    """The local minima of the sum of squares that circles (*, 5) lead to, each once.
+    """The local minima of the sum of squares that circles (k, 5) of tasks (k,) lead to, each once.
 
     Newton's method; where the sum is not convex, Gauss and Newton's step; shortened until it
     helps.  A circle that grows so far that it is a slider is left out.
-    narrow: whether valleys are to be followed that keep half of the digits; that takes longer.
+    poses, share: (T, N); narrow: whether valleys of one task are to be followed that keep half of
+    the digits; that takes longer.
     """
-    one = np.zeros(len(z), dtype=np.intp)
-    if not narrow:
-        return _of_one_task(further_down(steady_starts(z), poses, share), one)
+    if narrow:
+        descent = _narrow_descent(z, poses[0], share[0])
+    else:
+        longest = MAX_LENGTH * reach(poses, share)
+        descent = plain_descent(steady_starts(z), task, poses, share, longest)
+    once, unfinished = minima_of(descent, task, len(share))
+    return CircleMinima(task[once], descent.z[once], unfinished)
+
+
+def _narrow_descent(z: FloatArray, poses: Displacement, share: FloatArray) -> Descent:
+    """The way down from circles (k, 5) to the poses (N,) along narrow valleys."""
     terms, longest = circle_terms(poses), MAX_LENGTH * float(reach(poses, share))
 
     def cost(terms: tuple[FloatArray, ...]) -> FloatArray:
@@ -114,7 +129,7 @@ def circle_minima(
         return there._replace(settled=settled), ended
 
     ends, ended_at = iterate(advance, point(z), np.arange(len(z)), MAX_VALLEY_STEPS)
-    return _of_one_task(Descent(ends.z, cost(ends.terms), ends.settled, ended_at), one)
+    return Descent(ends.z, cost(ends.terms), ends.settled, ended_at)
 
 
 def further_down(
@@ -123,11 +138,6 @@ def further_down(
     """Circles (k, 5) after so many steps of the plain way down, at most, for poses (N,)."""
     one, longest = np.zeros(len(z), dtype=np.intp), MAX_LENGTH * reach(poses, share)
     return plain_descent(z, one, poses[None], share[None], np.atleast_1d(longest), steps=steps)
-
-
-def _of_one_task(descent: Descent, task: NDArray[np.intp]) -> CircleMinima:
-    once, _ = minima_of(descent, task, 1)
-    return CircleMinima(descent.z[once], descent.cost[once], descent.cost[descent.ended_at == 0])
 
 
 def minima_of(

@@ -9,35 +9,41 @@ seven numbers v = (1, c, m, c · m, c x m), so the sum of its squares is F = |T 
 triangle T, 7 x 7, and the critical points of F are the common zeros of its four derivatives.  For
 generic poses there are 25 of them.
 
-All of them come from one eigenproblem (`macaulay`), with no start value; Newton's method on F
-removes the rounding.
+All of them come from one eigenproblem, with no start value (`critical_search`).
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, final
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.circle_descent import reach
+from burmester.dyads.critical_search import (
+    COUNT,
+    REAL_TOLERANCE,
+    SAME_POINT,
+    SETTLED_STEP,
+    balanced,
+    critical_points,
+    derivatives,
+    features,
+)
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.bundles import where
-from burmester.numerics.iteration import iterate
-from burmester.numerics.linear_algebra import matvec, one_thread, solve_or_shortest
-from burmester.numerics.unique_rows import unique_rows
+from burmester.numerics.linear_algebra import solve_or_shortest
 from burmester.numerics.weights import shares, weights_or_ones
-from burmester.polynomials.macaulay import CHARTS, eigen_points
 
 __all__ = [
     "COUNT",
+    "LITTLE_TURN",
     "CriticalDyads",
-    "balancing_length",
     "continued_points",
     "critical_dyads",
     "points_at_infinity",
@@ -45,17 +51,9 @@ __all__ = [
     "residual_triangle",
 ]
 
-COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
-MAX_NEWTON_STEPS = 40  # more than 5 are taken only towards points that lie close together
-BALANCE = 0.4  # target ratio of linear to bilinear terms; the result is not sensitive to it
 POINTS_OF_SLIDER = 3  # at infinity, for each slider that meets the poses exactly
 SLIDER_ROUNDING = 64.0  # units in the last place; a slider that misses poses by less is exact
-REAL_TOLERANCE = 1e-8  # relative; a smaller imaginary part is rounding
-SINGULAR_SHARE = 1e-14  # of the Hessian's greatest singular value; a smaller one is rounding
-RESIDUAL_ROUNDING = 1e-28  # of its terms, squared; a smaller sum of squares is zero
-SETTLED_STEP = 1e-8  # relative; shorter steps are rounding once they no longer shrink
-LAST_STEP = 1e-13  # relative; a step as short as this is the last one in any case
-SAME_POINT = 1e-6  # relative; critical points nearer than this are one
+LITTLE_TURN = 400.0  # inverse mean squared turn; from it on ways are narrow and points may be lost
 CONTINUING_STEPS = 6  # of Newton's method from the critical points of poses nearby
 CONTINUED_SHARE = 0.4  # of the way to its nearest neighbour; a point that moves farther is lost,
 PREDICTED_SHARE = 0.3  # if it moves so much of its way otherwise than the first step says
@@ -76,8 +74,8 @@ class CriticalDyads:
         away, multiple, on a curve of critical points, or lost; the poses are special, turn little,
         or are within rounding of such ones.
     charts: (*,), how many charts it took: 1 but for hard tasks.
-    health: (*,), the least relative pivot of the eigenproblem's 125 rows; rounding is magnified
-        by its inverse, and below some 1e-12 points are lost.
+    health: (*,), of hard tasks the least relative pivot of the eigenproblem's 125 rows; rounding is
+        magnified by its inverse, and below some 1e-12 points are lost.  Else nan.
     real, minimum: (*, 25), which are real, and which of those are local minima.
     dyads: (*, 25), as RR dyads in the task's own frames; nan where not real.  r² is the mean of
         the squared distances, the best for these pivots and never negative.
@@ -143,20 +141,15 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     frames, seen = CanonicalFrames.of(poses, weights)
     lead = poses.shape[:-1]
     triangle = residual_triangle(seen, weights)
-    points = np.full((*lead, COUNT, 4), np.nan + 0j)
-    found, charts = np.zeros(lead, dtype=int), np.zeros(lead, dtype=int)
     far = points_at_infinity(poses, frames, seen, weights)
-    health, real = np.zeros(lead), np.zeros((*lead, COUNT), dtype=bool)
-    minimum = np.zeros((*lead, COUNT), dtype=bool)
-    with one_thread():
-        results = {task: _all_points(triangle[task], int(far[task])) for task in np.ndindex(lead)}
-    for task, result in results.items():
-        n = len(result.points)
-        points[task][:n], found[task], charts[task] = result.points, n, result.charts
-        health[task], real[task][:n], minimum[task][:n] = result.health, result.real, result.minimum
+    turning = reach(seen, shares(weights, poses.shape)) <= LITTLE_TURN
+    every = critical_points(triangle.reshape(-1, 7, 7), far.ravel(), turning.ravel())
+    points, found, charts, health, real, minimum = (
+        each.reshape((*lead, *each.shape[1:])) for each in every
+    )
     far = np.minimum(far, COUNT - found)
     x = np.where(real[..., None], points.real, np.nan)
-    squared = (_features(x) @ np.swapaxes(triangle, -1, -2)) ** 2
+    squared = (features(x) @ np.swapaxes(triangle, -1, -2)) ** 2
     residual = np.sqrt(squared.sum(axis=-1)) * frames.length[..., None] ** 2
     centred = RR(x[..., :2], x[..., 2:], np.zeros(x.shape[:-1]))[..., None]
     with np.errstate(invalid="ignore"):
@@ -194,85 +187,6 @@ def residual_triangle(poses: Displacement, weights: FloatArray | None) -> FloatA
     return np.asarray(np.linalg.qr(a, mode="r"))
 
 
-# --- F and its derivatives at points x = (c1, c2, m1, m2), (*, 4), real or complex
-
-
-def _features(x: NDArray[Any]) -> NDArray[Any]:
-    """The numbers v (*, 7) = 1, c, m, c · m and c2 m1 - c1 m2."""
-    c1, c2, m1, m2 = np.moveaxis(x, -1, 0)
-    return np.stack([np.ones_like(c1), c1, c2, m1, m2, c1 * m1 + c2 * m2, c2 * m1 - c1 * m2], -1)
-
-
-def _feature_gradients(x: NDArray[Any]) -> NDArray[Any]:
-    """The derivatives (*, 4, 7) of v by c1, c2, m1, m2."""
-    c1, c2, m1, m2 = np.moveaxis(x, -1, 0)
-    gradients = np.zeros((*x.shape[:-1], 4, 7), dtype=x.dtype)
-    gradients[..., range(4), range(1, 5)] = 1
-    gradients[..., 5] = np.stack([m1, m2, c1, c2], axis=-1)
-    gradients[..., 6] = np.stack([-m2, m1, c2, -c1], axis=-1)
-    return gradients
-
-
-# The second derivatives of v; only its last two numbers have any.
-_SECOND = np.zeros((7, 4, 4))
-for _at, _i, _j, _sign in ((5, 0, 2, 1), (5, 1, 3, 1), (6, 1, 2, 1), (6, 0, 3, -1)):
-    _SECOND[_at, _i, _j] = _SECOND[_at, _j, _i] = _sign
-
-
-def _derivatives(x: NDArray[Any], triangle: FloatArray) -> tuple[NDArray[Any], NDArray[Any]]:
-    """Half the gradient (*, 4) and half the Hessian (*, 4, 4) of F = |T v|².
-
-    By way of T v, which is small where the dyad is good; G = TᵀT would lose half the digits.
-    """
-    residual = _features(x) @ triangle.T
-    transposed_jacobian = _feature_gradients(x) @ triangle.T
-    curvature = np.tensordot(residual @ triangle, _SECOND, axes=1)
-    gauss_newton = transposed_jacobian @ np.swapaxes(transposed_jacobian, -1, -2)
-    return matvec(transposed_jacobian, residual), np.asarray(gauss_newton + curvature)
-
-
-class _Points(NamedTuple):
-    """The critical points of one task, as `CriticalDyads` has them for all."""
-
-    points: ComplexArray
-    real: NDArray[np.bool_]
-    minimum: NDArray[np.bool_]
-    charts: int
-    health: float
-
-
-def _all_points(triangle: FloatArray, at_infinity: int) -> _Points:
-    """All finite critical points (k, 4), k <= 25, in the order of `CriticalDyads`.
-
-    at_infinity: how many of the 25 are not finite.
-    """
-    unit = float(balancing_length(triangle))
-    scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
-    size = np.linalg.norm(scaled)
-    scaled = scaled / size if size > 0 else scaled
-    gram = scaled.T @ scaled
-    points = np.empty((0, 4), dtype=complex)
-    health, charts, finite = 0.0, 0, COUNT - at_infinity
-    while len(points) < finite and charts < CHARTS:
-        start, health = eigen_points(gram, charts)
-        end, sound = _polish(start, scaled)
-        points = unique_rows(np.concatenate([points, end[sound]]), SAME_POINT, "euclidean")
-        charts += 1
-        if len(points) < finite:
-            end, sound = _polish(_beside_neighbours(points), scaled)
-            points = unique_rows(np.concatenate([points, end[sound]]), SAME_POINT, "euclidean")
-    size = 1 + np.linalg.norm(points, axis=1)
-    real = np.linalg.norm(points.imag, axis=1) < REAL_TOLERANCE * size
-    points[real] = points[real].real
-    curvature = np.linalg.eigvalsh(_derivatives(points.real, scaled)[1])[:, 0]
-    minimum = real & (curvature > 0)
-    cost = (np.abs(_features(points) @ scaled.T) ** 2).sum(axis=1)
-    cost[cost < RESIDUAL_ROUNDING * size**4] = 0.0
-    order = np.lexsort((size, cost, ~real, ~minimum))[:COUNT]
-    ordered: ComplexArray = points[order] * complex(unit)
-    return _Points(ordered, real[order], minimum[order], charts, health)
-
-
 def points_at_infinity(
     poses: Displacement,
     frames: CanonicalFrames,
@@ -299,66 +213,6 @@ def points_at_infinity(
     return np.asarray(POINTS_OF_SLIDER * count)
 
 
-def balancing_length(triangle: FloatArray) -> FloatArray:
-    """The lengths (*,) in which pivots weigh as much in the residual as their products do.
-
-    Where the body turns little that is long, as the pivots are then far away.  Powers of two, by
-    which nothing is rounded.
-    """
-    alone = np.linalg.norm(triangle[..., 1:5], axis=(-2, -1))
-    products = np.linalg.norm(triangle[..., 5:], axis=(-2, -1))
-    some = (alone > 0) & (products > 0)
-    ratio = np.where(some, BALANCE * alone / np.where(some, products, 1.0), 1.0)
-    return np.asarray(2.0 ** np.round(np.log2(ratio)))
-
-
-class _Iterate(NamedTuple):
-    """Points x (k, 4) of Newton's method, with the last step's size and the Hessian before it."""
-
-    x: ComplexArray
-    step_size: FloatArray
-    hessian: ComplexArray
-
-
-def _polish(points: ComplexArray, triangle: FloatArray) -> tuple[ComplexArray, NDArray[np.bool_]]:
-    """Newton's method from each point (k, 4).
-
-    Returns the points that it leads to, and whether it came to rest there, at a simple point.
-    """
-
-    def advance(_: NDArray[np.intp], here: _Iterate) -> tuple[_Iterate, NDArray[np.bool_]]:
-        gradient, hessian = _derivatives(here.x, triangle)
-        step = solve_or_shortest(hessian, gradient)
-        size = np.linalg.norm(step, axis=1) / (1 + np.linalg.norm(here.x, axis=1))
-        astray = ~(size < 1 / SAME_POINT)
-        there = _Iterate(here.x - step, size, hessian)
-        left = _Iterate(here.x, np.full(len(size), np.inf), hessian)
-        settled = (size < LAST_STEP) | (size < SETTLED_STEP) & (size >= here.step_size)
-        return where(astray, left, there), settled | astray
-
-    count = len(points)
-    start = _Iterate(points, np.full(count, np.inf), np.zeros((count, 4, 4), dtype=complex))
-    (x, last, hessian), _ = iterate(advance, start, np.arange(count), MAX_NEWTON_STEPS)
-    # On a curve of critical points Newton's method comes to rest wherever it likes: there the
-    # Hessian is singular, as far as the rounding of the products in it shows.
-    terms = np.linalg.norm(_feature_gradients(x) @ triangle.T, axis=-1)
-    terms = np.maximum(terms, np.finfo(float).tiny)
-    spread = np.linalg.svd(hessian / terms[:, :, None] / terms[:, None], compute_uv=False)
-    return x, (last < SETTLED_STEP) & (spread[:, -1] > SINGULAR_SHARE * spread[:, 0])
-
-
-def _beside_neighbours(points: ComplexArray) -> ComplexArray:
-    """Starts between points (k, 4) and their nearest neighbours, and as far beyond them.
-
-    Two exact dyads that nearly coincide have a third critical point in between.
-    """
-    if len(points) < 2:
-        return points
-    apart = np.linalg.norm(points[:, None] - points, axis=-1) + np.diag([np.inf] * len(points))
-    other = points[apart.argmin(axis=1)]
-    return np.concatenate([(points + other) / 2, 2 * points - other])
-
-
 def continued_points(
     points: ComplexArray, poses: Displacement, weights: FloatArray | None = None
 ) -> ComplexArray | None:
@@ -368,14 +222,11 @@ def continued_points(
     to rest nearer to itself than to the others, so that two may have met, or has become real: then
     `critical_dyads` says what there is.
     """
-    triangle = residual_triangle(poses, weights)
-    unit = float(balancing_length(triangle))
-    scaled = triangle * [1.0, *[unit] * 4, unit**2, unit**2]
-    scaled = scaled / np.linalg.norm(scaled)
+    scaled, unit = balanced(residual_triangle(poses, weights))
     start = x = points / unit
     first = None
     for _ in range(CONTINUING_STEPS):
-        gradient, hessian = _derivatives(x, scaled)
+        gradient, hessian, _ = derivatives(x.T, scaled[..., None])
         step = solve_or_shortest(hessian, gradient)
         x = x - step
         first = x if first is None else first

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, final
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.circle_descent import circle_minima, reach, sharpened_circles
-from burmester.dyads.critical_points import COUNT, CriticalDyads, critical_dyads
+from burmester.dyads.critical_points import COUNT, LITTLE_TURN, CriticalDyads, critical_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.dyads.start_pivots import pivots_of_fits
 from burmester.dyads.starts_down import starts_down
@@ -17,6 +17,7 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import shares
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import Norm
@@ -25,11 +26,18 @@ from burmester.tasks.pose_sample import PoseSample
 if TYPE_CHECKING:  # a search of its own, which most tasks do without
     from burmester.dyads.minima_within_limits import LimitedDyads
 
-__all__ = ["BestDyads", "best_dyads", "is_hard", "starts_of_one", "with_errors"]
+__all__ = [
+    "BestDyads",
+    "ManyBestDyads",
+    "best_dyads",
+    "best_dyads_of_tasks",
+    "is_hard",
+    "starts_of_one",
+    "with_errors",
+]
 
 # Of more poses a sample of about so many is followed to minima, and all from these on.
 MAX_POSES_FOLLOWED = 500
-LITTLE_TURN = 400.0  # inverse mean squared turn; from it on more starts are made
 
 
 @final
@@ -63,6 +71,37 @@ class BestDyads:
     def coefficients(self) -> FloatArray:
         """Their manifolds (k, 8), in `frames`."""
         return self.circles.coefficients()
+
+
+class Minima(NamedTuple):
+    """Circles (m,) of tasks, by rising task: in canonical frames, in the task's own, and errors."""
+
+    task: NDArray[np.intp]
+    circles: RR
+    dyads: RR
+    rms_error: FloatArray
+    max_error: FloatArray
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class ManyBestDyads:
+    """The locally best dyads of tasks (T,), as `BestDyads` has those of one.
+
+    sliders: (T,), the best of each kind; minima: those of all tasks; unfinished: (T,).
+    """
+
+    search: CriticalDyads
+    sliders: tuple[PR, RP]
+    minima: Minima
+    unfinished: NDArray[np.intp]
+
+    def of_one(self) -> BestDyads:
+        """Those of the only task."""
+        search, sliders = take((self.search, self.sliders), 0)
+        return BestDyads(
+            search, *self.minima[1:3], sliders, *self.minima[3:], int(self.unfinished[0])
+        )
 
 
 def best_dyads(
@@ -123,49 +162,73 @@ def best_dyads(
         search = limited_dyads(poses, weights, exact, limits, norm)
         distance = search.circles[:, None].residual(search.frames.to_canonical(poses))
         return with_errors(search, search.circles, search.sliders, distance)
-    critical = critical_dyads(poses, weights)
+    return best_dyads_of_tasks(poses[None], None if weights is None else weights[None]).of_one()
+
+
+def best_dyads_of_tasks(poses: Displacement, weights: FloatArray | None = None) -> ManyBestDyads:
+    """The same of many tasks with poses (T, N), without limits, exact poses and another norm."""
+    search = critical_dyads(poses, weights)
     _, seen = CanonicalFrames.of(poses, weights)  # with less rounding than by these frames
-    share = shares(weights, poses.shape)
-    lines = fixed_lines(seen, weights)[0][0], moving_lines(seen, weights)[0][0]
-    points, more = critical.points[: int(critical.found)], None
-    hard = is_hard(points, seen, share, int(critical.at_infinity))
+    lines = fixed_lines(seen, weights)[0][:, 0], moving_lines(seen, weights)[0][:, 0]
+    hard = is_hard(search.found + search.at_infinity, seen, shares(weights, poses.shape))
+    easy = np.flatnonzero(~hard & (seen.shape[1] <= MAX_POSES_FOLLOWED))
+    alone = np.delete(np.arange(len(hard)), easy)
+    unfinished, parts = np.zeros(len(hard), dtype=np.intp), []
+    together = [easy] if len(easy) or not len(alone) else []
+    for index in (*together, *alone[:, None]):
+        some = take((search, lines, seen, poses, weights), index)
+        rows, unfinished[index] = _minima(*some, hard=bool(hard[index].any()))
+        parts.append(rows._replace(task=index[rows.task]))
+    rows = concatenate(parts)
+    rows = take(rows, np.argsort(rows.task, kind="stable"))
+    return ManyBestDyads(search, lines, rows, unfinished)
+
+
+def _minima(
+    search: CriticalDyads,
+    lines: tuple[PR, RP],
+    seen: Displacement,
+    poses: Displacement,
+    weights: FloatArray | None,
+    *,
+    hard: bool,
+) -> tuple[Minima, NDArray[np.intp]]:
+    """The minima of tasks (T,), and how many ways of each were given up; hard tasks come alone."""
+    frames, share, more = search.frames, shares(weights, seen.shape), None
+    given = poses[0], None if weights is None else weights[0]  # where there is one task only
     if hard:
-        origin = np.concatenate([critical.frames.fixed_origin, critical.frames.moving_origin])
-        more = (pivots_of_fits(poses, weights) - origin) / critical.frames.length
-    some, weight = seen, weights
-    if many := seen.shape[0] > MAX_POSES_FOLLOWED:
-        sample = PoseSample.of(poses, weights, MAX_POSES_FOLLOWED)
-        some, weight = seen[sample.index], sample.cells
-    part = shares(weight, some.shape)
-    starts = starts_of_one(points, lines, some, part, more)
-    found = circle_minima(starts, some, part, narrow=hard)
-    if many:
-        found = circle_minima(found.z, seen, share, narrow=hard)._replace(
-            unfinished=found.unfinished
-        )
+        origin = np.concatenate([frames.fixed_origin, frames.moving_origin], axis=-1)
+        more = (pivots_of_fits(*given)[None] - origin[:, None]) / frames.length[:, None, None]
+    some, part = seen, share
+    if seen.shape[1] > MAX_POSES_FOLLOWED:
+        sample = PoseSample.of(*given, MAX_POSES_FOLLOWED)
+        some = seen[:, sample.index]
+        part = shares(sample.cells[None], some.shape)
+    task, starts = starts_down(search.points, lines, some, part, more)
+    found = circle_minima(starts, task, some, part, narrow=hard)
+    unfinished = found.unfinished
+    if some is not seen:
+        found = circle_minima(found.z, found.task, seen, share, narrow=hard)
+    task, frames = found.task, take(frames, found.task)
     circles = RR(found.z[:, :2], found.z[:, 2:4], found.z[:, 4])
-    # Ways down that were given up where they were better already than the second dyad.
-    second = np.append(found.cost, [np.inf, np.inf])[1]
-    unfinished = int((found.unfinished < second).sum())
-    if not hard:
-        return with_errors(critical, circles, lines, circles[:, None].residual(seen), unfinished)
-    given = critical.frames.circle_from_canonical(circles)
-    dyads, distance, at_rest = sharpened_circles(given, poses, share)
-    order = np.argsort(distance**2 @ share, kind="stable")
-    unfinished += int((~at_rest[order][:2]).sum())
-    distance = distance[order] / critical.frames.length
-    best = with_errors(critical, circles[order], lines, distance, unfinished)
-    return replace(best, dyads=dyads[order])
+    dyads, unit = frames.circle_from_canonical(circles[:, None])[:, 0], frames.length
+    if hard:
+        dyads, distance, at_rest = sharpened_circles(dyads, poses[0], share[0])
+        order = np.argsort(distance**2 @ share[0], kind="stable")
+        unfinished = unfinished + int((~at_rest[order][:2]).sum())
+        circles, dyads, distance = circles[order], dyads[order], distance[order] / unit[:, None]
+    else:
+        distance = circles[:, None].residual(seen[task])
+    rms, worst = np.sqrt((distance**2).mean(axis=-1)), np.abs(distance).max(axis=-1)
+    return Minima(task, circles, dyads, rms * unit, worst * unit), unfinished
 
 
-def is_hard(
-    points: ComplexArray, seen: Displacement, share: FloatArray, at_infinity: int = 0
-) -> bool:
-    """Whether the body turns so little that ways down are narrow, or critical points are lost.
+def is_hard(known: NDArray[np.int_], seen: Displacement, share: FloatArray) -> NDArray[np.bool_]:
+    """Whether bodies turn so little that ways down are narrow, or critical points are lost, (*,).
 
-    at_infinity: how many of the critical points are known to be there.
+    known: (*,), how many of the critical points are known.
     """
-    return len(points) + at_infinity < COUNT or float(reach(seen, share)) > LITTLE_TURN
+    return np.asarray((known < COUNT) | (reach(seen, share) > LITTLE_TURN))
 
 
 def starts_of_one(

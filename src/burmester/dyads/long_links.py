@@ -7,13 +7,14 @@ against M.  In the limit the other pivot is on a line: a slider.
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.repeated_poses import orientation_arcs
 
-__all__ = ["OUT_OF_SIGHT", "SENSIBLE_SWING", "is_nearly_slider", "swing", "swings"]
+__all__ = ["OUT_OF_SIGHT", "SENSIBLE_SWING", "nearly_sliders", "swing", "swings"]
 
 SENSIBLE_SWING = 0.1  # radians; a link that swings more is a link; arcs bend by 1 % of their chords
 OUT_OF_SIGHT = 10.0  # sizes of the picture; no picture shows both ends of a longer link
@@ -37,6 +38,6 @@ def swings(dyads: RR, poses: Displacement) -> FloatArray:
     return np.where(np.isfinite(dyads.radius), np.minimum(in_f, in_m), 0.0)
 
 
-def is_nearly_slider(dyad: RR, poses: Displacement, size: float) -> bool:
-    """Whether a link is out of sight and hardly swings; size: what a picture of the poses shows."""
-    return bool(dyad.radius > OUT_OF_SIGHT * size) and swing(dyad, poses) < SENSIBLE_SWING
+def nearly_sliders(dyads: RR, poses: Displacement, size: float | FloatArray) -> NDArray[np.bool_]:
+    """Which links (*,) are out of sight and hardly swing; size: (*,), what a picture shows."""
+    return (dyads.radius > OUT_OF_SIGHT * size) & (swings(dyads, poses) < SENSIBLE_SWING)

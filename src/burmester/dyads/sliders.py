@@ -11,12 +11,11 @@ from typing import NamedTuple
 import numpy as np
 
 from burmester.fourbar.dyad import PR, RP
-from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
 
-__all__ = ["NearestSlider", "fixed_lines", "moving_lines", "nearest_slider"]
+__all__ = ["fixed_lines", "moving_lines"]
 
 DEPENDENT = 1e-15  # of the size of rows; what is left of one that depends on others is no more
 
@@ -150,38 +149,3 @@ def moving_lines(
     """
     lines, rms, worst = fixed_lines(poses.inverse(), weights)
     return RP(lines.moving_pivot, lines.normal_angle, lines.offset), rms, worst
-
-
-class NearestSlider(NamedTuple):
-    """The slider nearest to a manifold.
-
-    rms_error, max_error: of its distances, in the unit of the poses; angle_sine: of the angle
-    between the two manifolds as vectors.
-    """
-
-    dyad: PR | RP
-    rms_error: float
-    max_error: float
-    angle_sine: float
-
-
-def nearest_slider(
-    coefficients: FloatArray, poses: Displacement, weights: FloatArray | None = None
-) -> NearestSlider:
-    """The slider nearest to a manifold p (8,) with p1 ~ 0.
-
-    Of the stationary sliders of the poses (N,), the one whose line points as that of p does.
-    """
-    fixed, moving = constraint_manifold.prismatic_parts(coefficients)
-    on_ground = np.linalg.norm(fixed) >= np.linalg.norm(moving)
-    part = fixed if on_ground else moving
-    lines, rms, worst = fixed_lines(poses, weights) if on_ground else moving_lines(poses, weights)
-    along = np.cos(lines.normal_angle) * part[0] + np.sin(lines.normal_angle) * part[1]
-    nearest = int(np.abs(along).argmax())
-    line = lines[nearest]
-    p, q = (
-        v / constraint_manifold.INVARIANT / constraint_manifold.size(v)
-        for v in (coefficients, line.coefficients())
-    )
-    apart = np.linalg.norm(p - (p @ q) * q)  # not from the cosine, which cannot tell below 1e-8
-    return NearestSlider(line, float(rms[nearest]), float(worst[nearest]), float(apart))

@@ -87,7 +87,7 @@ class Conditions:
             types=types,
             kinds=kinds,
             drivers={"first": (0,), "second": (1,)}.get(asked.driver, (0, 1)),
-            crank=asked.driver == "crank",
+            crank=problem.given.requirements.driver == "crank",
             any_order=asked.any_order,
             change_point=Standard.of(task).change_point,
             footprint=footprint,

@@ -59,6 +59,8 @@ def drawn_dyads(
     for kind in side.kinds:
         count = round(counts.get(kind, 0) * _more(side, kind))
         start = _random(side, kind, 2 * (count // 2), poses, rng)
+        if kind == 0 and side.given is not None:  # those of the timing are all there are
+            start = np.repeat(side.given, 2, axis=0)
         found = _brought(start, kind, offsets, still)
         if 0 < len(found) < FEW * count:
             near = found[rng.integers(len(found), size=len(start))]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.timed_dyads import timed_dyads
 from burmester.families.conditions import Conditions
 from burmester.families.pivot_freedom import PivotFreedom
 from burmester.families.rail_freedom import RailFreedom
@@ -16,15 +17,18 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.target import Target
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
-from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.problem import SynthesisProblem, driving_side
 from burmester.verdicts.assumptions import Assumptions
 
 __all__ = ["DyadFreedom", "OpenTask", "Trials"]
 
+ANYWHERE: Final = 1e3  # times the box in which pivots are assumed to lie
 RADIUS_FREEDOM = 9.0  # squared; how much rather a link's length changes than its pivots move
 FREE_ANGLE: Final = math.pi / 6  # radians; how far from its nominal value a free angle is sought
 FREE_LENGTH: Final = 0.5  # motion sizes; the same for a free coordinate
@@ -36,6 +40,7 @@ class DyadFreedom:
     """What one dyad may be: where its pivots lie, how long its link is, and of which kinds it is.
 
     length: the least and the greatest; kinds: indices in DYAD_KINDS; rail: of the line of a slider.
+    timing: of a driver that the crank times; given: the RR dyads (k, 5), where they are known.
     """
 
     fixed: PivotFreedom
@@ -43,6 +48,8 @@ class DyadFreedom:
     length: tuple[float, float]
     kinds: tuple[int, ...]
     rail: RailFreedom | None = None
+    timing: CrankTiming | None = None
+    given: FloatArray | None = None
 
     def metric(self) -> FloatArray:
         """How freely the dimensions of each kind of dyad change: projectors (3, 5, 5)."""
@@ -105,6 +112,9 @@ class OpenTask:
             least, most = limits.length
             rail = RailFreedom.of(limits, frames)
             sides.append(DyadFreedom(*pivots, (least / unit, most / unit), kinds, rail))
+        if (timing := task.timing) is not None:
+            side = driving_side(task)
+            sides[side] = _timed(sides[side], target, timing)
         both = sides[0], sides[-1]
         pins = all(0 in side.kinds for side in both)
         return cls(
@@ -134,6 +144,28 @@ class OpenTask:
     def places(self, offsets: FloatArray) -> Displacement:
         """The same as places (k, N)."""
         return places_of(self.rows(offsets), self.length)
+
+
+def _timed(side: DyadFreedom, target: Target, timing: CrankTiming) -> DyadFreedom:
+    """What a driver may be that the crank times; where few are left, wherever they are."""
+    found = timed_dyads(target.poses, timing)
+    if found is None:
+        return replace(side, timing=timing)
+    z = np.array([[*each.fixed_pivot, *each.moving_pivot, each.radius] for each in found])
+    fixed, moving = (
+        replace(place, around=_wide(place.around), region=_wide(place.around))
+        if place.region is place.around
+        else place
+        for place in (side.fixed, side.moving)
+    )
+    given = z.reshape(-1, DIMENSIONS)
+    return replace(side, fixed=fixed, moving=moving, timing=timing, given=given)
+
+
+def _wide(box: Polygon) -> Polygon:
+    """A box that is wider, by a factor."""
+    middle = box.vertices.mean(axis=0)
+    return Polygon(middle + ANYWHERE * (box.vertices - middle))
 
 
 def _tolerances(task: Task, target: Target, size: float) -> tuple[FloatArray, FloatArray]:

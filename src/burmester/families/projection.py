@@ -13,6 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.timed_dyads import timing_equations
 from burmester.families.open_task import DyadFreedom, OpenTask, Trials
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import FloatArray
@@ -41,7 +42,7 @@ def projected(
     _clip(z, batch.kinds, free, task)
     for _ in range(steps):
         now = LinkageBatch(batch.kinds, z)
-        residual, force, slope = now.jacobians(task.places(offsets))
+        residual, force, slope = _equations(now, task, offsets)
         worst = np.abs(residual).max(axis=(1, 2))
         if not (worst > MET).any():
             break
@@ -56,10 +57,36 @@ def projected(
             offsets = np.clip(offsets - shorter[:, None, None] * moved, -bound, bound)
         _clip(z, batch.kinds, free, task)
     out = replace(trials, batch=LinkageBatch(batch.kinds, z), offsets=offsets)
-    residual = out.batch.jacobians(task.places(offsets)).residual
+    residual, _, _ = _equations(out.batch, task, offsets)
     with np.errstate(invalid="ignore"):
         met = np.abs(residual).max(axis=2) <= MET
     return out, met & _within_lengths(out.batch, task.sides)
+
+
+def _equations(
+    batch: LinkageBatch, task: OpenTask, offsets: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Residuals (k, 2, m), forces (k, 2, m, 3) and derivatives (k, 2, m, 5) of both dyads.
+
+    Those of the poses, then those of a driver's timing; zero where the other dyad has none.
+    """
+    places = task.places(offsets)
+    residual, force, slope = batch.jacobians(places)
+    timings = [side.timing for side in task.sides]
+    for side, timing in enumerate(timings):
+        if timing is None or side > timings.index(timing):  # both sides, while dyads are drawn
+            continue
+        own = [k for k, each in enumerate(timings) if each is timing]
+        parts = [timing_equations(batch.dimensions[:, k], places, timing) for k in own]
+        count, more = parts[0][0].shape
+        value, by = np.zeros((count, 2, more)), np.zeros((count, 2, more, slope.shape[-1]))
+        for k, part in zip(own, parts, strict=True):
+            turning = batch.kinds[:, k] == 0
+            value[turning, k], by[turning, k] = part[0][turning], part[1][turning]
+        residual = np.concatenate([residual, value], axis=2)
+        slope = np.concatenate([slope, by], axis=2)
+        force = np.concatenate([force, np.zeros((count, 2, more, 3))], axis=2)
+    return residual, force, slope
 
 
 def _shortest(

@@ -66,7 +66,7 @@ class FreeMinima:
         """
         seen, share = fit.frames.to_canonical(task.poses), shares(task.weights, task.poses.shape)
         there = self._watched(fit.frames, seen, task)
-        hard = is_hard(there.points, seen, share)
+        hard = is_hard(np.array(len(there.points)), seen, share)
         moved = moved_minima(circles_of(fit), circle_distances(seen), share)
         if hard and not (moved.sound.all() and there.real == self.real):
             return None

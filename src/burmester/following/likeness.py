@@ -51,6 +51,8 @@ def require_like(old: SynthesisProblem, new: SynthesisProblem, *, is_family: boo
         reason = "other poses are exact"
     elif (before.tolerances is None) != (after.tolerances is None):
         reason = "it has tolerances of its poses, or has them no more"
+    elif before.timing is not None or after.timing is not None:
+        reason = "its poses are timed by the crank"
     elif [each.allowed for each in before.limits] != [each.allowed for each in after.limits]:
         reason = "its limits allow other kinds of dyads"
     elif any(each.line is not None for each in (*before.limits, *after.limits)):

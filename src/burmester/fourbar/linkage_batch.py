@@ -16,13 +16,21 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.coupler_kernel import constraint_jacobians
-from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 
-__all__ = ["DIMENSIONS", "DYAD_KINDS", "ConstraintJacobians", "LinkageBatch", "pin_distances"]
+__all__ = [
+    "DIMENSIONS",
+    "DYAD_KINDS",
+    "ConstraintJacobians",
+    "LinkageBatch",
+    "dyads_of",
+    "pin_distances",
+    "row_of",
+]
 
 DYAD_KINDS: Final = (RR, PR, RP)  # the kinds of dyads, by their number in a batch
 DIMENSIONS: Final = 5  # number of dimensions of a dyad; a slider leaves the last one unused
@@ -62,16 +70,8 @@ class LinkageBatch:
         dimensions = np.zeros((len(linkages), 2, DIMENSIONS))
         for k, linkage in enumerate(linkages):
             for side, dyad in enumerate((linkage.first, linkage.second)):
-                if isinstance(dyad, RR):
-                    row = [*dyad.fixed_pivot, *dyad.moving_pivot, dyad.radius]
-                elif isinstance(dyad, PR):
-                    row = [dyad.normal_angle, dyad.offset, *dyad.moving_pivot, 0.0]
-                elif isinstance(dyad, RP):
-                    row = [*dyad.fixed_pivot, dyad.normal_angle, dyad.offset, 0.0]
-                else:
-                    raise TypeError("a batch has no PP dyads")
+                dimensions[k, side] = row_of(dyad)
                 kinds[k, side] = DYAD_KINDS.index(type(dyad))
-                dimensions[k, side] = row
         return cls(kinds, dimensions)
 
     def __len__(self) -> int:
@@ -103,7 +103,7 @@ class LinkageBatch:
     def _dyads(self, side: int, index: Any) -> RR | PR | RP:
         """The dyads of one side; those indexed are of one kind."""
         kind = self.kinds[index, side]
-        return _dyads(int(kind if kind.ndim == 0 else kind[0]), self.dimensions[index, side])
+        return dyads_of(int(kind if kind.ndim == 0 else kind[0]), self.dimensions[index, side])
 
     def distances(self, poses: Displacement) -> FloatArray:
         """The signed distances (k, 2, *) of poses (*,) from the constraints of both dyads."""
@@ -111,7 +111,7 @@ class LinkageBatch:
         for kind in range(len(DYAD_KINDS)):
             if (own := self.kinds == kind).any():
                 rows = self.dimensions[own].reshape(-1, *(1 for _ in poses.shape), DIMENSIONS)
-                out[own] = _dyads(kind, rows).residual(poses)
+                out[own] = dyads_of(kind, rows).residual(poses)
         return out
 
     def to_canonical(self, frames: CanonicalFrames) -> LinkageBatch:
@@ -161,7 +161,18 @@ class LinkageBatch:
         )
 
 
-def _dyads(kind: int, rows: FloatArray) -> RR | PR | RP:
+def row_of(dyad: Dyad) -> list[float]:
+    """The five dimensions of one dyad; raises TypeError for PP, of which a batch has none."""
+    if isinstance(dyad, RR):
+        return [*dyad.fixed_pivot, *dyad.moving_pivot, float(dyad.radius)]
+    if isinstance(dyad, PR):
+        return [float(dyad.normal_angle), float(dyad.offset), *dyad.moving_pivot, 0.0]
+    if isinstance(dyad, RP):
+        return [*dyad.fixed_pivot, float(dyad.normal_angle), float(dyad.offset), 0.0]
+    raise TypeError("a batch has no PP dyads")
+
+
+def dyads_of(kind: int, rows: FloatArray) -> RR | PR | RP:
     """The dyads of a kind, by its number, with dimensions (*, 5)."""
     if DYAD_KINDS[kind] is RR:
         return RR(rows[..., :2], rows[..., 2:4], rows[..., 4])

@@ -28,7 +28,6 @@ from burmester.numerics.linear_algebra import solve_or_shortest
 from burmester.numerics.unique_rows import unique_index
 
 __all__ = [
-    "COUNTS",
     "ENDS",
     "CriticalGenerators",
     "critical_generators",
@@ -39,7 +38,6 @@ __all__ = [
     "terms",
 ]
 
-COUNTS: Final = {"both": 28, "one": 6}  # linkages, by the phases that are free
 REAL_TOLERANCE = 1e-6  # relative; a point whose w differs less from its mirror image is real
 SAME_POINT = 1e-6  # relative, of w w'; ends nearer than this are one
 PREDICTION_TOLERANCE = 1e-2  # of a logarithm; a step whose prediction is farther off is shortened
@@ -70,8 +68,7 @@ class CriticalGenerators(NamedTuple):
     ratios: (k, 2), R1 and R2; input_phase, output_phase: (k,), radians.  Of points that are not
         real these are the nearest real ones.  Behind those that were reached stand the places at
         which paths were lost, to start from as well.
-    real: (k,); found: how many different points were reached; expected: how many there are of
-        generic pairs.
+    real: (k,); found: how many different points were reached.
     """
 
     ratios: FloatArray
@@ -79,7 +76,6 @@ class CriticalGenerators(NamedTuple):
     output_phase: FloatArray
     real: NDArray[np.bool_]
     found: int
-    expected: int
 
 
 def critical_generators(task: FunctionTask) -> CriticalGenerators:
@@ -104,9 +100,8 @@ def critical_generators(task: FunctionTask) -> CriticalGenerators:
         ratio = -ratio[:, ::-1]
         input_phase = v[:, 1].imag
         output_phase = np.full(len(v), task.output_phase or 0.0)
-    count = COUNTS["both" if both else "one"]
     real &= np.arange(len(v)) < len(ends)
-    return CriticalGenerators(ratio, input_phase, output_phase, real, len(ends), count)
+    return CriticalGenerators(ratio, input_phase, output_phase, real, len(ends))
 
 
 def residual_root(task: FunctionTask, *, swapped: bool = False) -> ComplexArray:

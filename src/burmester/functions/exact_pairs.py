@@ -29,13 +29,11 @@ class ExactGenerators(NamedTuple):
     """All generators of exact pairs.
 
     generators: (k,), those of finite size.
-    expected: how many solutions such pairs have, real or not.
     sliders: how many of the real ones have a link without end, or beyond LONGEST ground links.
     determined: False where there are infinitely many; then these are some of them at best.
     """
 
     generators: Generator
-    expected: int
     sliders: int
     determined: bool
 
@@ -50,7 +48,7 @@ def exact_generators(task: FunctionTask) -> ExactGenerators:
     if task.input_phase is not None and task.output_phase is not None:
         given, other = np.array([task.input_phase]), np.array([task.output_phase])
         found, determined = generators_of_phases(task, given, other)
-        return _all(task, found, 1, determined=bool(determined.all()))
+        return _all(task, found, determined=bool(determined.all()))
     known = "input" if task.input_phase is not None else "output"
     given = np.array([task.input_phase if known == "input" else task.output_phase], dtype=float)
     other, determined = other_phases(task, given, known)
@@ -59,7 +57,8 @@ def exact_generators(task: FunctionTask) -> ExactGenerators:
     phases = known_phase, np.nan_to_num(other)  # an SVD takes no nan
     found, regular = generators_of_phases(task, *(phases if known == "input" else phases[::-1]))
     sure = bool(determined.all() and regular.ravel()[some].all())
-    return _all(task, found[np.nonzero(some[None])] if some.any() else found[:, :0][0], 2, sure)
+    some_found = found[np.nonzero(some[None])] if some.any() else found[:, :0][0]
+    return _all(task, some_found, determined=sure)
 
 
 def generators_of_phases(
@@ -144,7 +143,7 @@ def _five(task: FunctionTask) -> ExactGenerators:
             np.angle(B),
             np.ones(len(A)),
         )
-    return _all(task, found, 3, determined)
+    return _all(task, found, determined=determined)
 
 
 def _cubic(line: ComplexArray) -> tuple[ComplexArray, FloatArray]:
@@ -165,9 +164,9 @@ def _cubic(line: ComplexArray) -> tuple[ComplexArray, FloatArray]:
     return np.stack([u, v]), np.asarray(cubic.imag)
 
 
-def _all(task: FunctionTask, found: Generator, count: int, determined: bool) -> ExactGenerators:
+def _all(task: FunctionTask, found: Generator, *, determined: bool) -> ExactGenerators:
     found = found[np.isfinite(found.coupler) & np.isfinite(found.output_link)]
     finite = (found.sizes < LONGEST).all(axis=-1) & (found.sizes > 1 / LONGEST).all(axis=-1)
     sliders = int((~finite).sum())
     found = found[finite].with_better_side(task.inputs, task.outputs)
-    return ExactGenerators(found, count, sliders, determined)
+    return ExactGenerators(found, sliders, determined)

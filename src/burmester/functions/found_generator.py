@@ -173,8 +173,9 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
     least = float(generator.least_transmission(low, high))
     defects = _defects(generator, task, errors, exact=exact)
     ratio = float(generator.link_ratio)
+    wanted = task.requirements
     asked = []
-    if task.least_transmission is not None and not least >= task.least_transmission:
+    if wanted.transmission and not least >= wanted.transmission:
         asked.append(
             Advice(
                 "transmission",
@@ -182,7 +183,7 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
                 "",
             )
         )
-    if task.link_ratio is not None and ratio > task.link_ratio:
+    if ratio > wanted.link_ratio:
         asked.append(
             Advice("link-ratio", f"has a link {figure(ratio)} times as long as another", "")
         )
@@ -190,9 +191,9 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
     if task.types is not None and kind not in task.types:
         asked.append(Advice("type", f"is {with_article(kind)}", ""))
     shortcomings = []
-    if task.least_transmission is None and not least >= math.radians(LEAST_TRANSMISSION):
+    if not wanted.transmission and not least >= math.radians(LEAST_TRANSMISSION):
         shortcomings.append(f"transmits at {_degrees(least)} only")
-    if task.link_ratio is None and ratio > MOST_LINK_RATIO:
+    if math.isinf(wanted.link_ratio) and ratio > MOST_LINK_RATIO:
         shortcomings.append(f"has a link {figure(ratio)} times as long as another")
     if not exact and bool(at_bounds(generator)):
         shortcomings.append(

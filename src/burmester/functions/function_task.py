@@ -8,12 +8,14 @@ difference of the greatest and the least y is the whole output range.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final, TypeAlias, final
 
 import numpy as np
 
+from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.requirements import Requirements
 
 __all__ = [
     "FUNCTION_SAMPLES",
@@ -71,9 +73,7 @@ class FunctionTask:
     ground: the length of the ground link.
     function: what the pairs are taken from, if anything.
     minimax: whether the greatest error is to be least, instead of the sum of squares.
-    least_transmission: radians, that a linkage has to keep over the range; link_ratio: of its
-        longest link to its shortest, at most; types: those allowed, as `Linkage.type` names them;
-        None: nothing is asked.
+    requirements: what a linkage has to keep over the range: transmission, link ratio, types.
     """
 
     inputs: FloatArray
@@ -84,9 +84,7 @@ class FunctionTask:
     ground: float = 1.0
     function: SampledFunction | None = None
     minimax: bool = False
-    least_transmission: float | None = None
-    link_ratio: float | None = None
-    types: frozenset[str] | None = None
+    requirements: Requirements = field(default=Requirements())
 
     def __post_init__(self) -> None:
         for name in ("inputs", "outputs"):
@@ -103,9 +101,18 @@ class FunctionTask:
         return 3 + self.free_phases
 
     @property
-    def asks(self) -> bool:
-        """Whether a linkage has to keep anything beside the pairs."""
-        return any(v is not None for v in (self.least_transmission, self.link_ratio, self.types))
+    def solutions(self) -> int | None:
+        """How many linkages, or critical points, generic pairs have; None: infinitely many."""
+        pairs, free = len(self.inputs), self.free_phases
+        if pairs < self.exact_count:
+            return None
+        return 1 + free if pairs == self.exact_count else (1, 6, 28)[free]
+
+    @property
+    def types(self) -> frozenset[str] | None:
+        """The types allowed of linkages with four pins; None: all."""
+        allowed = self.requirements.allowed_types
+        return None if allowed is None else allowed.intersection(TYPE_OF_SIGNS.values())
 
     @property
     def input_ends(self) -> tuple[float, float]:

@@ -69,14 +69,4 @@ class FurtherStarts(NamedTuple):
             keeps &= np.isin(self.type, list(types))
         at = np.flatnonzero(keeps)[:MOST_LOOKED_AT]
         g = self.generators[at]
-        phases = np.stack([g.input_phase, g.output_phase], axis=-1)
-        place = np.concatenate([np.log(g.sizes[:, 1:]), g.side[:, None]], axis=1)
-        chosen: list[int] = []
-        left = np.ones(len(at), dtype=bool)
-        while left.any() and len(chosen) < most:
-            best = int(left.argmax())
-            chosen.append(best)
-            away = np.abs(place - place[best]).max(axis=1)
-            turned = np.abs(wrapped_angle(phases - phases[best])).max(axis=1)
-            left &= np.maximum(away, turned) > CLOSE
-        return g[np.array(chosen, dtype=np.intp)]
+        return g[g.first_apart(CLOSE, most, phases_only=False)]

@@ -76,6 +76,24 @@ class Generator:
         names = [each.name for each in fields(cls)]
         return cls(*(np.concatenate([getattr(part, n) for part in parts]) for n in names))
 
+    def first_apart(self, distance: float, most: int, *, phases_only: bool) -> NDArray[np.intp]:
+        """The indices of the first generators (k,) of which none is near an earlier one.
+
+        distance: of phases and, unless they alone count, of the logarithms of links; on the other
+            side of the diagonal a generator is never near.
+        """
+        phases = np.stack([self.input_phase, self.output_phase], axis=-1)
+        place = np.concatenate([np.log(self.sizes[:, 1:]), self.side[:, None]], axis=1)
+        chosen: list[int] = []
+        left = np.ones(len(self), dtype=bool)
+        while left.any() and len(chosen) < most:
+            chosen.append(best := int(left.argmax()))
+            away = np.abs(wrapped_angle(phases - phases[best])).max(axis=1)
+            if not phases_only:
+                away = np.maximum(away, np.abs(place - place[best]).max(axis=1))
+            left &= away > distance
+        return np.array(chosen, dtype=np.intp)
+
     def diagonal(self, inputs: FloatArray) -> FloatArray:
         """From the input link's pin to the output's pivot, complex (*, N), at inputs (N,)."""
         theta = self.input_phase[..., None] + inputs

@@ -46,13 +46,13 @@ def nearest_generators(optima: Generator, task: FunctionTask) -> Generator:
     optima: (m,), the starts that its pairs give.
     """
     further = FurtherStarts.of(task)
-    ratio = math.inf if task.link_ratio is None else task.link_ratio
-    asked = _Level(task.least_transmission or 0.0, ratio, task.types, MOST_OPTIMA)
-    plain = _Level(0.0, math.inf, None, MOST_UNASKED if task.asks else MOST_OPTIMA)
-    sound = asked._replace(ratio=min(ratio, MOST_LINK_RATIO), most=MOST_BETTER)
+    wanted, asks = task.requirements, task.requirements.has_any
+    asked = _Level(wanted.transmission, wanted.link_ratio, task.types, MOST_OPTIMA)
+    plain = _Level(0.0, math.inf, None, MOST_UNASKED if asks else MOST_OPTIMA)
+    sound = asked._replace(ratio=min(wanted.link_ratio, MOST_LINK_RATIO), most=MOST_BETTER)
     better = [sound._replace(transmission=t) for t in BETTER if t > asked.transmission]
     found = _searched(list(dict.fromkeys([plain, asked, *better])), optima, further, task)
-    if task.asks and not len(found[asked]):
+    if asks and not len(found[asked]):
         looser = [
             *(asked._replace(transmission=t) for t in (0.0, *BETTER) if t < asked.transmission),
             asked._replace(ratio=math.inf),

@@ -56,16 +56,16 @@ def best_of_phases(task: FunctionTask) -> PhaseFamily:
     else:
         merit = -found.least_transmission(low, high)
     order = np.argsort(merit, kind="stable")
-    return PhaseFamily(found[order[_apart(found[order])]], tried, int(works.sum()))
+    found = found[order]
+    best = found[found.first_apart(APART, KEPT, phases_only=True)]
+    return PhaseFamily(best, tried, int(works.sum()))
 
 
 def _keeps(found: Generator, task: FunctionTask) -> NDArray[np.bool_]:
     """Which generators (k,) keep what the task asks."""
-    keeps = np.ones(len(found), dtype=bool)
-    if task.least_transmission is not None:
-        keeps &= found.least_transmission(*task.input_ends) >= task.least_transmission
-    if task.link_ratio is not None:
-        keeps &= found.link_ratio <= task.link_ratio
+    wanted = task.requirements
+    keeps = found.least_transmission(*task.input_ends) >= wanted.transmission
+    keeps &= found.link_ratio <= wanted.link_ratio
     if task.types is not None:
         keeps &= np.isin(found.types, list(task.types))
     return keeps
@@ -89,16 +89,3 @@ def _of_grid(task: FunctionTask) -> Generator:
         second = grid if outputs is None else np.full(size, outputs)
     found, determined = generators_of_phases(task, first, second)
     return found[determined]
-
-
-def _apart(sorted_generators: Generator) -> NDArray[np.intp]:
-    """The indices of the best generators whose phases are APART from those of all better ones."""
-    chosen: list[int] = []
-    phases = np.stack([sorted_generators.input_phase, sorted_generators.output_phase], axis=-1)
-    left = np.ones(len(phases), dtype=bool)
-    while left.any() and len(chosen) < KEPT:
-        best = int(left.argmax())
-        chosen.append(best)
-        away = np.abs(np.angle(np.exp(1j * (phases - phases[best])))).max(axis=-1)
-        left &= away > APART
-    return np.array(chosen, dtype=np.intp)

@@ -11,7 +11,6 @@ from rich.console import Console
 from rich.text import Text
 
 from burmester.errors import Advice
-from burmester.functions.critical_generators import COUNTS
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.pair_checks import reversals
 from burmester.io.function_result import function_task_data
@@ -24,7 +23,6 @@ __all__ = ["SCHEMA", "function_check_data", "show_function_check"]
 
 SCHEMA: Final = "burmester.function-check/1"
 MAX_ROWS: Final = 20  # pairs shown; of more, the first 18 and the last 2
-SOLUTIONS: Final = {0: 1, 1: 2, 2: 3}  # of exact pairs, by the number of open phases
 
 
 def function_check_data(task: FunctionTask, findings: tuple[Advice, ...]) -> dict[str, Any]:
@@ -38,7 +36,7 @@ def function_check_data(task: FunctionTask, findings: tuple[Advice, ...]) -> dic
             "pairs": pairs,
             "open_phases": task.free_phases,
             "kind": "phases" if pairs < needed else "exact" if pairs == needed else "nearest",
-            "solutions": _solutions(task),
+            "solutions": task.solutions,
         },
         "input_range_deg": math.degrees(high - low),
         "output_range_deg": math.degrees(task.output_span),
@@ -101,22 +99,12 @@ def _phase(phase: float | None) -> str:
     return "" if phase is None else f"; {math.degrees(phase):.6g}° from the ground link at 0"
 
 
-def _solutions(task: FunctionTask) -> int | None:
-    """How many linkages, or critical points, such pairs have; None: infinitely many."""
-    pairs, needed = len(task.inputs), task.exact_count
-    if pairs < needed:
-        return None
-    if pairs == needed:
-        return SOLUTIONS[task.free_phases]
-    return {0: 1, 1: COUNTS["one"], 2: COUNTS["both"]}[task.free_phases]
-
-
 def _asked(task: FunctionTask) -> str:
     """What is to be found, in words."""
     pairs, needed = len(task.inputs), task.exact_count
     phases = {0: "both phases given", 1: "one phase open", 2: "both phases open"}[task.free_phases]
     head = f"{count(pairs, 'pair')}, {phases}: "
-    solutions = _solutions(task)
+    solutions = task.solutions
     if solutions is None:
         rest = f"; {count(needed, 'pair')} leave finitely many" if pairs >= 3 else ""
         few = "" if pairs >= 3 else ", and three pairs are the fewest that are solved"

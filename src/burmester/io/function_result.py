@@ -1,4 +1,4 @@
-"""A function synthesis as plain data, and read back: the object of `synthesize --json`.
+"""A function synthesis as plain data, and read back: the object of `burmester function --json`.
 
 The contract is `function.schema.json` beside this file.  Reading takes from it the task and the
 dimensions of linkages, and judges these anew, as `saved` does.
@@ -22,6 +22,7 @@ from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
 from burmester.io.linkage_data import number
 from burmester.io.reading.functions.function_file import task_of_tree
+from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.result import message_data
 from burmester.io.saved import (
     judged_otherwise,
@@ -33,8 +34,13 @@ from burmester.io.saved import (
     warnings_of,
 )
 from burmester.printable import printable
-from burmester.synthesis.function_generation import FunctionMethod, FunctionSynthesis
+from burmester.synthesis.function_generation import (
+    FunctionMethod,
+    FunctionSynthesis,
+    coupler_synthesis,
+)
 from burmester.values import shown
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = [
     "SCHEMA",
@@ -109,14 +115,13 @@ def _task(task: FunctionTask) -> dict[str, Any]:
     angles = {
         "input_phase_deg": task.input_phase,
         "output_phase_deg": task.output_phase,
-        "transmission_deg": task.least_transmission,
     }
     data |= {key: _plain_degrees(each) for key, each in angles.items() if each is not None}
-    if task.link_ratio is not None:
-        data["link_ratio"] = task.link_ratio
-    if task.types is not None:
-        data["types"] = sorted(task.types)
-    return data | {"minimax": task.minimax, "ground": task.ground}
+    return (
+        data
+        | requirements_data(task.requirements)
+        | {"minimax": task.minimax, "ground": task.ground}
+    )
 
 
 def _plain_degrees(angle: float) -> float:
@@ -202,6 +207,12 @@ class FunctionResult(NamedTuple):
             )
         return named(every, id, self.label, self.refused)
 
+    def exported(self, id: str | None = None) -> FoundLinkage:
+        """A linkage as exports take it: the coupler is the body."""
+        chosen = self.choose(id)
+        judged = coupler_synthesis(self.synthesis.task, chosen)
+        return replace(judged.linkages[0], id=chosen.id, usable=chosen.usable)
+
 
 def is_function_result(data: bytes) -> bool:
     """Whether bytes are a result of this kind, whatever is wrong with it."""
@@ -226,7 +237,7 @@ def read_function_result(data: bytes, path: str) -> FunctionResult:
 def _synthesis(tree: dict[str, Any], refused: dict[str, InputError]) -> FunctionSynthesis:
     """The task of a file and its linkages, judged anew; of the search what the file says."""
     if tree.get("schema") != SCHEMA:
-        raise unlike(f"this is no result of synthesize: its schema is not {SCHEMA}")
+        raise unlike(f"this is no result of function: its schema is not {SCHEMA}")
     stated = tree.get("task")
     if not isinstance(stated, dict) or not isinstance(tree.get("linkages"), list):
         raise unlike("this result has no task, or no linkages")

@@ -112,6 +112,8 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
     }
     if found.clearance is not None:
         data["clearance"] = _clearance(found.clearance, found.driver_first.first)
+    if found.timing_error is not None:
+        data["timing_error_deg"] = [number(each) for each in np.degrees(found.timing_error)]
     if (links := found.driver_first.links) is not None:
         data["links"] = {name: float(length) for name, length in links._asdict().items()}
     if np.isfinite(found.error.angle).all():

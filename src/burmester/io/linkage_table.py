@@ -191,6 +191,7 @@ def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Itera
         sentences.pose_tolerance_note,
         sentences.tolerance_note,
         sentences.tracing_note,
+        sentences.timing_note,
         sentences.rounding_note,
     )
     for note in (digits, uncertainty, sentences.type_note, *made):

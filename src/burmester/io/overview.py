@@ -21,6 +21,7 @@ from burmester.io.message import show as show_message
 from burmester.io.result import message_data, motion_data, task_data
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.point_conditions import point_conditions
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
@@ -81,8 +82,10 @@ def _poses(task: Task) -> Table:
         values["angle [°]"] = np.degrees(task.poses.angle)
     elif task.path.crank_angles is not None:
         values["crank [°]"] = np.degrees(task.path.crank_angles)
+    if task.timing is not None:
+        values["crank [°]"] = np.degrees(task.timing.angles)
     for head, column in values.items():
-        columns[head] = [f"{value:.10g}" for value in column]
+        columns[head] = ["" if math.isnan(value) else f"{value:.10g}" for value in column]
     if task.weights is not None:
         columns["weight"] = [f"{value:g}" for value in task.weights]
     if task.tolerances is not None and (task.path is None or task.tolerances.gives_room):
@@ -139,6 +142,8 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
         yield "known", f"{positions}{'' if task.angles_are_free else angles}"
     else:
         yield "known", "exact, unless --pose-sigma says otherwise"
+    if task.timing is not None:
+        yield "crank", _crank(task.timing)
     if task.path is not None:
         yield "asks", _asked_of_path(task, task.path)
     elif points is not None:
@@ -150,6 +155,16 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
             motion.nullity, f"{motion.nullity} independent quadrics hold"
         )
         yield "rank", f"{8 - motion.nullity} of 8: {quadrics} all poses in image space"
+
+
+def _crank(timing: CrankTiming) -> str:
+    """What the angles of the crank say."""
+    number = len(timing.timed)
+    how = "as directions on the ground" if timing.absolute else "counted from the first of them"
+    sense = {1: ", counterclockwise", -1: ", clockwise", 0: ""}[timing.sense]
+    within = f"; each within {figure(math.degrees(timing.bound))}°" if timing.within else ""
+    many = f"{count_of(number, 'pose')} {'is' if number == 1 else 'are'} timed"
+    return f"{many} by the crank, its angles {how}{sense}{within}"
 
 
 def _path(task: Task, path: TracedPath) -> str:

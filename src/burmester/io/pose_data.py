@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from burmester.geometry.displacement import Displacement
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances
 
-__all__ = ["degrees_of", "poses_data", "tolerances_data"]
+__all__ = ["crank_data", "degrees_of", "poses_data", "tolerances_data"]
 
 
 def poses_data(poses: Displacement) -> list[dict[str, float]]:
@@ -25,6 +27,17 @@ def degrees_of(angle: float) -> float:
     degrees = float(np.degrees(angle))
     short = float(f"{degrees:.15g}")
     return short if np.radians(short) == angle else degrees
+
+
+def crank_data(poses: Sequence[dict[str, Any]], timing: CrankTiming) -> dict[str, Any]:
+    """Put the angles of the crank into poses, and the key `crank` that says how they are meant."""
+    for pose, angle in zip(poses, timing.angles.tolist(), strict=True):
+        if math.isfinite(angle):
+            pose["crank_deg"] = degrees_of(angle)
+    meant: dict[str, Any] = {"absolute": True} if timing.absolute else {}
+    if timing.within is not None:
+        meant["within_deg"] = degrees_of(timing.within)
+    return {"crank": meant} if meant else {}
 
 
 def tolerances_data(tolerances: PoseTolerances) -> list[dict[str, Any]]:

@@ -27,7 +27,7 @@ from burmester.io.linkage_data import (
     linkage_data,
     number,
 )
-from burmester.io.pose_data import degrees_of, poses_data, tolerances_data
+from burmester.io.pose_data import crank_data, degrees_of, poses_data, tolerances_data
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
 from burmester.linkages.nearby_linkages import Move, greatest_move, moves
@@ -230,6 +230,8 @@ def task_data(task: Task) -> dict[str, Any]:
         for pose, stated in zip(poses, tolerances_data(task.tolerances), strict=True):
             pose.update(stated)
     data: dict[str, Any] = {"poses": poses, "length_unit": task.length_unit}
+    if task.timing is not None:
+        data |= crank_data(poses, task.timing)
     if task.path is not None:
         data["path"] = path_data(task.path)
     if task.limits:

@@ -16,6 +16,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.constraints import AllConstraints
+from burmester.refinement.kept_timing import TimingConstraint
 from burmester.refinement.target import Target
 from burmester.tasks.pose_sample import PoseSample
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -42,6 +43,8 @@ def refined_by_all(candidates: Candidates, target: Target) -> Candidates:
     whole, index = target.whole, target.index
     if whole is None or index is None or whole.worst or whole.boxes is not None:
         return candidates
+    if any(isinstance(each, TimingConstraint) for each in whole.kept):
+        return candidates  # places that the crank times are unknowns, and of many poses too many
     cost = np.nan_to_num(target.cost(candidates.rows), nan=np.inf)
     near = np.sort(cost)[: min(MOST, len(cost))]
     some = np.flatnonzero(np.isfinite(cost) & (cost <= max(COST_RATIO * near[0], near[-1])))

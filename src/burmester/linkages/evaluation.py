@@ -42,6 +42,7 @@ from burmester.verdicts.quality import Quality
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
 from burmester.verdicts.requirement_check import Violation, places_between, violations
 from burmester.verdicts.standard import Standard
+from burmester.verdicts.timing_check import mistimed, timing_error
 from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
 from burmester.verdicts.tracing import stray_defects, stray_shortcomings
@@ -190,7 +191,8 @@ class Evaluation:
         errors, shares = self.errors(places), self.shares(places)
         sensitivity = self.sensitivities(own, places)
         verdicts = self.verdicts(own, places, errors, sensitivity)
-        combined = self.target.combined_error(candidates.rows) * float(self.target.frames.length)
+        at_angles = self.target.at_angles(candidates.batch, candidates.rows)
+        combined = self.target.combined_error(at_angles) * float(self.target.frames.length)
         if self.target.path is not None:
             combined = np.array([each.worst for each in errors])
         standard = Standard.of(self.task)
@@ -231,6 +233,7 @@ class Evaluation:
                 within_tolerance=None if shares is None else shares[k],
                 task=self.problem.given,
             )
+            found = replace(found, timing_error=timing_error(found.driven.inputs, self.task))
             out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
         for k, strays in enumerate(stray_shortcomings(out, self.task)):
             if strays:
@@ -390,7 +393,7 @@ class Evaluation:
 
         Requirements depend on the driver, limits do not.
         """
-        asked = self.task.requirements
+        asked, stated = self.task.requirements, self.problem.given.requirements
         sides: tuple[Side, ...] = SIDES if settled is None else (settled,)
         if asked.driver in sides:
             sides = (asked.driver,)
@@ -398,8 +401,10 @@ class Evaluation:
         def merit(side: Side) -> tuple[tuple[float, ...], tuple[Violation, ...]]:
             driven = verdict.first if side == "first" else verdict.second
             missing = violations(
-                with_driver_first(linkage, side), driven, asked, self.task.length_unit
+                with_driver_first(linkage, side), driven, stated, self.task.length_unit
             )
+            if self.task.timing is not None:
+                missing += mistimed(driven.inputs, self.task, self.problem.pose_numbers)
             wrong = len(driven.defects), len(missing)
             least = driven.least_over_range
             weak = 0.0 if math.isnan(least) else -round(least, 6)  # no rounding decides
@@ -519,6 +524,9 @@ def at_given_poses(
             within_tolerance=None
             if each.within_tolerance is None
             else shares_used(each.error.places[group], given, problem.length),
+            timing_error=None
+            if each.timing_error is None
+            else timing_error(each.driven.inputs[group], given),
         )
         for each in found
     )

@@ -11,6 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from math import inf
+from typing import Any
 
 import numpy as np
 
@@ -42,10 +43,11 @@ from burmester.refinement.defect_free_search import (
 )
 from burmester.refinement.kept_limits import DyadLimitsConstraint
 from burmester.refinement.kept_rail import RailConstraint
+from burmester.refinement.kept_timing import TimingConstraint
 from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
-from burmester.tasks.problem import SynthesisProblem
+from burmester.tasks.problem import SynthesisProblem, driving_side
 from burmester.verdicts.degeneracy import least_links
 from burmester.verdicts.explanation import by_nearness
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
@@ -72,6 +74,10 @@ FIRST_STEPS, FURTHER_STEPS = 8, 52
 MIN_REFINED, REFINED_COST_RATIO = 4, 100.0
 # Of more poses a sample of about so many is refined on, and a last few steps are made by all.
 MAX_POSES_REFINED = 200
+# Each place of a timed pose is an unknown.
+MAX_TIMED_REFINED = 24
+# Numbers of steps of linkages of timed poses, and after each the number of those that go on.
+TIMED_SELECTION = (8, 24), (20, 10)
 # For the least worst error the worst poses join it, and all is done again, at most so many times.
 MAX_EXCHANGES = 5
 # Degrees by which a greater least transmission angle is asked for within tolerances, and how often.
@@ -148,9 +154,10 @@ def _by_sample(
 
 def sample_refined(problem: SynthesisProblem) -> PoseSample | None:
     """The poses by which the linkages of a problem are refined; None where they are all."""
-    if not problem.options.refines or problem.task.poses.shape[0] <= MAX_POSES_REFINED:
+    most = MAX_POSES_REFINED if problem.task.timing is None else MAX_TIMED_REFINED
+    if not problem.options.refines or problem.task.poses.shape[0] <= most:
         return None
-    return PoseSample.of_task(problem.task, MAX_POSES_REFINED)
+    return PoseSample.of_task(problem.task, most)
 
 
 def target_of(problem: SynthesisProblem) -> Target:
@@ -169,6 +176,8 @@ def target_of(problem: SynthesisProblem) -> Target:
     if task.tolerances is not None:
         boxes = ToleranceBoxes.of(task.tolerances, poses, length / unit, unit)
         kept = (*kept, boxes)
+    if task.timing is not None:
+        kept = (*kept, TimingConstraint(driving_side(task), task.timing, length / unit))
     return Target(
         poses,
         length / unit,
@@ -195,12 +204,14 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     both = apart & np.isfinite(one).all(axis=(1, 2)) & refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
+    rows = target.at_angles(start[index], rows)
     none = np.zeros(len(index), dtype=bool)
     candidates = Candidates(start[index], rows, [pairs[k] for k in index], none)
     if refine:
         candidates = _refined(candidates, target)
         # Refinement may leave places in local minima that are not the nearest.
         rows = on_own_circuits(candidates.batch, candidates.rows, target.poses, target.length)
+        rows = target.at_angles(candidates.batch, rows)
         candidates = refined_by_all(candidates._replace(rows=rows), target)
     # Linkages that did not change keep all their digits.
     own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in candidates.pairs]).dimensions
@@ -221,11 +232,13 @@ def _refined(candidates: Candidates, target: Target) -> Candidates:
         return candidates
     kept = AllConstraints(target.kept) if target.kept else None
     dimensions, rows = candidates.batch.dimensions.copy(), candidates.rows.copy()
+    timed = any(isinstance(each, TimingConstraint) for each in target.kept)
+    fewer: dict[str, Any] = {"selection": TIMED_SELECTION} if timed else {}
     plain = not target.worst and kept is None and target.exact is None
     for steps in (FIRST_STEPS, FURTHER_STEPS) if plain else (FURTHER_STEPS,):
         batch = LinkageBatch(candidates.batch.kinds[some], dimensions[some])
         refined = target.refine(
-            batch, rows[some], constraints=kept, worst=target.worst, steps=steps
+            batch, rows[some], constraints=kept, worst=target.worst, steps=steps, **fewer
         )
         with np.errstate(invalid="ignore"):
             better = refined.met & (target.worst | (target.cost(refined.rows) <= cost[some]))

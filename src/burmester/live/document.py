@@ -18,7 +18,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Polygon, Region, box
-from burmester.io.pose_data import degrees_of, tolerances_data
+from burmester.io.pose_data import crank_data, degrees_of, tolerances_data
 from burmester.io.reading.outlines.outline_file import FROM_PAGE
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.requirements_text import positive_length
@@ -43,7 +43,7 @@ __all__ = [
 MOST_POSES = 100_000  # of a document
 NAME = "task.json"  # what a document is called where a message says its place
 
-_OF_POSES = ("poses", "path", "angle_unit", "length_unit", "pose_sigma", "tolerance")
+_OF_POSES = ("poses", "path", "crank", "angle_unit", "length_unit", "pose_sigma", "tolerance")
 _WORDS = {"method": "method", "norm": "norm", "prefer": "prefer"}
 _LENGTHS = {"angle-weight": "length_per_radian", "tolerance": "manufacturing_tolerance"}
 
@@ -138,6 +138,9 @@ def document_of(task: Task) -> dict[str, Any]:
         document = {"length_unit": task.length_unit, **document}
     if (usual := _usual_tolerance(task)) is not None:
         document["tolerance"] = usual
+    if task.timing is not None:
+        meant = crank_data(document["poses"], task.timing)
+        document |= plain({**meant, "poses": document["poses"]})
     if task.path is not None:
         document["path"] = plain(path_data(task.path))
     if task.body is not None:

@@ -22,6 +22,7 @@ from burmester.numerics.weights import shares
 from burmester.refinement.constraints import (
     Constraints,
 )
+from burmester.refinement.kept_timing import TimingConstraint
 from burmester.refinement.least_error import Refined, refine
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
@@ -120,7 +121,12 @@ class Target:
         thin = self if self.boxes is None else self._with_boxes(self.boxes.at(index))
         exact = None if self.exact is None else self.exact[index]
         path = self.path and self.path.at(index)
-        return replace(thin, poses=self.poses[index], weights=weights, exact=exact, path=path)
+        kept = (
+            part.at(index) if isinstance(part, TimingConstraint) else part for part in thin.kept
+        )
+        own = tuple(part for part in kept if part is not None)
+        poses = self.poses[index]
+        return replace(thin, poses=poses, kept=own, weights=weights, exact=exact, path=path)
 
     def places(self, batch: LinkageBatch, *, on_both: bool = False) -> FloatArray:
         """Rows (k, N, 3) of the places nearest to the poses, on the circuit with the least cost.
@@ -165,6 +171,14 @@ class Target:
             any_order=self.requirements.any_order,
         )
         return rows, None
+
+    def at_angles(self, batch: LinkageBatch, rows: FloatArray) -> FloatArray:
+        """Rows (k, N, 3) of places, those of timed poses where the driver is at its angle."""
+        wanted = rows_of(self.poses, self.length)
+        for each in self.kept:
+            if isinstance(each, TimingConstraint):
+                return each.timed_places(batch, rows, wanted)
+        return rows
 
     def places_of(self, rows: FloatArray) -> Displacement:
         """Rows (*, 3) as displacements."""

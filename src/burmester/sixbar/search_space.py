@@ -118,7 +118,8 @@ def require_kept(task: Task, *, judged: bool = False) -> None:
     tried = {
         "a footprint": asked.footprint is not None,
         "types of linkage": asked.types is not None,
-        "a driver by its limits": asked.driver in ("first", "second"),
+        "a driver by its limits": asked.driver in ("first", "second") and task.timing is None,
+        "crank angles at the poses": task.timing is not None,
         "regions to keep out of": task.surroundings is not None,
         "a path to trace": task.path is not None,
         "tolerances of poses": task.tolerances is not None and task.path is None and not judged,

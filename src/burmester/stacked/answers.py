@@ -166,8 +166,6 @@ class StackedAnswers:
     code : (T,) array of str
         The code of the page that says more (`burmester explain`): of the outcome as the road of
         one task has it, or of the error where the task was refused.
-    alone : (T,) array of bool
-        Which tasks took the road of one task, as the stacked one could not vouch for its answer.
     warnings : tuple of (int, str)
         A task and the code of a warning, by rising task.
     """
@@ -178,7 +176,6 @@ class StackedAnswers:
     linkages: LinkageRows | None
     outcome: Codes
     code: NDArray[np.str_]
-    alone: NDArray[np.bool_]
     warnings: tuple[tuple[int, str], ...] = ()
 
 

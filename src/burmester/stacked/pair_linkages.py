@@ -10,13 +10,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.selection import SAME_DYAD
+from burmester.dyads.selection import Found, same_dyads
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven, Verdict, judge
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage import TYPES, grashof_numbers
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
+from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch, pin_distances
 from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.fourbar.pivot_box import extent
 from burmester.geometry.displacement import Displacement
@@ -25,8 +25,7 @@ from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import shares
 from burmester.refinement.target import ONE_CIRCUIT_RATIO
-from burmester.stacked.answers import DyadRows, LinkageRows
-from burmester.stacked.found_dyads import ANGLES
+from burmester.stacked.answers import LinkageRows
 from burmester.tasks.length_per_radian import lengths_per_radian
 from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
@@ -66,7 +65,7 @@ class Scales(NamedTuple):
 
 
 def pair_linkages(
-    dyads: DyadRows, poses: Displacement, weights: FloatArray | None, scales: Scales
+    dyads: Found, poses: Displacement, weights: FloatArray | None, scales: Scales
 ) -> LinkageRows:
     """The linkages of all pairs of dyads (D,), by rising task, of tasks with poses (T, N).
 
@@ -93,7 +92,7 @@ class _Pairs(NamedTuple):
     batch: LinkageBatch
 
 
-def _pairs(dyads: DyadRows, scales: Scales) -> _Pairs:
+def _pairs(dyads: Found, scales: Scales) -> _Pairs:
     """All pairs of two different dyads of a task, the kinds in the order of `DYAD_KINDS`."""
     count = np.bincount(dyads.task, minlength=len(scales.radian))
     starts = np.cumsum(count) - count
@@ -104,34 +103,16 @@ def _pairs(dyads: DyadRows, scales: Scales) -> _Pairs:
         one.append((starts[task][:, None] + earlier).ravel())
         two.append(np.repeat(starts[task] + number - 1, number - 1))
     a, b = np.concatenate(one), np.concatenate(two)
-    z, pp = _dimensions(dyads), DyadRows.KINDS.index("PP")
-    task = dyads.task[a]
-    length = scales.characteristic[task][:, None]
-    most = np.where(ANGLES[np.minimum(dyads.kind[a], pp - 1)], SAME_DYAD, SAME_DYAD * length)
-    same = (dyads.kind[a] == dyads.kind[b]) & (np.abs(z[a] - z[b]) < most).all(axis=1)
-    sound = np.flatnonzero(~same & (dyads.kind[a] != pp) & (dyads.kind[b] != pp))
+    kind, task = dyads.kind, dyads.task[a]
+    same, early, late = same_dyads(dyads, scales.characteristic)
+    twice = np.isin(a * len(kind) + b, (starts[same] + early) * len(kind) + starts[same] + late)
+    sound = np.flatnonzero(~twice & (kind[a] < len(DYAD_KINDS)) & (kind[b] < len(DYAD_KINDS)))
     a, b, task = a[sound], b[sound], task[sound]
-    swap = dyads.kind[b] < dyads.kind[a]
+    swap = kind[b] < kind[a]
     a, b = np.where(swap, b, a), np.where(swap, a, b)
-    batch = LinkageBatch(
-        np.stack([dyads.kind[a], dyads.kind[b]], axis=1), np.stack([z[a], z[b]], 1)
-    )
+    both = np.stack([a, b], axis=1)
+    batch = LinkageBatch(kind[both], dyads.dimensions[both])
     return _Pairs(task, a - starts[task], b - starts[task], batch)
-
-
-def _dimensions(dyads: DyadRows) -> FloatArray:
-    """The dimensions (D, 5) of dyads as in `LinkageBatch`; nan for PP."""
-    z = np.full((len(dyads), DIMENSIONS), np.nan)
-    rr, pr, rp = (dyads.kind == k for k in range(3))
-    normal, zero = np.radians(dyads.normal_deg)[:, None], np.zeros((len(dyads), 1))
-    line = np.concatenate([normal, dyads.offset[:, None]], axis=1)
-    for of, parts in (
-        (rr, (dyads.fixed, dyads.moving, dyads.length[:, None])),
-        (pr, (line, dyads.moving, zero)),
-        (rp, (dyads.fixed, line, zero)),
-    ):
-        z[of] = np.concatenate(parts, axis=1)[of]
-    return z
 
 
 def _judged(

@@ -2,23 +2,48 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from itertools import combinations, product
-from typing import final
+from itertools import combinations
+from typing import NamedTuple, final
 
 import numpy as np
+from numpy.typing import NDArray
 
-from burmester.dyads.five_poses import dyads_of_five
-from burmester.dyads.local_minima import best_dyads
-from burmester.dyads.pencil import fit_pencil
-from burmester.dyads.selection import Fit, FoundDyad, found_dyads, same_dyad
+from burmester.dyads.five_poses import FivePoseDyads, dyads_of_five
+from burmester.dyads.local_minima import (
+    BestDyads,
+    ManyBestDyads,
+    best_dyads,
+    best_dyads_of_tasks,
+)
+from burmester.dyads.pencil import Pencil, fit_pencil
+from burmester.dyads.selection import (
+    Fit,
+    Fits,
+    Found,
+    FoundDyad,
+    GivenPoses,
+    beside,
+    dyads_of_fits,
+    found_dyads,
+    same_dyads,
+)
+from burmester.numerics.bundles import take
 from burmester.tasks.limits import Limits
+from burmester.tasks.options import Method
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import Pair
 
-__all__ = ["DyadSearch", "exact_dyads", "search_dyads"]
+__all__ = [
+    "LINKAGE_QUADRICS",
+    "DyadSearch",
+    "Searched",
+    "dyads_of_tasks",
+    "exact_dyads",
+    "search_dyads",
+]
 
+MEETING = 2  # dyads that make a linkage
 LINKAGE_QUADRICS = 2  # that hold all poses of a four-bar; poses of no linkage have none
 
 
@@ -45,68 +70,107 @@ class DyadSearch:
         length: the characteristic length of the task.  What obeys both of two limits is found
         twice, and no pair.
         """
-        every: Iterable[Pair] = combinations(self.dyads, 2)
-        if len(self.fits) > 1:
-            one, other = ([each for each in self.dyads if each.limits == k] for k in (1, 2))
-            every = product(one, other)
+        _, one, other = same_dyads(Found.of(self.dyads), np.array([length]))
+        same = set(zip(one.tolist(), other.tolist(), strict=True))
         pairs: list[Pair] = []
         twice: list[Pair] = []
-        for first, second in every:
-            same = same_dyad(first.dyad, second.dyad, length)
-            (twice if same else pairs).append((first, second))
+        for (i, first), (j, second) in combinations(enumerate(self.dyads), 2):
+            if len(self.fits) == 1 or first.limits != second.limits:
+                (twice if (i, j) in same else pairs).append((first, second))
         return pairs, [] if len(self.fits) > 1 else twice
+
+
+class Searched(NamedTuple):
+    """The dyads of tasks (T,) without limits by one method.
+
+    fit: what the method learnt; nearest: (D,), which of the dyads only come near to the poses, as
+    fewer than two meet all five.
+    """
+
+    fit: Pencil | FivePoseDyads | ManyBestDyads
+    given: GivenPoses
+    found: Found
+    nearest: NDArray[np.bool_]
+
+
+def dyads_of_tasks(
+    method: Method,
+    given: GivenPoses,
+    *,
+    normalise: bool = True,
+    five: NDArray[np.int_] | None = None,
+    fit: Pencil | FivePoseDyads | ManyBestDyads | None = None,
+) -> Searched:
+    """The dyads of tasks without limits, exact poses and another norm.
+
+    five: where five of the poses determine all dyads, which; fit: of all tasks, where it is known.
+    """
+    poses, weights, few = given.poses, given.weights, np.zeros(len(given.length), dtype=bool)
+    if fit is not None:
+        pass
+    elif method == "pencil":
+        fit = fit_pencil(poses, weights, normalise=normalise)
+    elif method == "exact":
+        fit = dyads_of_five(poses if five is None else poses[:, five])
+    else:
+        fit = best_dyads_of_tasks(poses, weights)
+    fits = Fits.of(fit, given)
+    found = dyads_of_fits(fits)
+    if method == "exact":
+        few = np.bincount(found.task, minlength=len(few)) < MEETING
+    if not few.any():
+        return Searched(fit, given, found, np.zeros(len(found.task), dtype=bool))
+    near = dyads_of_tasks("complete", given.those(few)).found
+    near = near._replace(task=np.flatnonzero(few)[near.task])
+    return Searched(fit, given, *beside(found, near, given.length))
 
 
 def search_dyads(problem: SynthesisProblem) -> DyadSearch:
     """The dyads of a problem whose method is chosen."""
+    task, motion, options = problem.task, problem.motion, problem.options
+    bound = options.norm != "rms" or (task.exact is not None and task.exact.any())
+    if task.limits or (bound and options.method == "complete"):
+        return _under_conditions(problem)
+    five = None if motion is None else motion.five
+    given = GivenPoses.of(task, problem.length if task is problem.given else None)
+    some = dyads_of_tasks(options.method, given, normalise=options.normalise, five=five)
+    fit = some.fit.of_one() if isinstance(some.fit, ManyBestDyads) else take(some.fit, 0)
+    meeting, left_out = int((~some.nearest).sum()), int(some.found.left_out[0])
+    return DyadSearch((fit,), tuple(some.found.listed()), meeting, left_out)
+
+
+def _under_conditions(problem: SynthesisProblem) -> DyadSearch:
+    """The dyads of one task within limits, of exact poses or another norm."""
     fits, task = _fits(problem), problem.task
-    lists, left_out = [], 0
+    dyads, left_out = [], 0
     for number, fit in enumerate(fits, start=1):
         found, dropped = found_dyads(fit, task)
         left_out += dropped
-        lists.append([replace(each, limits=number if len(fits) > 1 else 0) for each in found])
-    meeting = sum(map(len, lists))
-    if problem.options.method == "exact" and not task.limits and meeting < 2:
-        nearest, _ = found_dyads(best_dyads(task.poses, task.weights), task)
-        known = [each.dyad for each in lists[0]]
-        lists[0] += [
-            each
-            for each in nearest
-            if not any(same_dyad(each.dyad, other, problem.length) for other in known)
-        ]
-    dyads = (each for found in lists for each in found)
+        dyads += [replace(each, limits=number if len(fits) > 1 else 0) for each in found]
     numbered = tuple(replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1))
-    return DyadSearch(fits, numbered, meeting, left_out)
+    return DyadSearch(fits, numbered, len(numbered), left_out)
 
 
-def exact_dyads(problem: SynthesisProblem) -> int:
-    """How many dyads meet all poses within their digits, by the rank of the design matrix.
+def exact_dyads(nullity: int | NDArray[np.int_], count: int) -> NDArray[np.int_]:
+    """How many dyads meet all of `count` poses within their digits, by the nullities (*,).
 
     Two where two quadrics hold more poses than any two quadrics can; else 0, which claims nothing.
     """
-    motion = problem.motion
-    if motion is None:
-        return 0
-    by_count = max(0, 8 - problem.task.poses.shape[0])
-    return LINKAGE_QUADRICS if motion.nullity >= LINKAGE_QUADRICS > by_count else 0
+    sure = (np.asarray(nullity) >= LINKAGE_QUADRICS) & (max(0, 8 - count) < LINKAGE_QUADRICS)
+    return np.where(sure, LINKAGE_QUADRICS, 0)
 
 
-def _fits(problem: SynthesisProblem) -> tuple[Fit, ...]:
-    """What the method makes of the poses, once for each of the task's limits."""
-    task, motion, options = problem.task, problem.motion, problem.options
-    if options.method == "pencil":
-        return (fit_pencil(task.poses, task.weights, normalise=options.normalise),)
-    if options.method == "complete":
-        if not task.limits:
-            return (best_dyads(task.poses, task.weights, task.exact, None, options.norm),)
-        fits = []
-        for each, missing in zip(task.limits, problem.missing_conditions, strict=True):
-            # Beside a rail there may be a dyad that few poses leave open: links of the pivot maps.
-            own = Limits(kinds=frozenset({"PP"})) if missing > 0 else each
-            fits.append(best_dyads(task.poses, task.weights, task.exact, own, options.norm))
-        return tuple(fits)
+def _fits(problem: SynthesisProblem) -> tuple[BestDyads, ...]:
+    """The best dyads of the poses, once for each of the task's limits."""
+    task, options = problem.task, problem.options
     if not task.limits:
-        five = slice(None) if motion is None or motion.five is None else motion.five
-        return (dyads_of_five(task.poses[five]),)
-    every = np.ones(task.poses.shape, dtype=bool)
-    return tuple(best_dyads(task.poses, None, every, each) for each in task.limits)
+        return (best_dyads(task.poses, task.weights, task.exact, None, options.norm),)
+    if options.method != "complete":
+        every = np.ones(task.poses.shape, dtype=bool)
+        return tuple(best_dyads(task.poses, None, every, each) for each in task.limits)
+    fits = []
+    for each, missing in zip(task.limits, problem.missing_conditions, strict=True):
+        # Beside a rail there may be a dyad that few poses leave open: links of the pivot maps.
+        own = Limits(kinds=frozenset({"PP"})) if missing > 0 else each
+        fits.append(best_dyads(task.poses, task.weights, task.exact, own, options.norm))
+    return tuple(fits)

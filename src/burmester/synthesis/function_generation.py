@@ -194,17 +194,16 @@ def _exactly(task: FunctionTask) -> FunctionSynthesis:
                 "a link without end is a slider, and a function generator with one is not made",
             )
         )
-    real = len(found) + every.sliders
-    head = f"{_number(found)} of the {every.expected} that such pairs have"
+    head = f"{_number(found)} of the {task.solutions} that such pairs have"
     return FunctionSynthesis(
         task,
         "exact",
         _outcome(found, task, head),
         found,
         tuple(warnings),
-        every.expected,
-        every.expected,
-        real,
+        task.solutions,
+        task.solutions,
+        len(found) + every.sliders,
     )
 
 
@@ -227,12 +226,12 @@ def _by_phases(task: FunctionTask) -> FunctionSynthesis:
 
 def _nearly(task: FunctionTask) -> FunctionSynthesis:
     warnings: list[Advice] = []
-    solutions, reached, real = 1, 1, 1
+    solutions, reached, real = task.solutions or 1, 1, 1
     if task.free_phases:
         step("following paths to all critical points")
         points = critical_generators(task)
-        phases, which = (points.input_phase, points.output_phase), points.real
-        solutions, reached, real = points.expected, points.found, int(which.sum())
+        phases = points.input_phase, points.output_phase
+        reached, real = points.found, int(points.real.sum())
         if reached < solutions:
             warnings.append(
                 Advice(

@@ -90,7 +90,7 @@ def _judgement(
     evaluation = Evaluation(problem, target_of(problem))
     given = _found_dyads(both, evaluation)
     step("judging the linkage")
-    orders = [given, given[::-1]] if len(task.limits) > 1 else [given]
+    orders = [given, given[::-1]] if len(problem.task.limits) > 1 else [given]
     judged = _judged(orders, np.zeros(len(orders), dtype=bool), evaluation)
     found = replace(judged[best_places(judged)], id="L1", rank=1)
     every = [found]

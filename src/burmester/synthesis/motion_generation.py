@@ -105,8 +105,8 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options)
     known = (*task.notes, *repeats, *note, *diagnosis.findings)
-    if (points := _of_points(problem, known)) is not None:
-        return points
+    if (asked := _of_points(problem, known) or _of_timed_poses(problem, known)) is not None:
+        return asked
     open_ = max(problem.missing_conditions) > 0 and options.method in ("auto", "exact")
     if problem.is_special:
         parallel = isinstance(_kind(problem), CircularTranslation)
@@ -177,6 +177,16 @@ def _of_points(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     return found
 
 
+def _of_timed_poses(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
+    """Poses that the crank times more than fully: the nearest linkages; None for others."""
+    timed = problem.given.timing is not None and not problem.is_special
+    if not timed or min(problem.missing_conditions) >= 0:
+        return None
+    from burmester.synthesis.timed_poses import near_timed_poses  # noqa: PLC0415  few need it
+
+    return near_timed_poses(problem, findings)
+
+
 def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
     """Too few conditions leave infinitely many linkages: the best of them; None if none meets."""
     # Few tasks need them.
@@ -206,6 +216,10 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     linkages = at_given_poses(members, problem)
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
     outcome, advice = family_summary(problem, found, linkages)
+    if problem.task.timing is not None:
+        from burmester.synthesis.timed_poses import of_timed_drivers  # noqa: PLC0415  the same
+
+        outcome = of_timed_drivers(problem, outcome)
     more = [] if found.given_up else linkage_advice(problem.given, linkages, outcome.code)
     warnings = (*findings, *advice, *more)
     return Synthesis(problem, outcome, dyads, linkages, warnings, family=found)
@@ -276,6 +290,8 @@ def _special_motion(problem: SynthesisProblem, findings: Sequence[Advice]) -> Sy
     for number, dyad in enumerate(kind.dyads, start=1):
         dyads.append(FoundDyad(f"D{number}", dyad, *_miss(dyad, task)))
     pairs = list(combinations(dyads, 2))
+    if task.timing is not None:  # either may be the driver
+        pairs += [pair[::-1] for pair in pairs]
     linkages = _linkages(problem.merged(), pairs, refine=False) if pairs else ()
     outcome = Outcome(kind.code, kind.message, kind.help)
     if isinstance(kind, Rest | FewPoses):  # these outcomes name the repeated poses themselves

@@ -9,8 +9,8 @@ from dataclasses import replace
 from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
-from burmester.dyads.long_links import is_nearly_slider, swing
-from burmester.dyads.selection import within_digits
+from burmester.dyads.long_links import nearly_sliders, swing
+from burmester.dyads.selection import Found, GivenPoses, within_digits
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.from_dyads import MAX_POSES_REFINED, sample_refined
@@ -101,14 +101,15 @@ def _nearly_sliders(
             "if a link that long cannot be built, say how long it may be with --length :MAX",
         )
         for name, dyad in known.values()
-        if isinstance(dyad, RR) and is_nearly_slider(dyad, poses, size)
+        if isinstance(dyad, RR) and nearly_sliders(dyad, poses, size)
     ]
 
 
 def _off_poses(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
     """What is said of dyads that should meet all five poses and do not."""
     some = found.dyads[: found.meeting]
-    off = [each.id for each in some if not within_digits(each, problem.task)]
+    within = within_digits(Found.of(some), GivenPoses.of(problem.task, problem.length))
+    off = [each.id for each, met in zip(some, within, strict=True) if not met]
     if not off:
         return []
     return [
@@ -127,10 +128,12 @@ def _unaccounted(
     """What is not accounted for of a task without limits, if anything."""
     help = "compare with --method pencil; poses that turn little, or of a special motion, are the "
     help += "usual reason"
-    known, exact = _accounted(search), exact_dyads(problem)
+    known, nullity = _accounted(search), 0 if problem.motion is None else problem.motion.nullity
+    exact = int(exact_dyads(nullity, problem.task.poses.shape[0]))
     # Where all points are accounted for, no dyad is missing for a rank that is near its border.
     times = NEAR_DIGITS if known == COUNT else 1.0
-    meeting = sum(within_digits(each, problem.task, times) for each in found.dyads)
+    given = GivenPoses.of(problem.task, problem.length)
+    meeting = int(within_digits(Found.of(found.dyads), given, times).sum())
     lent = bool(problem.given.free_angles.any())  # angles from a linkage agree with its dyads
     if meeting < exact and not lent:
         message = (

@@ -54,7 +54,7 @@ from burmester.verdicts.standard import Standard
 from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count, figure
 
-__all__ = ["near_points", "with_tolerance"]
+__all__ = ["different", "near_points", "with_rank", "with_tolerance"]
 
 # A sound linkage sets it if it misses by no more than that share of the path's span, or by no more
 # than ERROR_RATIO times as much as the nearest one; never by more than DEFAULT_TOLERANCE.
@@ -93,7 +93,7 @@ def near_points(
     if options.rounds:
         judged = evaluation.rounded(judged)
     judged = evaluation.with_spreads(judged)
-    linkages = tuple(_with_rank(each, rank) for rank, each in enumerate(judged, start=1))
+    linkages = tuple(with_rank(each, rank) for rank, each in enumerate(judged, start=1))
     outcome = _outcome(given, linkages, path, problem)
     warnings = (*findings, *note, *linkage_advice(given, linkages, outcome.code))
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
@@ -337,10 +337,10 @@ def _number(found: FoundLinkage) -> int:
 
 def _told(judged: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     """What is listed of judged linkages: each once, and of those that are many the front."""
-    different = _different(judged, SAME * span(task))
+    apart = different(judged, SAME * span(task))
     if is_timed_exactly(task, task.path or TracedPath()):
-        return different  # they are few: all that there are
-    return _front(different, task)
+        return apart  # they are few: all that there are
+    return _front(apart, task)
 
 
 def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
@@ -380,7 +380,7 @@ def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     return [each for each in usable if each in told]
 
 
-def _with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
+def with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
     """A linkage with its rank, its dyads numbered by it."""
     first, second = (
         replace(each, id=f"D{2 * rank - 2 + number}")
@@ -389,7 +389,7 @@ def _with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
     return replace(found, id=f"L{rank}", rank=rank, dyads=(first, second))
 
 
-def _different(found: Sequence[FoundLinkage], least: float) -> list[FoundLinkage]:
+def different(found: Sequence[FoundLinkage], least: float) -> list[FoundLinkage]:
     """The first of linkages that are alike: pivots and links, however the body's frame is turned.
 
     The nearest one that works stays.  least: length by which alike ones differ.

@@ -14,6 +14,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, nominal_values
@@ -94,6 +95,8 @@ class Task:
     path : TracedPath, optional
         How the points of a task without angles are traced: closed, or timed by the crank.  More
         than nine points without angles are a path in any case.
+    timing : CrankTiming, optional
+        The angles of the driver at the poses.
 
     A task keeps its own copy of its numbers, which cannot be written to.
 
@@ -106,7 +109,7 @@ class Task:
         contradict), E133 (more exact conditions than a dyad or a linkage can meet), E134 (a driver
         named by limits that are not two), E135 (tolerances that do not fit the poses), E136
         (tolerances that a pose marked exact contradicts), E175 (a body that touches a keep-out
-        region at a pose).
+        region at a pose), E186 (crank angles that do not fit).
 
     Examples
     --------
@@ -130,6 +133,7 @@ class Task:
     notes: tuple[Advice, ...] = ()
     read_as: str | None = None
     path: TracedPath | None = None
+    timing: CrankTiming | None = None
 
     @property
     def free_angles(self) -> NDArray[np.bool_]:
@@ -161,6 +165,7 @@ class Task:
             exact=None if self.exact is None else self.exact[index],
             tolerances=None if self.tolerances is None else self.tolerances.at(index),
             path=None if self.path is None else self.path.at(index),
+            timing=None if self.timing is None else self.timing.at(index),
         )
 
     def __post_init__(self) -> None:
@@ -230,8 +235,23 @@ class Task:
             _require_fitting(self.tolerances, count, self.exact, pivots)
         if self.path is not None:
             self.path.require_fitting(count)
+        self._require_timed()
         require_possible(self.requirements, self.limits)
         self._require_clear()
+
+    def _require_timed(self) -> None:
+        """Refuse crank angles that do not fit the poses, or beside tolerances: E186."""
+        if self.timing is None:
+            return
+        self.timing.require_fitting(self.poses)
+        if self.tolerances is not None or self.path is not None:
+            raise InputError(
+                "E186",
+                "poses timed by the crank, and tolerances or free components of a pose",
+                why="a crank angle at a pose needs the pose itself",
+                help="leave the tolerances or the crank angles out; of points alone, each with its "
+                "crank angle, 5 or more are a timed path",
+            )
 
     def _require_clear(self) -> None:
         """Refuse a body that touches a region at a pose that is exact, E175, or has none, E176."""

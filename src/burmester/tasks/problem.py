@@ -7,7 +7,10 @@ from typing import Self, final
 
 import numpy as np
 
+from burmester.errors import InputError
+from burmester.numerics.arrays import wrapped_angle
 from burmester.tasks.length_per_radian import default_length_per_radian
+from burmester.tasks.limits import Kind, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_kinds import FewPoses, Rest, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
@@ -15,8 +18,11 @@ from burmester.tasks.notation import span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.thin_regions import with_limits_to_search
+from burmester.wording import listed
 
-__all__ = ["SynthesisProblem"]
+__all__ = ["SynthesisProblem", "driving_side"]
+
+SAME_TURN = 1e-9  # radians; a crank and a body whose turns differ by less turn alike
 
 
 @final
@@ -26,7 +32,8 @@ class SynthesisProblem:
 
     given: the task as its user gave it.
     task: the same, but every repeated pose once where dyads are looked for; weights add up.  A
-        region thinner than rounding is its segment or point.
+        region thinner than rounding is its segment or point.  Where the crank times poses, it has
+        two limits, the driver is that of one of them, and these allow turning dyads only.
     motion: the class of its motion; None for one pose.
     length: its characteristic length, in its unit.
     length_per_radian: what a radian of angle error counts as, in the same unit.
@@ -44,7 +51,7 @@ class SynthesisProblem:
     @classmethod
     def of(cls, task: Task, motion: MotionClass | None, options: SynthesisOptions) -> Self:
         """A task of a known class of motion, and how it is to be solved."""
-        wide = with_limits_to_search(task)
+        wide = _with_driver(with_limits_to_search(task))
         radian = options.length_per_radian or default_length_per_radian(task)
         problem = cls(task, wide, motion, characteristic_length(task), options, radian)
         return problem if problem.is_special else problem.merged()
@@ -74,6 +81,8 @@ class SynthesisProblem:
     def missing_conditions(self) -> list[int]:
         """How many more conditions leave finitely many dyads, for each of the task's limits."""
         conditions = [limits.conditions for limits in self.task.limits] or [0]
+        if self.task.timing is not None:
+            conditions[driving_side(self.task)] += self.task.timing.conditions
         return [CONDITIONS - each - self.task.poses.shape[0] for each in conditions]
 
     @property
@@ -119,6 +128,7 @@ class SynthesisProblem:
             names=None if task.names is None else tuple(task.names[i] for i in first),
             exact=None if exact is None else np.bincount(motion.group, exact, size) > 0,
             tolerances=None if tolerances is None else tolerances.merged(motion.group),
+            timing=None if task.timing is None else task.timing.merged(motion.group),
         )
         return replace(self, task=once)
 
@@ -130,3 +140,34 @@ class SynthesisProblem:
         weights = None if self.options.norm == "worst" else sample.cells
         some = self.task.at(sample.index, weights)
         return replace(self, task=some, sample=sample)
+
+
+def driving_side(task: Task) -> int:
+    """The side, 0 or 1, of the driver in a task timed by the crank: the first, if not stated."""
+    return 1 if task.requirements.driver == "second" else 0
+
+
+def _with_driver(task: Task) -> Task:
+    """A task timed by the crank with limits for both dyads, and a driver that turns.
+
+    Raises InputError E186 where the limits allow no such driver.
+    """
+    if task.timing is None:
+        return task
+    both = list((task.limits * 2)[:2] if task.limits else (Limits(), Limits()))
+    side, index = driving_side(task), task.timing.timed
+    swung = task.poses.angle[index] - task.timing.angles[index]
+    # A slot turns as the body does; a link alone may turn otherwise.
+    alike = np.abs(wrapped_angle(swung - swung[0])).max() <= SAME_TURN
+    kinds: frozenset[Kind] = frozenset({"RR", "RP"} if alike else {"RR"})
+    if not both[side].allowed & kinds:
+        raise InputError(
+            "E186",
+            "poses are timed by the crank, and the limits allow no dyad that turns so",
+            why=f"they allow {listed(sorted(both[side].allowed))}"
+            + ("" if alike else "; a slot turns as the body does, and the crank does not"),
+            help="let the driver be an RR dyad, or leave the crank angles out",
+        )
+    both[side] = replace(both[side], kinds=both[side].kinds & kinds)
+    asked = replace(task.requirements, driver=("first", "second")[side])
+    return replace(task, limits=tuple(both), requirements=asked)

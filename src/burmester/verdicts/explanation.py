@@ -34,6 +34,7 @@ __all__ = [
 ]
 
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
+MOST_TURN = math.pi / 2  # radians; a crank that is off by more is no crank at these angles
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
 
 
@@ -205,6 +206,11 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
         elif each.kind == "type":
             name = found.driver_first.type
             options.append(f'--type "{name}"' if " " in name else f"--type {name}")
+        elif each.kind == "timing" and found.timing_error is not None:
+            away = float(np.nanmax(np.abs(found.timing_error), initial=0.0))
+            if not 0 < away < MOST_TURN:
+                return ()
+            options.append(f"--within-crank {above(math.degrees(away))}")
         elif each.kind == "driver":
             options.append("--driver any")
         else:

@@ -92,6 +92,9 @@ class FoundLinkage:
     clearance : Clearance, optional
         The least clearance from the surroundings between the poses; None without surroundings,
         and where it does not come from pose to pose.
+    timing_error : (N,) array, optional
+        How far the driver is from the stated crank angles at the poses, signed, in radians, where
+        the task has some; nan at poses that are not timed.
     task : Task
         The task of the answer that it belongs to, as it was given.
 
@@ -123,6 +126,7 @@ class FoundLinkage:
     spread: Spread | None = None
     error_before_rounding: PoseError | None = None
     clearance: Clearance | None = None
+    timing_error: FloatArray | None = None
     task: Task = field(kw_only=True)
 
     @property

@@ -28,7 +28,15 @@ __all__ = [
 ]
 
 ViolationKind: TypeAlias = Literal[
-    "transmission", "type", "driver", "footprint", "link ratio", "limit", "clearance", "rounding"
+    "transmission",
+    "type",
+    "driver",
+    "footprint",
+    "link ratio",
+    "limit",
+    "clearance",
+    "rounding",
+    "timing",
 ]
 
 # Relative, and radians for angles.  A requirement missed by less than this is met.

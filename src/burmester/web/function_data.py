@@ -42,9 +42,7 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
         "outcome": message_data(synthesis.outcome),
         "best": _best(synthesis),
         "warnings": list(map(message_data, synthesis.warnings)),
-        "asked_transmission_deg": None
-        if task.least_transmission is None
-        else math.degrees(task.least_transmission),
+        "asked_transmission_deg": task.requirements.transmission_deg or None,
         "generators": [_generator(each, task) for each in shown],
         "footnotes": "Angles are from the ground link, counter-clockwise, and counted from where "
         "input and output are 0. The structural error is the output that the linkage makes, less "

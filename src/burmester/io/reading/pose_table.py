@@ -9,6 +9,7 @@ from decimal import Decimal
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
@@ -30,6 +31,7 @@ __all__ = [
     "POINTS",
     "SHEET_HEAD",
     "UNITS",
+    "CrankOptions",
     "PoseTable",
     "Rows",
     "Sheet",
@@ -77,6 +79,7 @@ class Rows(NamedTuple):
     points: int = 0  # the tracked points whose x and y the values are, in place of x, y, angle
     tolerances: StatedTolerances | None = None  # then x, y and angle may be nan, which is free
     lengths: FloatArray | None = None  # (N,), the roots of cos² + sin², where these are given
+    crank: FloatArray | None = None  # (N,), angles of the driver in their own unit; nan: untimed
 
     @classmethod
     def read(cls, columns: dict[str, list[str]]) -> Rows:
@@ -100,7 +103,8 @@ class Rows(NamedTuple):
         exact = [MARKS[mark.lower()] for mark in columns.get("exact", [])]
         tolerances = StatedTolerances.read(columns, len(values))
         names = columns.get("name", [])
-        return cls(values, most, names, exact, points, tolerances, lengths)
+        crank = np.array(list(map(float, columns["crank"]))) if "crank" in columns else None
+        return cls(values, most, names, exact, points, tolerances, lengths, crank)
 
     @classmethod
     def joined(cls, parts: list[Rows]) -> Rows:
@@ -118,7 +122,25 @@ class Rows(NamedTuple):
         directions = None
         if parts[0].lengths is not None:
             directions = np.concatenate([part.lengths for part in parts])
-        return cls(values, most, names, exact, parts[0].points, tolerances, directions)
+        crank = [part.crank for part in parts if part.crank is not None]
+        return cls(
+            values,
+            most,
+            names,
+            exact,
+            parts[0].points,
+            tolerances,
+            directions,
+            np.concatenate(crank) if crank else None,
+        )
+
+    def at(self, kept: NDArray[np.intp]) -> Rows:
+        """The rows at some numbers; names and marks stay those of all."""
+        return self._replace(
+            values=self.values[kept],
+            tolerances=self.tolerances and self.tolerances.at(kept),
+            crank=None if self.crank is None else self.crank[kept],
+        )
 
 
 def _with_free_angles(columns: dict[str, list[str]]) -> dict[str, list[str]]:
@@ -129,6 +151,13 @@ def _with_free_angles(columns: dict[str, list[str]]) -> dict[str, list[str]]:
     if "nan" not in angle or "free" in columns:
         return columns
     return columns | {"angle": angle, "free": ["angle" if a == "nan" else "" for a in angle]}
+
+
+class CrankOptions(NamedTuple):
+    """How crank angles are meant: as directions in F, and how far they may be missed, radians."""
+
+    absolute: bool = False
+    within: float | None = None
 
 
 class PoseTable(NamedTuple):
@@ -150,6 +179,8 @@ class PoseTable(NamedTuple):
     read_as: str | None = None  # the form of the file and its columns, in words
     times: Callable[[], FloatArray | None] | None = None  # reads those of the rows, in seconds
     path: TracedPath | None = None  # how points without angles are traced
+    crank_unit: str | None = None  # of the rows' crank angles; None: that of the poses
+    crank: CrankOptions = CrankOptions()  # how crank angles are meant
 
 
 SHEET_HEAD = "sep=\t\n"  # how the text of a sheet begins; row 1 is behind it

@@ -51,7 +51,14 @@ from burmester.io.reading.file_content import (
 )
 from burmester.io.reading.markers.tracked_points import TrackedRows, tracked_poses
 from burmester.io.reading.outline_options import OutlineOptions
-from burmester.io.reading.pose_table import UNITS, PoseTable, Source, extent, resolution_by_digits
+from burmester.io.reading.pose_table import (
+    UNITS,
+    CrankOptions,
+    PoseTable,
+    Source,
+    extent,
+    resolution_by_digits,
+)
 from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
 from burmester.io.reading.specification import Specification
 from burmester.io.reading.stated_requirements import combined_requirements, one_line
@@ -62,6 +69,7 @@ from burmester.io.reading.stated_tolerances import (
 )
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.motion_task import Task
 from burmester.tasks.traced_path import TracedPath
 
@@ -91,6 +99,8 @@ def read_task(
     first: str | None = None,
     last: str | None = None,
     closed: bool = False,
+    absolute_crank: bool = False,
+    within_crank_deg: float | None = None,
     convention: str | None = None,
     outlines: OutlineOptions = OutlineOptions(),  # noqa: B008  frozen
     data: bytes | None = None,
@@ -142,6 +152,10 @@ def read_task(
 
     closed : bool
         The points of a path lead back to the first one, and the crank goes all the way round.
+    absolute_crank : bool
+        The crank angles of poses are directions in F, and not rotations from the first of them.
+    within_crank_deg : float, optional
+        How far each crank angle may be missed, in degrees.
     convention : str, optional
         What the file does otherwise than here, separated by commas: "clockwise" (its angles count
         clockwise), "y-down" (its y points down, its angles count counterclockwise), "swap-xy" (x
@@ -192,6 +206,7 @@ def read_task(
             outlines=outlines,
             tolerance=tolerance,
             convention=names,
+            crank=CrankOptions(absolute_crank, _radians(within_crank_deg)),
         )
     except InputError as error:
         error.where = blanked(error.where or label)
@@ -211,7 +226,7 @@ def _refuse_function(label: str, text: str) -> None:
             "E193",
             "this is the task of a function generator, and poses are needed here",
             why="it has pairs of input and output angles, or a function, and no places of a body",
-            help="solve it with `burmester synthesize`, which also writes a result to export",
+            help="solve it with `burmester function`, which also writes a result to export",
         )
 
 
@@ -363,12 +378,8 @@ def _selected(
         kept = np.flatnonzero(selection.kept(labels))
         names = labels.of_kept(kept)
         if len(kept) < labels.size:
-            stated = table.rows.tolerances
-            rows = table.rows._replace(
-                values=table.rows.values[kept], tolerances=stated and stated.at(kept)
-            )
             path = table.path and table.path.at(kept)
-            poses = table._replace(rows=rows, path=path)
+            poses = table._replace(rows=table.rows.at(kept), path=path)
         tracked = TrackedRows(kept, table.locate_row)
         marks = _marked(table, labels, exact)
     if marks is not None:
@@ -397,6 +408,7 @@ def _task(
     outlines: OutlineOptions,
     tolerance: DefaultTolerance | None,
     convention: tuple[str, ...],
+    crank: CrankOptions,
 ) -> Task:
     """The task in the rows of a table that are taken."""
     table = with_stated_unit(table, convention)
@@ -422,6 +434,7 @@ def _task(
     body, body_notes = outlines.body_beside(table.body, table.length_unit)
     around, region_notes = outlines.surroundings_beside(table.surroundings, table.length_unit)
     numbers = 2 * rows.points or 3  # in a row, before its weight
+    path, timing = _timing(table, crank, angle_unit, clockwise="clockwise" in convention)
     if table.tolerance and tolerance:
         message = "the tolerance of all poses is in the file and in --pose-tolerance"
         where = one_line(table.tolerance.where, tolerance.where)
@@ -448,7 +461,8 @@ def _task(
             tolerances=tolerances,
             notes=table.notes + body_notes + region_notes,
             read_as=table.read_as,
-            path=table.path,
+            path=path,
+            timing=timing,
         )
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses
@@ -467,6 +481,50 @@ def _task(
             error.why = f"{left_out} of {left_out + len(values)} poses of the file are left out"
             error.help = "take more of them with --every, --from, --to and --drop"
         raise
+
+
+def _radians(degrees: float | None) -> float | None:
+    return None if degrees is None else math.radians(degrees)
+
+
+def _timing(
+    table: PoseTable, asked: CrankOptions, angle_unit: str | None, *, clockwise: bool
+) -> tuple[TracedPath | None, CrankTiming | None]:
+    """How the crank times the rows: of points alone a path, else the poses; raises E186."""
+    options = CrankOptions(
+        asked.absolute or table.crank.absolute,
+        table.crank.within if asked.within is None else asked.within,
+    )
+    path, given = table.path, table.rows.crank
+    if given is None or not np.isfinite(given).any():
+        if options != CrankOptions():
+            raise InputError(
+                "E186",
+                "it is said how crank angles are meant, and no pose has one",
+                help="give a column crank_deg, or leave out what is said of the crank",
+            )
+        return path, None
+    unit = table.crank_unit or table.angle_unit or angle_unit
+    if unit is None:
+        raise InputError(
+            "E186",
+            "the unit of the crank angles is not stated",
+            help="name the column crank_deg or crank_rad",
+        )
+    angles = (np.radians(given) if unit == "deg" else given) * (-1.0 if clockwise else 1.0)
+    if np.isnan(table.rows.values[:, 2]).all() and not table.rows.points:
+        closed = path is not None and path.closed
+        return TracedPath(closed, _all_timed(angles)), None
+    return path, CrankTiming(angles, options.absolute, options.within)
+
+
+def _all_timed(angles: FloatArray) -> FloatArray:
+    """The crank angles of points, where each has one; raises E186."""
+    if (blank := np.isnan(angles)).any():
+        message = f"row {int(blank.argmax()) + 1} has no crank angle"
+        help = "give every point its crank angle, or delete the column"
+        raise InputError("E186", message, help=help)
+    return angles
 
 
 def _angle_unit(table: PoseTable, values: FloatArray, angle_unit: str | None) -> str:

@@ -37,6 +37,7 @@ OptionalKinds: TypeAlias = frozenset[Kind] | None
 # The tables at the top of a task in a file, and all keys there.
 TABLES = (
     "pose_sigma", "tolerance", "body", "keep_out", "surroundings", "limits", "requirements", "path",
+    "crank",
 )  # fmt: skip
 TOP_KEYS = ("poses", "angle_unit", "length_unit", *TABLES)
 

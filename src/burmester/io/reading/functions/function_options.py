@@ -37,15 +37,34 @@ LEAST_STEP: Final = 1e-9  # radians; inputs that differ less are one
 
 
 class FunctionSettings(NamedTuple):
-    """What is asked of a function generator beside its pairs; angles in degrees."""
+    """What is asked of a function generator beside its pairs; angles in degrees.
+
+    The last three are requirements; None: nothing is asked.
+    """
 
     input_phase: float | None = None
     output_phase: float | None = None
     ground: float = 1.0
     minimax: bool = False
-    least_transmission: float | None = None
+    transmission_deg: float | None = None
     link_ratio: float | None = None
     types: frozenset[str] | None = None
+
+    @property
+    def requirements(self) -> Requirements:
+        """What a linkage has to keep; raises E134 and E194."""
+        given = self._asdict()
+        names = ("transmission_deg", "link_ratio", "types")
+        asked = Requirements(**{name: given[name] for name in names if given[name] is not None})
+        of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
+        if not any(map(asked.allows, of_generators)):
+            allowed = sorted(asked.allowed_types or ())
+            raise InputError(
+                "E194",
+                f"no function generator that is made is a {listed(allowed, 'or')}",
+                help=f"give one or more of {listed(of_generators)}",
+            )
+        return asked
 
 
 def task_of_function(
@@ -90,7 +109,7 @@ def task_of_function(
             help="give --pairs 5 for five pairs that are met exactly, or leave --pairs out",
         )
     text = function if isinstance(function, str) else getattr(function, "__name__", "f")
-    source = source or Source("--function", text)
+    source = source or Source("expression", text)
     values = read_expression(source) if isinstance(function, str) else _checked(function)
     every = np.asarray(values(np.linspace(low, high, FUNCTION_SAMPLES)), dtype=float)
     if not np.isfinite(every).all():
@@ -168,18 +187,12 @@ def _task(
     function: SampledFunction | None,
     weights: FloatArray | None,
 ) -> FunctionTask:
-    for name, value, most in (
-        ("the length of the ground link", settings.ground, 1e9),
-        ("the least transmission angle", settings.least_transmission, 90.0),
-        ("the link ratio", settings.link_ratio, 1e9),
-    ):
-        least = 1.0 if name == "the link ratio" else 0.0
-        if value is not None and not least < value < most:
-            raise InputError(
-                "E194",
-                f"{name} is {value:g}",
-                help=f"give a number above {least:g} and below {most:g}",
-            )
+    if not 0 < settings.ground < 1e9:
+        raise InputError(
+            "E194",
+            f"the length of the ground link is {settings.ground:g}",
+            help="give a number above 0 and below 1e+09",
+        )
     for name, value in (("input", settings.input_phase), ("output", settings.output_phase)):
         if value is not None and not math.isfinite(value):
             raise InputError(
@@ -194,25 +207,8 @@ def _task(
         settings.ground,
         function,
         settings.minimax,
-        _radians(settings.least_transmission),
-        settings.link_ratio,
-        _types(settings.types),
+        settings.requirements,
     )
-
-
-def _types(names: frozenset[str] | None) -> frozenset[str] | None:
-    """The types with four pins that are meant; raises E134 and E194."""
-    if names is None:
-        return None
-    allowed = Requirements(types=names).allowed_types or frozenset()
-    of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
-    if not allowed.intersection(of_generators):
-        raise InputError(
-            "E194",
-            f"no function generator that is made is a {listed(sorted(allowed), 'or')}",
-            help=f"give one or more of {listed(of_generators)}",
-        )
-    return allowed.intersection(of_generators)
 
 
 def _radians(degrees: float | None) -> float | None:

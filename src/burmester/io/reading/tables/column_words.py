@@ -49,6 +49,9 @@ WORDS: dict[str, str] = {
     "cos": "cos, cosine, cos angle, cos theta, cos phi, cos θ, cos φ, Kosinus, coseno, cosinus",
     "sin": "sin, sine, sin angle, sin theta, sin phi, sin θ, sin φ, Sinus, seno",
     "exact": "exact",
+    "crank": "crank, crank angle, drive, drive angle, driver angle, input, input angle, Kurbel, "
+    "Kurbelwinkel, Antriebswinkel, manivelle, angle de manivelle, manivela, ángulo de manivela, "
+    "manovella, angolo di manovella, 曲柄, 曲柄角, クランク, クランク角",
     "time": "time, t, Zeit, temps, tiempo, tempo, 时间, 時間, 時刻",
     "frame": "frame, index, __index_level_0__, Bild, image, fotograma, 帧, フレーム",
     "remark": "remark, remarks, comment, comments, Bemerkung, Bemerkungen, Kommentar, Anmerkung, "
@@ -140,7 +143,7 @@ def _words() -> dict[str, str]:
 @functools.cache
 def _units(role: str) -> dict[str, tuple[str, ...]]:
     """The plain words of each unit that a role may have."""
-    tables = {"angle": _ANGLES, "tol_angle": _ANGLES, "time": _TIMES}
+    tables = {"angle": _ANGLES, "tol_angle": _ANGLES, "crank": _ANGLES, "time": _TIMES}
     tables |= dict.fromkeys(("x", "y", "z", "tol_x", "tol_y", *POINTS), _LENGTHS)
     return {
         unit: tuple(map(_plain, text.split(", "))) for unit, text in tables.get(role, {}).items()

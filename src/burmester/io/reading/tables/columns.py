@@ -35,8 +35,8 @@ MAX_NAMES = 12  # names of columns that an error lists, or compares with known o
 MOST_TYPED = 20  # names of columns that an option is told with
 _KNOWN = (
     "the known names are x, y (or x_mm, y_mm and so on), angle_deg, angle_rad (or cos and sin of "
-    "the angle), weight, exact and name, tol_x, tol_y, tol_angle, tol_axes and free, or px, py, "
-    "qx, qy in place of x, y and the angle"
+    "the angle), weight, exact, name and crank_deg, tol_x, tol_y, tol_angle, tol_axes and free, or "
+    "px, py, qx, qy in place of x, y and the angle"
 )
 
 

@@ -97,6 +97,7 @@ def read_csv(source: Source, columns: str | None = None) -> PoseTable:
         ),
         read_as=header.described(decimal_commas="," in marks, named=bool(names)),
         times=functools.partial(_times, header),
+        crank_unit=units.get("crank"),
     )
 
 
@@ -153,7 +154,10 @@ def _checked_rows(
     """The rows in any lines, cell by cell; the first of them is number `row` of the file."""
     indices, units = header.columns.indices, header.columns.units
     columns: dict[str, list[str]] = {role: [] for role in indices}
-    tolerant, numeric = header.columns.may_be_free, [*numeric_roles(indices), *TOLERANCE_ROLES]
+    tolerant, numeric = (
+        header.columns.may_be_free,
+        [*numeric_roles(indices), *TOLERANCE_ROLES, "crank"],
+    )
     single = [(role, index) for role, index in indices.items() if role not in WORD_ROLES]
     if tolerant:
         columns |= {role: [] for role in WORD_ROLES}
@@ -163,7 +167,9 @@ def _checked_rows(
             _require_width(line, cells, header, row + count)
         for role, index in single:
             cell = unquoted(cells[index])
-            if (tolerant or role == "angle") and (special := special_text(cell, role)) is not None:
+            if (tolerant or role in ("angle", "crank")) and (
+                special := special_text(cell, role)
+            ) is not None:
                 columns[role].append(special)  # a blank angle is free: a point of the body
                 continue
             if role == "exact" and cell.lower() not in pose_table.MARKS:

@@ -99,6 +99,7 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         2 * ("px" in indices),
         tolerances,
         lengths,
+        _crank(stored, names, indices.get("crank"), where),
     )
     require_directions(rows, lambda row: where(None, row))
     return PoseTable(
@@ -110,7 +111,15 @@ def read_parquet(label: str, data: bytes) -> PoseTable:
         locate_row=lambda row: where(None, row),  # where(None, None) is the file
         notes=columns.notes(),
         read_as=f"Parquet: {columns.described(names)}",
+        crank_unit=columns.units.get("crank"),
     )
+
+
+def _crank(stored: Any, names: list[str], index: int | None, where: _Where) -> FloatArray | None:
+    """The angles of the driver, nan for no value; None without a column."""
+    if index is None:
+        return None
+    return _numbers(stored.column(names[index]), names[index], where(index, None))[0]
 
 
 def _tolerances(

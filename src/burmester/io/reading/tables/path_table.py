@@ -46,7 +46,6 @@ __all__ = ["read_path_table"]
 
 LEAST_POINTS = 10  # of a path without crank angles; fewer points are met exactly
 SAME_POINT = 1e-9  # of the path's extent; points that are nearer are one
-_CRANK = re.compile(r"crank(?:[ _-]?angle)?[ _]*[(\[]?(deg|°|degrees|rad|radians)[)\]]?", re.I)
 
 
 class _Columns(NamedTuple):
@@ -97,7 +96,7 @@ def read_path_table(source: Source, *, closed: bool = False) -> PoseTable | None
     crank = None
     if "crank" in columns.indices:
         crank = values[:, roles.index("crank")]
-        crank = crank if columns.crank_unit.startswith("rad") else np.radians(crank)
+        crank = crank if columns.crank_unit == "rad" else np.radians(crank)
     count = len(values)
     numbers = [values[:, :2], np.full((count, 1), np.nan)]
     if "weight" in roles:
@@ -131,13 +130,14 @@ def _columns(line: str) -> _Columns | None:
         names = row_values(split_cells(line, separator))
         indices, units, crank_unit = dict[str, int](), dict[str, str | None](), "deg"
         for k, name in enumerate(names):
-            word, crank = known(name), _CRANK.fullmatch(name.strip().strip("#"))
-            if crank:
-                role, unit, crank_unit = "crank", None, crank[1].lower()
-            elif word is None or word.unit == "?":
+            word = known(name)
+            if word is None or word.unit == "?":
                 break
-            else:
-                role, unit = word.role, word.unit
+            role, unit = word.role, word.unit
+            if role == "crank" and unit is None:
+                break
+            if role == "crank":
+                crank_unit = unit or crank_unit
             if role in indices:
                 break
             indices[role], units[role] = k, unit

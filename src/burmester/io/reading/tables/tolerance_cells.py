@@ -30,7 +30,7 @@ def special_text(cell: str, role: str) -> str | None:
 
     "nan" for a blank one, "inf" for a word for free.
     """
-    if not cell and role in (*COMPONENTS, *TOLERANCE_ROLES):
+    if not cell and role in (*COMPONENTS, *TOLERANCE_ROLES, "crank"):
         return "nan"
     return "inf" if role in TOLERANCE_ROLES and _is_free(cell) else None
 

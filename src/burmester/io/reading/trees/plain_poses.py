@@ -32,6 +32,8 @@ class _Pose(NamedTuple):
     exact: bool | None = None
     tolerance: None = None
     free: None = None
+    crank_deg: None = None
+    crank_rad: None = None
 
 
 class _Whole(NamedTuple):

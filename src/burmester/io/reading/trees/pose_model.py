@@ -26,7 +26,7 @@ from burmester.tasks.pose_tolerances import COMPONENTS, Component
 
 __all__ = ["pose_fault", "validated"]
 
-_COMMON_KEYS = ("weight", "exact", "name", "tolerance", "free")
+_COMMON_KEYS = ("weight", "exact", "name", "tolerance", "free", "crank_deg", "crank_rad")
 _SLICE = 1000  # poses checked at a time: all that is wrong in them is collected
 
 
@@ -37,6 +37,8 @@ class _Common(BaseModel):
     exact: bool | None = None
     tolerance: ToleranceModel | None = None
     free: list[Component] | None = None
+    crank_deg: Decimal | None = None
+    crank_rad: Decimal | None = None
 
     def free_components(self) -> set[Component]:
         """Those that `free` names, or whose tolerance says so."""

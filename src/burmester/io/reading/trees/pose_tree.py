@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import POINTS, PoseTable, Rows
+from burmester.io.reading.pose_table import POINTS, CrankOptions, PoseTable, Rows
 from burmester.io.reading.specification import LIMIT_KEYS, TABLES, TOP_KEYS, Specification
 from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
 from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES, DefaultTolerance
 from burmester.io.reading.trees.locations import Document, close_match
-from burmester.io.reading.trees.path_tree import read_path
+from burmester.io.reading.trees.path_tree import read_crank, read_path
 from burmester.io.reading.trees.plain_poses import POINT_KEYS, XY_ANGLE_KEYS, plain_poses
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.wording import listed
@@ -40,6 +40,7 @@ _MISPLACED = {  # keys that may stand beside the poses by mistake: the help
     **dict.fromkeys(("unit", "units"), "write angle_unit for angles, length_unit for lengths"),
     **dict.fromkeys(("free",), 'write it into the poses, or tolerance = { angle = "free" } here'),
     **dict.fromkeys(("tolerances", "tol"), "write tolerance"),
+    **dict.fromkeys(("crank_deg", "crank_rad"), "write the crank angle of each pose into it"),
     **dict.fromkeys(("sigma",), "write pose_sigma with position and angle_deg"),
     **dict.fromkeys(
         ("link_width", "margin", "body_in_plane"), "write it into the table surroundings"
@@ -75,6 +76,8 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
     if any(pose.exact for pose in poses):
         columns["exact"] = ["x" if pose.exact else "" for pose in poses]
     columns |= _tolerances(document, poses, unit)
+    crank, crank_unit = _crank(document, poses)
+    columns |= crank
     rows = Rows.read(columns)
     for i, j in np.argwhere(~np.isfinite(rows.values)):  # 1e400 is a finite Decimal
         if columns[numeric[j]][i] == "nan":  # it is free
@@ -117,6 +120,8 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         locate_row=locate_row,
         notes=drawn,
         path=read_path(tree, document) if tree.get("path") is not None else None,
+        crank_unit=crank_unit,
+        crank=read_crank(tree, document) if tree.get("crank") is not None else CrankOptions(),
     )
 
 
@@ -159,6 +164,25 @@ def _tolerances(document: Document, poses: Sequence[Any], unit: str | None) -> d
                 )
             columns.setdefault(role, []).append(repr(bound))
     return columns
+
+
+def _crank(document: Document, poses: Sequence[Any]) -> tuple[dict[str, list[str]], str | None]:
+    """The column of crank angles and its unit; none where no pose has one.  Raises E108."""
+    keys = [
+        key for key in ("crank_deg", "crank_rad") if any(getattr(p, key) is not None for p in poses)
+    ]
+    if not keys:
+        return {}, None
+    if len(keys) > 1:
+        pose = next(k for k, each in enumerate(poses) if each.crank_rad is not None)
+        raise InputError(
+            "E108",
+            "the crank angles are stated in different units",
+            where=document.where("poses", pose, "crank_rad", key=True),
+            help="state one unit: crank_deg in every pose, or crank_rad in every pose",
+        )
+    unit = keys[0].removeprefix("crank_")
+    return {"crank": [_written(getattr(pose, keys[0])) for pose in poses]}, unit
 
 
 def _default_tolerance(tree: Any, document: Document, unit: str | None) -> DefaultTolerance | None:

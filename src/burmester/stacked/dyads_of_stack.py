@@ -1,0 +1,223 @@
+"""The dyads of a stack of tasks, in groups that are searched together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.dyads.critical_points import COUNT
+from burmester.dyads.local_minima import ManyBestDyads
+from burmester.dyads.long_links import OUT_OF_SIGHT, nearly_sliders
+from burmester.dyads.pencil import MIN_POSES, fit_pencil
+from burmester.dyads.selection import (
+    CIRCLE,
+    Found,
+    FoundDyad,
+    GivenPoses,
+    same_dyads,
+    within_digits,
+)
+from burmester.errors import InputError
+from burmester.fourbar.canonical_frames import CanonicalFrames
+from burmester.fourbar.dyad import RR, Dyad
+from burmester.numerics.bundles import take
+from burmester.stacked.answers import Depth, DyadRows, Outcome, StackedAnswers, Status
+from burmester.stacked.plain_tasks import computable, plain_tasks
+from burmester.stacked.task_stack import TaskStack
+from burmester.synthesis.dyad_search import Searched, dyads_of_tasks, exact_dyads, search_dyads
+from burmester.synthesis.method import with_method
+from burmester.synthesis.outcome import NEAR_DIGITS, dyad_advice
+from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.motion_kinds import Undetermined
+from burmester.tasks.motion_task import CONDITIONS, Task
+from burmester.tasks.options import Method, SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
+
+__all__ = ["Group", "groups_of"]
+
+Indices = NDArray[np.intp]
+SOLVED = StackedAnswers.OUTCOMES.index("solved")
+# Of the dyads of each method.
+STATUS: dict[Method, Status] = {"pencil": "pencil", "exact": "exact", "complete": "locally best"}
+
+
+class Group(NamedTuple):
+    """Tasks (V,) by their indices in a stack, rising, and their dyads (D,).
+
+    given: the poses, each once, for which there are dyads; None where there are none.
+    status: (D,), in `DyadRows.STATUSES`; outcome, code: (V,), as `StackedAnswers` has them;
+    warnings: the index of a task in the stack, and a code.
+    """
+
+    tasks: Indices
+    given: GivenPoses | None
+    found: Found
+    status: NDArray[np.int8]
+    outcome: NDArray[np.int8]
+    code: NDArray[np.str_]
+    warnings: Sequence[tuple[int, str]]
+
+
+def groups_of(stack: TaskStack, depth: Depth) -> list[Group]:
+    """The tasks of a stack with their dyads, those without any left out but for their outcomes.
+
+    Plain tasks are searched together with those that a closer look finds to be general.  Others,
+    special or with repeated or exact poses, are searched one by one.
+    """
+    count = stack.poses.shape[1]
+    method: Method = "exact" if count == CONDITIONS else "complete"
+    method = "pencil" if depth == "pencil" else method
+    sound, fit, values = np.flatnonzero(computable(stack)), None, None
+    if count < (MIN_POSES if method == "pencil" else CONDITIONS):
+        sound = sound[:0]
+    some = stack[sound]
+    if method == "pencil" and len(sound):
+        fit = fit_pencil(some.displacements, some.weights)
+        values = fit.singular_values if some.weights is None else None
+    nullity, groups = np.full(len(stack), -1, dtype=np.intp), []
+    if len(sound):
+        plain, known = plain_tasks(some, values)
+        nullity[sound[plain]] = known[plain]
+    for index in np.flatnonzero(nullity < 0).tolist():
+        problem = _looked_at(stack, index, method)
+        if isinstance(problem, Group):
+            groups.append(problem)
+        elif index in sound and not problem.is_merged and problem.options.method == method:
+            nullity[index] = 0 if problem.motion is None else problem.motion.nullity
+        else:
+            groups.append(_searched_alone(index, problem))
+    general = np.flatnonzero(nullity >= 0)
+    if len(general):
+        if fit is not None:
+            fit = take(fit, np.searchsorted(sound, general))
+        given = stack[general]
+        poses, weights = given.displacements, given.weights
+        length = CanonicalFrames.of(poses, weights)[0].length if fit is None else fit.frames.length
+        tasks = GivenPoses(poses, weights, length, stack.resolution)
+        searched = dyads_of_tasks(method, tasks, fit=fit)
+        groups.append(_group(searched, method, general, nullity[general]))
+    return groups
+
+
+def _group(some: Searched, method: Method, tasks: Indices, nullity: Indices) -> Group:
+    """Tasks that were searched together, with what is to be said of their dyads.
+
+    The codes are those of `dyad_advice`: W204 nearly sliders, W207 a dyad is missing, W206
+    solutions that are no dyads, W205 one dyad twice.
+    """
+    given, found, count = some.given, some.found, len(tasks)
+
+    def any_of(rows: NDArray[np.bool_] | Indices) -> NDArray[np.bool_]:
+        return np.asarray(np.bincount(found.task[rows], minlength=count) > 0)
+
+    dyads = np.bincount(found.task, minlength=count)
+    twice = np.bincount(same_dyads(found, given.length)[0], minlength=count)
+    span = np.linalg.norm(np.ptp(given.poses.translation, axis=1), axis=1)
+    size = np.maximum(span, given.length)[found.task]
+    long = (found.kind == CIRCLE) & (found.dimensions[:, 4] > OUT_OF_SIGHT * size)
+    index = np.flatnonzero(long)
+    z = found.dimensions[index]
+    links = RR(z[:, :2], z[:, 2:4], z[:, 4])
+    near = nearly_sliders(links, given.poses[found.task[index]], size[index])
+    missing = np.zeros(count, dtype=bool)
+    if method == "exact":
+        missing = any_of(~some.nearest & ~within_digits(found, given))
+    elif isinstance(some.fit, ManyBestDyads):
+        known = some.fit.search.found + some.fit.search.at_infinity
+        times = np.where(known == COUNT, NEAR_DIGITS, 1.0)[found.task]
+        meeting = np.bincount(found.task[within_digits(found, given, times)], minlength=count)
+        expected = exact_dyads(nullity, given.poses.shape[1])
+        missing = (meeting < expected) | (known < COUNT) | (some.fit.unfinished > 0)
+    said = {"W204": any_of(index[near]), "W207": missing, "W206": found.left_out > 0}
+    said["W205"] = twice > 0
+    of, which = np.nonzero(np.stack(list(said.values()), axis=1))
+    codes = [list(said)[k] for k in which.tolist()]
+    none = dyads * (dyads - 1) // 2 == twice
+    own, nearest = (DyadRows.STATUSES.index(each) for each in (STATUS[method], "nearest"))
+    return Group(
+        tasks,
+        given,
+        found,
+        np.where(some.nearest, nearest, own).astype(np.int8),
+        np.where(none, StackedAnswers.OUTCOMES.index("too few dyads"), SOLVED).astype(np.int8),
+        np.where(none, "R302", ""),
+        list(zip(tasks[of].tolist(), codes, strict=True)),
+    )
+
+
+def _looked_at(stack: TaskStack, index: int, method: Method) -> SynthesisProblem | Group:
+    """One task with the method that it gets; or what came of it, if it is not to be searched."""
+    try:
+        task = stack.task(index)
+    except InputError as error:
+        return _of_one(index, ("refused", error.code))
+    options = SynthesisOptions(method="pencil" if method == "pencil" else "auto")
+    problem = SynthesisProblem.of(task, classify_motion(task), options)
+    if problem.is_special:
+        return _special(index, problem)
+    if method != "pencil" and max(problem.missing_conditions) > 0:
+        return _of_one(index, ("infinitely many", "R303"), _repeats(problem))
+    try:
+        return with_method(problem)
+    except InputError as error:
+        return _of_one(index, ("not at this depth", error.code), _repeats(problem))
+
+
+def _special(index: int, problem: SynthesisProblem) -> Group:
+    """A task whose motion itself says which dyads there are."""
+    assert problem.motion is not None
+    kind, task = problem.motion.kind, problem.given
+    if isinstance(kind, Undetermined):
+        return _of_one(index, ("not determined", kind.code))
+    dyads = [FoundDyad("", each, *_miss(each, task)) for each in kind.dyads]
+    given = GivenPoses.of(problem.merged().task, problem.length) if len(dyads) > 1 else None
+    status: Status = "of the motion"
+    told: tuple[Outcome, str] = ("special motion", kind.code)
+    return _of_one(index, told, (), dyads, statuses=[status] * len(dyads), given=given)
+
+
+def _searched_alone(index: int, problem: SynthesisProblem) -> Group:
+    """A task with dyads of its own method, or of poses of its own."""
+    found = search_dyads(problem)
+    pairs, twice = found.pairs(problem.length)
+    advice = [each.code for each in dyad_advice(problem, found)] + ["W205"] * len(twice)
+    statuses: list[Status] = [STATUS[problem.options.method]] * found.meeting
+    statuses += ["nearest"] * (len(found.dyads) - found.meeting)
+    told: tuple[Outcome, str] = ("solved", "") if pairs else ("too few dyads", "R302")
+    warnings = [*_repeats(problem), *dict.fromkeys(advice)]
+    given = GivenPoses.of(problem.task, problem.length)
+    return _of_one(index, told, warnings, found.dyads, statuses=statuses, given=given)
+
+
+def _repeats(problem: SynthesisProblem) -> list[str]:
+    return ["W208"] if problem.is_merged else []
+
+
+def _of_one(
+    index: int,
+    told: tuple[Outcome, str],
+    warnings: Sequence[str] = (),
+    dyads: Sequence[FoundDyad] = (),
+    *,
+    statuses: Sequence[Status] = (),
+    given: GivenPoses | None = None,
+) -> Group:
+    """What came of one task; told: the outcome and its code."""
+    return Group(
+        np.array([index]),
+        given,
+        Found.of(dyads),
+        np.array([DyadRows.STATUSES.index(each) for each in statuses], dtype=np.int8),
+        np.array([StackedAnswers.OUTCOMES.index(told[0])], dtype=np.int8),
+        np.array([told[1]]),
+        [(index, each) for each in warnings],
+    )
+
+
+def _miss(dyad: Dyad, task: Task) -> tuple[float, float]:
+    """The root mean square and the greatest distance of a dyad from the poses of a task."""
+    distance = np.abs(dyad.residual(task.poses))
+    return float(np.sqrt((distance**2).mean())), float(distance.max())
