@@ -30,6 +30,7 @@ from burmester.dyads.critical_search import (
     critical_points,
     derivatives,
     features,
+    health,
 )
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.errors import InputError
@@ -74,12 +75,11 @@ class CriticalDyads:
         away, multiple, on a curve of critical points, or lost; the poses are special, turn little,
         or are within rounding of such ones.
     charts: (*,), how many charts it took: 1 but for hard tasks.
-    health: (*,), of hard tasks the least relative pivot of the eigenproblem's 125 rows; rounding is
-        magnified by its inverse, and below some 1e-12 points are lost.  Else nan.
     real, minimum: (*, 25), which are real, and which of those are local minima.
     dyads: (*, 25), as RR dyads in the task's own frames; nan where not real.  r² is the mean of
         the squared distances, the best for these pivots and never negative.
     residual: (*, 25), rms of the circle residual |R m + d - c|² - r², in the task's unit squared.
+    triangle: (*, 7, 7), T above, in those frames.
     """
 
     frames: CanonicalFrames
@@ -87,11 +87,21 @@ class CriticalDyads:
     found: NDArray[np.int_]
     at_infinity: NDArray[np.int_]
     charts: NDArray[np.int_]
-    health: FloatArray
     real: NDArray[np.bool_]
     minimum: NDArray[np.bool_]
     dyads: RR
     residual: FloatArray
+    triangle: FloatArray
+
+    @property
+    def health(self) -> FloatArray:
+        """The least relative pivot (*,) of the eigenproblem's 125 rows (`macaulay`).
+
+        Rounding is magnified by its inverse, and below some 1e-12 points are lost.
+        """
+        lead = self.triangle.shape[:-2]
+        own = [health(each) for each in self.triangle.reshape(-1, 7, 7)]
+        return np.reshape(own, lead)
 
 
 def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> CriticalDyads:
@@ -144,7 +154,7 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     far = points_at_infinity(poses, frames, seen, weights)
     turning = reach(seen, shares(weights, poses.shape)) <= LITTLE_TURN
     every = critical_points(triangle.reshape(-1, 7, 7), far.ravel(), turning.ravel())
-    points, found, charts, health, real, minimum = (
+    points, found, charts, real, minimum = (
         each.reshape((*lead, *each.shape[1:])) for each in every
     )
     far = np.minimum(far, COUNT - found)
@@ -156,7 +166,9 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
         distance = centred.residual(seen[..., None, :])
     radius = np.sqrt(_mean(distance**2, weights))
     dyads = frames.circle_from_canonical(RR(x[..., :2], x[..., 2:], radius))
-    return CriticalDyads(frames, points, found, far, charts, health, real, minimum, dyads, residual)
+    return CriticalDyads(
+        frames, points, found, far, charts, real, minimum, dyads, residual, triangle
+    )
 
 
 def _mean(values: FloatArray, weights: FloatArray | None) -> FloatArray:

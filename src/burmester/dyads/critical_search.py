@@ -29,6 +29,7 @@ __all__ = [
     "critical_points",
     "derivatives",
     "features",
+    "health",
 ]
 
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
@@ -56,7 +57,6 @@ class CriticalPoints(NamedTuple):
     points: ComplexArray
     found: NDArray[np.int_]
     charts: NDArray[np.int_]
-    health: FloatArray
     real: NDArray[np.bool_]
     minimum: NDArray[np.bool_]
 
@@ -71,28 +71,27 @@ def critical_points(
     """
     scaled, unit = balanced(triangle)
     points = np.full((len(far), COUNT, 4), np.nan, dtype=complex)
-    charts, health = np.zeros(len(far), dtype=np.int_), np.full(len(far), np.nan)
-    easy = np.flatnonzero(turning)
+    charts, easy = np.zeros(len(far), dtype=np.int_), np.flatnonzero(turning)
     with one_thread():
         for first in range(0, len(easy), TASKS_AT_ONCE):
             index = easy[first : first + TASKS_AT_ONCE]
             points[index], charts[index] = _generic_points(scaled[index], far[index])
-        for hard in np.flatnonzero(charts == 0).tolist():
-            some, charts[hard], health[hard] = _all_points(scaled[hard], int(far[hard]))
-            points[hard, : len(some)] = some[:COUNT]
+        for task in np.flatnonzero(charts == 0).tolist():
+            some, charts[task] = _all_points(scaled[task], int(far[task]))
+            points[task, : len(some)] = some[:COUNT]
     size = 1 + np.linalg.norm(points, axis=-1)
     real = np.linalg.norm(points.imag, axis=-1) < REAL_TOLERANCE * size
     points[real] = points[real].real
-    minimum, (task, number) = np.zeros_like(real), np.nonzero(real)
-    hessian = derivatives(points[task, number].real.T, np.moveaxis(scaled[task], 0, -1))[1]
-    minimum[task, number] = np.linalg.eigvalsh(hessian)[:, 0] > 0
+    minimum, at = np.zeros_like(real), np.nonzero(real)
+    hessian = derivatives(points[at].real.T, np.moveaxis(scaled[at[0]], 0, -1))[1]
+    minimum[at] = np.linalg.eigvalsh(hessian)[:, 0] > 0
     residual = features(points) @ np.swapaxes(scaled, -1, -2)
     cost = (residual.real**2 + residual.imag**2).sum(axis=-1)
     cost[cost < RESIDUAL_ROUNDING * size**4] = 0.0
     order = np.lexsort((size, cost, ~real, ~minimum))
     points = np.take_along_axis(points, order[..., None], axis=1) * unit[:, None, None]
     real, minimum = (np.take_along_axis(each, order, axis=1) for each in (real, minimum))
-    return CriticalPoints(points, np.isfinite(size).sum(axis=-1), charts, health, real, minimum)
+    return CriticalPoints(points, np.isfinite(size).sum(axis=-1), charts, real, minimum)
 
 
 def balanced(triangle: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -185,22 +184,27 @@ def _sound_points(scaled: FloatArray, chart: int) -> ComplexArray:
     return points
 
 
-def _all_points(scaled: FloatArray, far: int) -> tuple[ComplexArray, int, float]:
-    """All points (k, 4) of one task that can be found, the charts it took, and their health."""
+def health(triangle: FloatArray) -> float:
+    """The least relative pivot of the 125 rows of the greater matrix, for a triangle (7, 7)."""
+    scaled, _ = balanced(triangle)
+    return macaulay.eigen_points(scaled.T @ scaled, 0)[1]
+
+
+def _all_points(scaled: FloatArray, far: int) -> tuple[ComplexArray, int]:
+    """All points (k, 4) of one task that can be found, and the charts it took."""
     points, one = np.empty((0, 4), dtype=complex), scaled[None]
-    gram, charts, health, finite = scaled.T @ scaled, 0, 0.0, COUNT - far
+    gram, charts, finite = scaled.T @ scaled, 0, COUNT - far
 
     def joined(start: ComplexArray) -> ComplexArray:
         ends, sound = _at_rest(start, np.zeros(len(start), dtype=np.intp), one, MOST_STEPS)
         return unique_rows(np.concatenate([points, ends[sound]]), SAME_POINT, "euclidean")
 
     while len(points) < finite and charts < macaulay.CHARTS:
-        start, health = macaulay.eigen_points(gram, charts)
-        points = joined(start)
+        points = joined(macaulay.eigen_points(gram, charts)[0])
         charts += 1
         if len(points) < finite:
             points = joined(_beside_neighbours(points))
-    return points, charts, health
+    return points, charts
 
 
 def _beside_neighbours(points: ComplexArray) -> ComplexArray:
