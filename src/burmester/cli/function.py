@@ -326,6 +326,6 @@ def _figure(synthesis: FunctionSynthesis, suffix: str) -> bytes:
 
 def _page(synthesis: FunctionSynthesis, title: str) -> str:
     from burmester.printable import printable
-    from burmester.report.page import function_page
+    from burmester.report import page
 
-    return function_page(synthesis, printable(title))
+    return page(synthesis, printable(title))
