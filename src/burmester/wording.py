@@ -11,6 +11,7 @@ __all__ = [
     "figure",
     "in_runs",
     "in_unit",
+    "least_angle",
     "listed",
     "shortened",
     "spans",
@@ -49,6 +50,13 @@ def figure(value: float) -> str:
     if 99.5 <= abs(value) < 1e6:
         return f"{value:.0f}"
     return f"{value:.2g}".replace("e+0", "e").replace("e+", "e")
+
+
+def least_angle(angle: float) -> str:
+    """A lower bound of an angle in degrees, rounded down."""
+    if not math.isfinite(angle):
+        return "-"
+    return f"{math.floor(10 * math.degrees(angle) + 1e-6) / 10:g}°"
 
 
 def spans(extent: float) -> str:

@@ -23,10 +23,11 @@ from burmester.families.pair_verdicts import PairBounds, PairClass, judged_pairs
 from burmester.fourbar.defects import judge
 from burmester.geometry.regions import Point
 from burmester.io.cases import load
+from burmester.requirements.types import GROUPS
 from burmester.synthesis.family_map import family_map_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.pose_tolerances import PoseTolerances
-from burmester.tasks.requirements import GROUPS, Requirements
+from burmester.tasks.requirements import Requirements
 from tests.oracles.pair_verdicts import CLASSES, driven, verdict
 
 RANDOM = range(8)

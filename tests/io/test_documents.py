@@ -20,9 +20,10 @@ from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.trees.syntax_faults import syntax_fault
 from burmester.io.result import task_data
+from burmester.requirements.types import DRIVERS, GROUPS, TYPES
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
-from burmester.tasks.requirements import DRIVERS, GROUPS, TYPES, Requirements
+from burmester.tasks.requirements import Requirements
 from tests.oracles.marked import carets, marked
 
 

@@ -8,7 +8,8 @@ import pytest
 
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.stated_requirements import requirements_data
-from burmester.tasks.requirements import GROUPS, TYPES, Requirements
+from burmester.requirements.types import GROUPS, TYPES
+from burmester.tasks.requirements import Requirements
 from tests.oracles.marked import carets, marked
 from tests.oracles.stated_requirements import (
     CSV,

@@ -11,7 +11,7 @@ from burmester.errors import InputError
 from burmester.export import FORMATS, export
 from burmester.io.saved import read_result
 from burmester.printable import printable
-from burmester.tasks.requirements import TYPES
+from burmester.requirements.types import TYPES
 from tests.oracles.file_verdicts import check_refusal
 
 QUICK = ("json", "csv", "svg", "openscad", "mjcf", "urdf", "pylinkage")  # formats made in no time

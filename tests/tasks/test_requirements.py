@@ -13,9 +13,10 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.regions import Line, Point, Polygon, Segment, box
 from burmester.io.reading.requirements_text import requirements_from_options
 from burmester.io.reading.stated_requirements import combined_requirements
+from burmester.requirements.types import DRIVERS, GROUPS, TYPES
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
-from burmester.tasks.requirements import DRIVERS, GROUPS, TYPES, Requirements
+from burmester.tasks.requirements import Requirements
 from tests.oracles.stated_requirements import (
     INF,
     NOTHING,

@@ -8,10 +8,12 @@ from benchmarks.practical_tasks import practical_tasks
 
 from burmester import RR, Linkage, read_task
 from burmester.fourbar.pose_error import PoseError
+from burmester.requirements.table import shortcomings
 from burmester.synthesis.motion_generation import synthesize
+from burmester.tasks.notation import length_of
 from burmester.tasks.requirements import Requirements
 from burmester.verdicts.ranking import digits_leave_open, is_trade, ranked
-from burmester.verdicts.standard import Standard
+from burmester.verdicts.requirement_check import standard_of
 from tests.oracles.hard_tasks import comes_by
 
 
@@ -159,7 +161,8 @@ def test_the_standard(synthesis, links, transmission, asked, short):
     task = type(synthesis.task).from_rows(rows, angle_unit="deg")
     task = replace(task, requirements=Requirements(**asked))
     found = four_bar(synthesis.usable[0], links, transmission)
-    assert " and ".join(Standard.of(task).shortcomings(found, task)) == short
+    below = shortcomings(standard_of(task), found.figures, lambda value: length_of(value, task))
+    assert " and ".join(each.message for each in below) == short
 
 
 @pytest.mark.slow

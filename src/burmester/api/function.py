@@ -86,11 +86,6 @@ class FunctionGenerators(AnyResult[FoundGenerator]):
         """The object of `burmester synthesize --json`."""
         return function_data(self.synthesis)
 
-    def _page(self, title: str) -> str:
-        from burmester.report.page import function_page  # noqa: PLC0415
-
-        return function_page(self.synthesis, title)
-
     def plot(self) -> Figure:
         """The structural error over the input, by Matplotlib."""
         from burmester import plot  # noqa: PLC0415  Matplotlib may be missing
@@ -177,10 +172,9 @@ def synthesize_function(
     2 function generators of the 3 that such pairs have, 1 of them usable
     """
     require_callable(progress)
-    settings = FunctionSettings(
-        input_phase_deg, output_phase_deg, ground, minimax, transmission_deg, link_ratio,
-        None if types is None else frozenset(types),
-    )  # fmt: skip
+    asked = {"transmission_deg": transmission_deg, "link_ratio": link_ratio, "types": types}
+    asked = {name: value for name, value in asked.items() if value is not None}
+    settings = FunctionSettings(input_phase_deg, output_phase_deg, ground, minimax, asked)
     if isinstance(function, str) or callable(function):
         if x is None or input_deg is None or output_deg is None:
             raise InputError(

@@ -14,9 +14,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import click
 
 from burmester.cli.output import CONTENT
+from burmester.requirements.table import ASKED
 
 if TYPE_CHECKING:
     from burmester.fourbar.linkage import Linkage
+    from burmester.requirements.requirement import Requirement
     from burmester.synthesis.given_linkage import GivenDyad
     from burmester.synthesis.result import Synthesis
     from burmester.tasks.motion_task import Task
@@ -224,6 +226,19 @@ POSES: tuple[Decorator, ...] = (
     ),
 )
 
+_SETTINGS: dict[Any, dict[str, Any]] = {"names": {"multiple": True}, "flag": {"is_flag": True}}
+
+
+def _requirement(each: Requirement) -> Decorator:
+    """The option of a requirement."""
+    settings = _SETTINGS.get(each.form, {})
+    if each.choices:
+        settings = {"type": click.Choice(each.choices)}
+    return _specification(
+        each.option, each.argument, metavar=each.metavar, help=each.help, **settings
+    )
+
+
 _length: Decorator = _specification(
     "--length",
     metavar="MIN:MAX",
@@ -287,47 +302,7 @@ SPECIFICATION: tuple[Decorator, ...] = (
         multiple=True,
         help="Poses to be met exactly, by number or by name.",
     ),
-    _specification(
-        "--min-transmission",
-        metavar="DEG",
-        help="Smallest transmission angle allowed while the linkage moves through the poses.",
-    ),
-    _specification(
-        "--type",
-        "types",
-        metavar="NAME[,NAME]",
-        multiple=True,
-        help="Types of linkage allowed; see NAME below.",
-    ),
-    _specification(
-        "--driver",
-        type=click.Choice(["any", "first", "second", "crank"]),
-        help="The driver: the dyad of the first or of the second limits, or (crank) a dyad that "
-        "turns fully.",
-    ),
-    _specification(
-        "--footprint",
-        metavar="REGION",
-        help="A box or a polygon on the ground; all pivots stay inside it while the linkage moves "
-        "through the poses.",
-    ),
-    _specification(
-        "--link-ratio",
-        metavar="R",
-        help="Longest link divided by the shortest, at most.",
-    ),
-    _specification("--within", metavar="LENGTH", help="Largest position error allowed at a pose."),
-    _specification(
-        "--within-angle",
-        metavar="DEG",
-        help="Largest angle error allowed at a pose; by default the angle that counts as much as "
-        "the position error of --within.",
-    ),
-    _specification(
-        "--any-order",
-        is_flag=True,
-        help="The poses may be met in any order.",
-    ),
+    *map(_requirement, ASKED),
 )
 
 MEASURE: tuple[Decorator, ...] = (
@@ -470,9 +445,7 @@ def read_poses(poses: str, **given: Any) -> Task:
     if "length" in given:
         names = ("fixed_pivot", "moving_pivot", "length", "kinds", "rail", "slot")
         limits = {name: given[name] for name in names}
-        requirements = text.requirements_from_options(
-            **{name: given[name] for name in _REQUIREMENTS}
-        )
+        requirements = text.requirements_from_options(**given)
         specification = limits_from_options(**limits)._replace(requirements=requirements)
         outlines = OutlineOptions(given["body"], given["keep_out"], given["link_width"])
         further = {
@@ -636,13 +609,3 @@ _LENGTH_OPTIONS = {
     "manufacturing_tolerance": "--tolerance",
     "rounding_step": "--round",
 }
-_REQUIREMENTS = (
-    "min_transmission",
-    "types",
-    "driver",
-    "footprint",
-    "link_ratio",
-    "within",
-    "within_angle",
-    "any_order",
-)

@@ -13,7 +13,7 @@ from burmester.families.open_task import OpenTask, Trials
 from burmester.families.rail_freedom import RailFreedom
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage import GRASHOF_SUMS, Linkage
+from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pivot_box import extent
 from burmester.fourbar.pose_order import REPEATED_POSE_STEP, OrderTolerance
@@ -27,11 +27,14 @@ from burmester.fourbar.traversal import (
     traversal_of,
 )
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
+from burmester.requirements.figures import Figures
+from burmester.requirements.footprint import FOOTPRINT
+from burmester.requirements.table import excess
 from burmester.verdicts.degeneracy import MAX_SENSITIVITY
 from burmester.verdicts.quality import proportions
+from burmester.verdicts.requirement_check import figures_of, outside
 from burmester.verdicts.tolerances import sensitivity_bound
 
 __all__ = ["AIMS", "Assessment", "assessed", "costs"]
@@ -48,7 +51,6 @@ NONE: Final = 10.0  # violation of a linkage that has no motion at all
 BAD: Final = 1e6  # what a violation of 1 counts as, beside any aim
 TRAVEL_ROUNDING: Final = 1e-9  # lengths; a pin that is less beyond its travel keeps it
 LOST: Final = 1.0  # violation of a linkage that leaves its branch, beside how far it does
-CHANGE_POINT: Final = 1e-3  # of all links together; least Grashof excess of a sane linkage
 
 
 class Assessment(NamedTuple):
@@ -128,13 +130,17 @@ def _of_alike(
         traversal = traversal_of(view, every, tolerance, conditions.any_order)
         ranged = pose_range(traversal, view)
         traversal, ranged = other_way_round(traversal, ranged, view, conditions.any_order)
-        violation, transmission = _along_poses(traversal, ranged, view, conditions)
+        violation, transmission = _along_poses(traversal, ranged, view)
         ends = _ends(traversal.order.along)
         size = extent(traversal.circuits, ends, ranged.input_range) / conditions.span
-        violation = violation + _of_proportions(linkage, places, conditions)
-        if conditions.footprint is not None:
-            along = _frames(traversal.circuits, ends)
-            violation = violation + _outside(linkage, along, conditions.footprint)
+        figures = _figures(linkage, transmission, traversal)
+        if (area := conditions.asked.get(FOOTPRINT)) is not None:
+            figures = figures._replace(
+                outside=outside(linkage, _frames(traversal.circuits, ends), area)
+            )
+        violation = violation + excess(conditions.asked, figures)
+        if frozenset({type(linkage.first), type(linkage.second)}) not in conditions.kinds:
+            violation = violation + LOST
         if any(each is not None and each.rail.travel is not None for each in rails):
             along = _frames(traversal.circuits, ends)
             violation = violation + _beyond(linkage, along, rails) / conditions.span
@@ -142,16 +148,13 @@ def _of_alike(
             violation = violation + _too_close(
                 linkage, traversal.circuits, ends, violation, conditions, counts=frames
             )
-        if conditions.crank:
-            turns = traversal.circuits.closed & (traversal.circuits.branches == 1)
-            violation = violation + LOST * ~turns
         return Assessment(np.nan_to_num(violation, nan=NONE), transmission, size, size)
 
 
 def _along_poses(
-    traversal: Traversal, ranged: PoseRange, view: DrivenView, conditions: Conditions
+    traversal: Traversal, ranged: PoseRange, view: DrivenView
 ) -> tuple[FloatArray, FloatArray]:
-    """Violations (k,) of branch, order and transmission, and the least transmission angles (k,)."""
+    """Violations (k,) of branch and order, and the least transmission angles (k,)."""
     on, clear = traversal.on_circuit, traversal.clear
     own = np.take_along_axis(traversal.branch_key, first_where(clear, on)[:, None], axis=1)
     elsewhere = np.where(clear & (traversal.branch_key != own), view.transmission, 0.0)
@@ -159,8 +162,7 @@ def _along_poses(
         traversal.crosses_branches, -elsewhere.max(axis=1), np.nan_to_num(ranged.least_transmission)
     )
     violation = np.where(on.all(axis=1), 0.0, NONE)
-    short = np.maximum(conditions.transmission - least, 0.0)
-    violation += np.where(traversal.crosses_branches, LOST, 0.0) + np.where(short > 0, short, 0.0)
+    violation += np.where(traversal.crosses_branches, LOST, 0.0)
     back = np.where(traversal.order.back > REPEATED_POSE_STEP, traversal.order.back, 0.0)
     return violation + np.minimum(back, NONE), least
 
@@ -174,20 +176,6 @@ def _frames(circuits: Circuits, ends: FloatArray) -> Displacement:
     """Places (k, FRAMES) of the coupler along a range of parameters (k, 2)."""
     share = np.linspace(0.0, 1.0, FRAMES)
     return circuits.couplers(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * share)
-
-
-def _pivots(linkage: Linkage, frames: Displacement) -> list[FloatArray]:
-    """All pivots (k, *, 2) over places (k, FRAMES)."""
-    dyads = linkage.first, linkage.second
-    fixed = [dyad.fixed_pivot[:, None] for dyad in dyads if isinstance(dyad, RR | RP)]
-    moving = [dyad.moving_pivot[:, None] for dyad in dyads if isinstance(dyad, RR | PR)]
-    return fixed + [frames.act(each) for each in moving]
-
-
-def _outside(linkage: Linkage, frames: Displacement, footprint: Polygon) -> FloatArray:
-    """How far pivots (k,) leave the footprint."""
-    points = np.concatenate(_pivots(linkage, frames), axis=1)
-    return np.asarray(footprint.distance(points).max(axis=1))
 
 
 def _beyond(
@@ -234,34 +222,20 @@ def _too_close(
     return out
 
 
-def _of_proportions(linkage: Linkage, places: Displacement, conditions: Conditions) -> FloatArray:
-    """Violations (k,) of the bounds on links and of the types, as logarithms of ratios."""
+def _figures(linkage: Linkage, least: FloatArray, traversal: Traversal) -> Figures:
+    """The figures of linkages (k,); with sliders, distances between pivots count as links, too."""
+    turns = traversal.circuits.closed & (traversal.circuits.branches == 1)
+    figures = figures_of(linkage, least, turns)
     one, other = linkage.first, linkage.second
     links = [dyad.radius for dyad in (one, other) if isinstance(dyad, RR)]
     if isinstance(one, RR | RP) and isinstance(other, RR | RP):
         links.append(np.linalg.norm(one.fixed_pivot - other.fixed_pivot, axis=-1))
     if isinstance(one, RR | PR) and isinstance(other, RR | PR):
         links.append(np.linalg.norm(one.moving_pivot - other.moving_pivot, axis=-1))
-    out = np.zeros(places.shape[0])
-    if links:
-        every = np.stack(links)
-        least, most = every.min(axis=0), every.max(axis=0)
-        out += np.log(np.maximum(conditions.shortest / np.maximum(least, 1e-300), 1.0))
-        out += np.log(np.maximum(most / conditions.longest, 1.0))
-    if len(links) == len(GRASHOF_SUMS[0]):
-        out += np.log(np.maximum(most / np.maximum(least, 1e-300) / conditions.ratio, 1.0))
-        four = np.stack(
-            [links[2], links[0], links[3], links[1]]
-        )  # ground, driver, coupler, follower
-        sums = np.asarray(GRASHOF_SUMS) @ four
-        if not conditions.change_point:
-            least_sum = CHANGE_POINT * four.sum(axis=0)
-            out += np.maximum(least_sum - np.abs(sums).min(axis=0), 0.0) / least_sum
-        code = ((sums > 0) * np.array([[1], [2], [4]])).sum(axis=0)
-        out += LOST * ~conditions.types[code]
-    if frozenset({type(one), type(other)}) not in conditions.kinds:
-        out += LOST
-    return out
+    if linkage.links is not None or not links:
+        return figures
+    every = np.stack(links)
+    return figures._replace(shortest=every.min(axis=0), longest=every.max(axis=0))
 
 
 def _by_transmission(value: Assessment, enough: float) -> FloatArray:

@@ -2,25 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Self, final
 
-import numpy as np
-from numpy.typing import NDArray
-
 from burmester.fourbar.dyad import RR
-from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.fourbar.linkage_batch import DYAD_KINDS
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.target import Target
+from burmester.requirements.footprint import FOOTPRINT
+from burmester.requirements.requirement import Bounds
+from burmester.requirements.transmission import TRANSMISSION
+from burmester.requirements.types import TYPES
 from burmester.tasks.options import Preference
 from burmester.tasks.problem import SynthesisProblem
-from burmester.tasks.requirements import TYPES
 from burmester.tasks.surroundings import KeepOut, Surroundings
 from burmester.verdicts.assumptions import Assumptions
 from burmester.verdicts.quality import enough_transmission
-from burmester.verdicts.standard import Standard
 
 __all__ = ["Conditions"]
 
@@ -30,30 +29,26 @@ __all__ = ["Conditions"]
 class Conditions:
     """What linkages of an open task must be; lengths in its frames.
 
-    transmission: the least transmission angle over the range, radians.
-    shortest, longest: of the links; ratio: of the longest of four to the shortest.
+    asked: what the task asks of them, and what is assumed.
     span: of the motion, by which the extent is measured.
     prefer: by which figure the recommended linkage is chosen.
-    types: (8,), whether 4R linkages are allowed, by the signs of their Grashof sums, in binary.
     kinds: the pairs of kinds of dyads that are allowed; drivers: the sides that may drive.
     around: what body, its outline, and links must stay clear of.
     """
 
-    transmission: float
-    shortest: float
-    longest: float
-    ratio: float
+    asked: Bounds
     span: float
-    types: NDArray[np.bool_]
     kinds: frozenset[frozenset[type]]
     drivers: tuple[int, ...]
-    crank: bool
     any_order: bool
-    change_point: bool
-    footprint: Polygon | None
     prefer: Preference
     around: Surroundings | None = None
     body: Polygon | None = None
+
+    @property
+    def transmission(self) -> float:
+        """The least transmission angle over the range, radians."""
+        return math.radians(self.asked[TRANSMISSION])
 
     @property
     def enough(self) -> float:
@@ -67,30 +62,22 @@ class Conditions:
         """What a problem asks, and what is assumed; pins: whether both dyads may have two pins."""
         task, frames, unit = problem.task, target.frames, float(target.frames.length)
         asked = task.requirements
-        footprint = asked.footprint
-        if footprint is not None:
-            footprint = _in_frame(footprint, frames.fixed_origin, unit)
-        types = np.zeros(2**3, dtype=bool)
-        for signs, name in TYPE_OF_SIGNS.items():
-            types[sum(2**k for k, sign in enumerate(signs) if sign > 0)] = asked.allows(name)
+        bounds = {
+            each: bound / unit if each.scaled else bound for each, bound in assumed.asked.items()
+        }
+        if asked.footprint is not None:
+            bounds[FOOTPRINT] = _in_frame(asked.footprint, frames.fixed_origin, unit)
         classes = {kind.__name__: kind for kind in DYAD_KINDS}
         pairs = (pair for name, pair in TYPES.items() if asked.allows(name))
         kinds = frozenset(frozenset(classes[kind] for kind in pair) for pair in pairs)
         if pins and asked.types is None:
             kinds = frozenset(pair for pair in kinds if RR in pair)  # two sliders only if asked for
         return cls(
-            transmission=assumed.transmission,
-            shortest=assumed.shortest / unit,
-            longest=assumed.longest / unit,
-            ratio=assumed.ratio,
+            asked=bounds,
             span=assumed.size / unit,
-            types=types,
             kinds=kinds,
             drivers={"first": (0,), "second": (1,)}.get(asked.driver, (0, 1)),
-            crank=problem.given.requirements.driver == "crank",
             any_order=asked.any_order,
-            change_point=Standard.of(task).change_point,
-            footprint=footprint,
             prefer=problem.options.prefer,
             around=None if task.surroundings is None else _moved_around(task.surroundings, target),
             body=None if task.body is None else _in_frame(task.body, frames.moving_origin, unit),

@@ -6,7 +6,6 @@ linkages are from keeping it.  A search: that none exceeds it less is not proved
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 from typing import Final, NamedTuple, final
 
@@ -30,12 +29,11 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.progress import time_for
 from burmester.refinement.target import Target
+from burmester.requirements.table import without
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.assumptions import WIDE, Assumptions
-from burmester.verdicts.standard import MOST_LINK_RATIO
 
 __all__ = [
-    "LEAST_USEFUL",
     "LeastExcess",
     "assumed_to_build",
     "last_search",
@@ -51,7 +49,6 @@ DRAWN: Final = {0: 450}  # number of dyads with pins that are drawn
 MOST_STARTS: Final = 300  # number of linkages among which starts are looked for
 TAKEN: Final = 3  # number of linkages that are told of
 NEVER: Final = 1.0  # excess of a dyad of a kind that is not allowed
-LEAST_USEFUL: Final = math.radians(5)  # of transmission, where less than asked for is looked at
 FLOOR: Final = 1e-9  # keeps the logarithm of an excess finite
 
 
@@ -130,8 +127,9 @@ def least_excess(
 def assumed_to_build(problem: SynthesisProblem, reach: float = WIDE) -> Assumptions:
     """What a linkage to build must be where the task says nothing; reach: motion sizes."""
     known = Assumptions.of(problem, reach)
-    stated = math.isfinite(problem.given.requirements.link_ratio)
-    return known if stated else replace(known, ratio=MOST_LINK_RATIO)
+    stated = problem.given.requirements.bounds
+    usual = {each: each.standard for each in known.asked if each.assumed and each not in stated}
+    return replace(known, asked={**known.asked, **usual})
 
 
 def last_search(problem: SynthesisProblem, target: Target, before: Family | None) -> Family | None:
@@ -143,8 +141,8 @@ def last_search(problem: SynthesisProblem, target: Target, before: Family | None
         return before
     assumed = assumed_to_build(problem)
     stated = OpenTask.of(problem, target, assumed)
-    easier = replace(stated.conditions, transmission=min(assumed.transmission, LEAST_USEFUL))
-    loose = replace(stated, conditions=easier)
+    asked = without(stated.conditions.asked, {"transmission"})
+    loose = replace(stated, conditions=replace(stated.conditions, asked=asked))
     near = least_excess(stated, loose, linkages_within_limits(stated), wide=False)
     if near is None or near.excess[0] > 0:
         return before

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR, dimensions_of, shape_of
-from burmester.fourbar.linkage import GRASHOF_SUMS, GRASHOF_TIE, TYPE_OF_SIGNS, Linkage
+from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance
 from burmester.fourbar.traversal import (
     DEAD_POINT_ANGLE,
@@ -32,11 +32,14 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
+from burmester.requirements.footprint import FOOTPRINT
+from burmester.requirements.requirement import Bounds
+from burmester.requirements.table import keeps
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 from burmester.verdicts.assumptions import Assumptions
-from burmester.verdicts.standard import CHANGE_POINT, LONGEST_LINK, Standard
+from burmester.verdicts.requirement_check import figures_of, outside, standard_of
 
 __all__ = [
     "CLASS_WORDS",
@@ -86,47 +89,24 @@ Ground: TypeAlias = RR | PR | RP
 class PairBounds:
     """What pairs are held to, beside what their task itself asks; lengths in the task's unit.
 
-    transmission: the least transmission angle over the range, radians.
-    ratio: of the longest of four links to the shortest.
-    shortest, longest: of the links.
-    change_point: whether a pair may be at a change point.
+    asked: what the task asks, and the standard or what is assumed beside.
     fixed, moving: where pivots are assumed to lie that no limit of the task holds, in F and in M;
         None is anywhere.  A pair that works but for that has a class of its own.
     """
 
-    transmission: float
-    ratio: float
-    shortest: float
-    longest: float
-    change_point: bool = False
+    asked: Bounds
     fixed: Polygon | None = None
     moving: Polygon | None = None
 
     @classmethod
     def of(cls, task: Task) -> Self:
-        """The standard of `verdicts.standard`, and what the task asks."""
-        standard, asked = Standard.of(task), task.requirements
-        both = standard.requirements(asked)
-        return cls(
-            both.transmission,
-            both.link_ratio,
-            standard.shortest,
-            LONGEST_LINK * standard.span,
-            standard.change_point,
-        )
+        """The standard of `requirements.table`, and what the task asks."""
+        return cls({**task.requirements.bounds, **standard_of(task)})
 
     @classmethod
-    def assumed(cls, assumptions: Assumptions, task: Task) -> Self:
+    def assumed(cls, assumptions: Assumptions) -> Self:
         """What is assumed of the linkages of a family, and what the task asks."""
-        return cls(
-            assumptions.transmission,
-            assumptions.ratio,
-            assumptions.shortest,
-            assumptions.longest,
-            task.requirements.types is not None,
-            assumptions.fixed,
-            assumptions.moving,
-        )
+        return cls(assumptions.asked, assumptions.fixed, assumptions.moving)
 
 
 class PairVerdicts(NamedTuple):
@@ -185,7 +165,7 @@ def _judged(first: Ground, second: RR, task: Task, bounds: PairBounds) -> PairVe
         traversal, ranged = other_way_round(traversal, pose_range(traversal, view), view, any_order)
         verdict = _motion_class(traversal, ranged)
         works = np.flatnonzero(verdict == PairClass.WORKS)
-        good = allowed[driver] & _as_asked(side, traversal, ranged, task, bounds)
+        good = allowed[driver] & _as_asked(side, traversal, ranged, bounds)
         angle[driver, finite[one[works]]] = ranged.least_transmission[works]
         verdict[works[~near[driver][works]]] = PairClass.FARTHER
         verdict[works[~good[works]]] = PairClass.OUTSIDE_BOUNDS
@@ -233,53 +213,26 @@ def _motion_class(traversal: Traversal, ranged: PoseRange) -> NDArray[np.int8]:
 
 
 def _as_asked(
-    side: Linkage, traversal: Traversal, ranged: PoseRange, task: Task, bounds: PairBounds
+    side: Linkage, traversal: Traversal, ranged: PoseRange, bounds: PairBounds
 ) -> BoolArray:
     """Which linkages (k,), driven by their first dyads, are as the task and the bounds ask."""
-    asked = task.requirements
-    good: BoolArray = ~(ranged.least_transmission < bounds.transmission - MET)
-    built = [dyad.radius for dyad in (side.first, side.second) if isinstance(dyad, RR)]
-    if (links := side.links) is not None:
-        built = list(links)
-        length = np.stack(built, axis=-1)
-        good &= length.max(axis=-1) <= bounds.ratio * (1 + MET) * length.min(axis=-1)
-        sums, whole = length @ GRASHOF_SUMS.T, length.sum(axis=-1)
-        change = np.abs(sums).min(axis=-1)
-        good &= bounds.change_point | (change >= CHANGE_POINT * whole)
-        types = [name for name in set(TYPE_OF_SIGNS.values()) if asked.allows(name)]
-        signs = [key for key, name in TYPE_OF_SIGNS.items() if name in types]
-        of_type = (np.sign(sums)[:, None] == np.reshape(signs, (-1, 3))).all(axis=-1).any(axis=-1)
-        at_change = change <= GRASHOF_TIE * whole
-        good &= np.where(at_change, asked.allows("change-point"), of_type)
-    else:
-        good &= asked.allows(side.type)
-    for length in built:
-        good &= (length >= bounds.shortest) & (length <= bounds.longest)
-    if asked.driver == "crank":
-        good &= traversal.circuits.closed & (traversal.circuits.branches == 1)
-    if asked.footprint is not None:
+    turns = traversal.circuits.closed & (traversal.circuits.branches == 1)
+    good = keeps(bounds.asked, figures_of(side, ranged.least_transmission, turns))
+    if (footprint := bounds.asked.get(FOOTPRINT)) is not None:
         some = np.flatnonzero(good)
-        good[some] = _within_footprint(side, traversal, some, asked.footprint)
+        good[some] = _outside(side, traversal, some, footprint) <= FOOTPRINT.slack(footprint)
     return good
 
 
-def _within_footprint(
+def _outside(
     side: Linkage, traversal: Traversal, some: NDArray[np.intp], footprint: Polygon
-) -> BoolArray:
-    """Whether all pivots of some linkages (n,) stay in a footprint, at samples of their motions."""
+) -> FloatArray:
+    """How far pivots of some linkages (n,) leave a footprint, at samples of their motions."""
     along = traversal.order.along[some]
     share = np.linspace(0, 1, FOOTPRINT_SAMPLES)
     low, high = along.min(axis=1, keepdims=True), along.max(axis=1, keepdims=True)
     places = traversal.circuits[some].couplers(low + share * (high - low))
-    slack = MET * float(np.ptp(footprint.vertices, axis=0).max())
-    inside = np.ones(len(some), dtype=bool)
-    for dyad in (side.first, side.second):
-        if isinstance(dyad, RR | RP):
-            inside &= footprint.distance(dyad.fixed_pivot[some]) <= slack
-        if isinstance(dyad, RR | PR):
-            points = places.act(dyad.moving_pivot[some, None])
-            inside &= (footprint.distance(points) <= slack).all(axis=1)
-    return inside
+    return outside(Linkage(side.first[some], side.second[some]), places, footprint)
 
 
 def _within_limits(

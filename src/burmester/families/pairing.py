@@ -18,6 +18,7 @@ from burmester.families.dyad_samples import DyadSamples
 from burmester.fourbar.linkage_batch import DYAD_KINDS
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.links import LINK_RATIO, LONGEST_LINK, SHORTEST_LINK
 
 __all__ = ["Pairs", "promising_pairs"]
 
@@ -166,15 +167,15 @@ def _sane(
         links.append(_distance(one.ground, other.ground))
     if RP_KIND not in (one.kind, other.kind):
         links.append(_distance(one.pin[0], other.pin[0]))
-    least, most = np.full(shape, np.inf), np.zeros(shape)
+    least, most, asked = np.full(shape, np.inf), np.zeros(shape), conditions.asked
     for each in links:
         least, most = np.minimum(least, each), np.maximum(most, each)
-    keep = (slack * least >= conditions.shortest) & (most <= slack * conditions.longest)
+    keep = (slack * least >= asked[SHORTEST_LINK]) & (most <= slack * asked[LONGEST_LINK])
     if len(links) == FOUR:
-        keep &= most <= slack * conditions.ratio * least
+        keep &= most <= slack * asked[LINK_RATIO] * least
     if same:
         np.fill_diagonal(keep, val=False)
-    return keep
+    return np.asarray(keep)
 
 
 def _normals(angle: FloatArray) -> FloatArray:

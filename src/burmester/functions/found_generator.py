@@ -17,19 +17,18 @@ from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.functions.refinement import at_bounds
 from burmester.numerics.arrays import FloatArray, wrapped_angle
-from burmester.wording import figure, in_runs, with_article
+from burmester.requirements.figures import Figures
+from burmester.requirements.table import NOT_ASKED, shortcomings, standard
+from burmester.verdicts.requirement_check import figures_of
+from burmester.wording import figure, in_runs
 
 __all__ = [
-    "LEAST_TRANSMISSION",
     "MET",
-    "MOST_LINK_RATIO",
     "FoundGenerator",
     "found_generators",
     "price_list",
 ]
 
-LEAST_TRANSMISSION: Final = 30.0  # degrees; below it friction and play grow quickly
-MOST_LINK_RATIO: Final = 10.0  # longest over shortest of four links
 CLOSE: Final = 3.0  # times the least error; a sound linkage as close as this comes first
 MET: Final = 1e-7  # radians; a pair missed by less is met exactly
 SAME_EXACT: Final = 1e-6  # of the logarithm of a link, and radians, through exact pairs
@@ -76,6 +75,11 @@ class FoundGenerator:
     def rms_error(self) -> float:
         """The root of the mean squared structural error, radians."""
         return float(np.sqrt((self.range_errors**2).mean()))
+
+    @property
+    def figures(self) -> Figures:
+        """What it measures, by which it is held to what is asked."""
+        return figures_of(self.generator.linkage(), self.least_transmission, True)
 
     def linkage(self, task: FunctionTask) -> Linkage:
         """The four-bar: its input link is the first dyad, its coupler the body."""
@@ -172,43 +176,23 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
     low, high = task.input_ends
     least = float(generator.least_transmission(low, high))
     defects = _defects(generator, task, errors, exact=exact)
-    ratio = float(generator.link_ratio)
-    wanted = task.requirements
-    asked = []
-    if wanted.transmission and not least >= wanted.transmission:
-        asked.append(
-            Advice(
-                "transmission",
-                f"transmits at {_degrees(least)} only" if math.isfinite(least) else "locks",
-                "",
-            )
-        )
-    if ratio > wanted.link_ratio:
-        asked.append(
-            Advice("link-ratio", f"has a link {figure(ratio)} times as long as another", "")
-        )
-    kind = generator.linkage().type
-    if task.types is not None and kind not in task.types:
-        asked.append(Advice("type", f"is {with_article(kind)}", ""))
-    shortcomings = []
-    if not wanted.transmission and not least >= math.radians(LEAST_TRANSMISSION):
-        shortcomings.append(f"transmits at {_degrees(least)} only")
-    if math.isinf(wanted.link_ratio) and ratio > MOST_LINK_RATIO:
-        shortcomings.append(f"has a link {figure(ratio)} times as long as another")
+    bounds = task.requirements.bounds
+    figures = figures_of(generator.linkage(), least, True)
+    asked = [Advice(each.code, each.message, "") for each in shortcomings(bounds, figures, figure)]
+    usual = standard(bounds, 0.0, NOT_ASKED)
+    below = [each.message for each in shortcomings(usual, figures, figure)]
     if not exact and bool(at_bounds(generator)):
-        shortcomings.append(
-            f"has a link at the bound of {figure(MOST_SIZE)} ground links, or its inverse"
-        )
+        below.append(f"has a link at the bound of {figure(MOST_SIZE)} ground links, or its inverse")
     return FoundGenerator(
         "",
         0,
         generator,
-        kind,
+        generator.linkage().type,
         errors,
         generator.error(inputs, outputs),
         not defects and not asked,
         (*defects, *asked),
-        tuple(shortcomings),
+        tuple(below),
         least,
         _extent(generator, np.linspace(low, high, len(inputs) if task.function else 181)),
     )

@@ -13,12 +13,12 @@ from typing import Final, NamedTuple
 
 import numpy as np
 
-from burmester.functions.found_generator import MOST_LINK_RATIO
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.further_starts import FurtherStarts
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import KeptRequirements
 from burmester.functions.refinement import different, refined
+from burmester.requirements.links import LINK_RATIO
 
 __all__ = ["nearest_generators"]
 
@@ -49,7 +49,7 @@ def nearest_generators(optima: Generator, task: FunctionTask) -> Generator:
     wanted, asks = task.requirements, task.requirements.has_any
     asked = _Level(wanted.transmission, wanted.link_ratio, task.types, MOST_OPTIMA)
     plain = _Level(0.0, math.inf, None, MOST_UNASKED if asks else MOST_OPTIMA)
-    sound = asked._replace(ratio=min(wanted.link_ratio, MOST_LINK_RATIO), most=MOST_BETTER)
+    sound = asked._replace(ratio=min(wanted.link_ratio, LINK_RATIO.standard), most=MOST_BETTER)
     better = [sound._replace(transmission=t) for t in BETTER if t > asked.transmission]
     found = _searched(list(dict.fromkeys([plain, asked, *better])), optima, further, task)
     if asks and not len(found[asked]):

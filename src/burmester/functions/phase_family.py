@@ -9,11 +9,12 @@ from __future__ import annotations
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from burmester.functions.exact_pairs import generators_of_phases, other_phases
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
+from burmester.requirements.table import keeps
+from burmester.verdicts.requirement_check import figures_of
 
 __all__ = ["PhaseFamily", "best_of_phases"]
 
@@ -48,9 +49,10 @@ def best_of_phases(task: FunctionTask) -> PhaseFamily:
     error = np.abs(found.error(task.inputs, task.outputs)).max(axis=-1)
     works = found.runs_through(low, high) & (error < EXACT) & (found.link_ratio <= MOST_RATIO)
     found = found[works]
-    keeps = _keeps(found, task)
-    if keeps.any():
-        found = found[keeps]
+    figures = figures_of(found.linkage(), found.least_transmission(low, high), True)
+    kept = keeps(task.requirements.bounds, figures)
+    if kept.any():
+        found = found[kept]
     if task.function is not None:
         merit = np.abs(found.error(*task.compared())).max(axis=-1)
     else:
@@ -59,16 +61,6 @@ def best_of_phases(task: FunctionTask) -> PhaseFamily:
     found = found[order]
     best = found[found.first_apart(APART, KEPT, phases_only=True)]
     return PhaseFamily(best, tried, int(works.sum()))
-
-
-def _keeps(found: Generator, task: FunctionTask) -> NDArray[np.bool_]:
-    """Which generators (k,) keep what the task asks."""
-    wanted = task.requirements
-    keeps = found.least_transmission(*task.input_ends) >= wanted.transmission
-    keeps &= found.link_ratio <= wanted.link_ratio
-    if task.types is not None:
-        keeps &= np.isin(found.types, list(task.types))
-    return keeps
 
 
 def _of_grid(task: FunctionTask) -> Generator:

@@ -16,9 +16,10 @@ from burmester.families.pair_verdicts import CLASS_WORDS, Ground
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.regions import Polygon
-from burmester.io.linkage_data import number
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.links import LINK_RATIO, LONGEST_LINK, SHORTEST_LINK
+from burmester.requirements.transmission import TRANSMISSION
 
 __all__ = ["family_map_data"]
 
@@ -30,17 +31,16 @@ def family_map_data(found: FamilyMap, recommended: Linkage | None = None) -> dic
 
     recommended: the linkage of the task that is recommended; of a curve its place is told.
     """
-    classes, angle, driver = found.verdicts
+    (classes, angle, driver), asked = found.verdicts, found.bounds.asked
     data: dict[str, Any] = {
         "schema": SCHEMA,
         "kind": found.kind,
         "length_unit": found.task.length_unit,
         "poses": poses_data(found.task.poses),
         "bounds": {
-            "transmission_deg": math.degrees(found.bounds.transmission),
-            "link_ratio": number(found.bounds.ratio),
-            "shortest_link": found.bounds.shortest,
-            "longest_link": found.bounds.longest,
+            **{each.name: asked[each] for each in (TRANSMISSION, LINK_RATIO)},
+            "shortest_link": asked[SHORTEST_LINK],
+            "longest_link": asked[LONGEST_LINK],
             "fixed_pivot": _corners(found.bounds.fixed),
             "moving_pivot": _corners(found.bounds.moving),
         },

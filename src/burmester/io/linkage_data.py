@@ -19,9 +19,9 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.table import Violation
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.requirement_check import Violation
 from burmester.verdicts.tolerances import Spread
 from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 

@@ -34,6 +34,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.result import SCHEMA, SEARCH_KEYS
 from burmester.printable import printable
 from burmester.refinement.tolerance_boxes import counted_error
+from burmester.requirements.table import Violation
 from burmester.sixbar.found import FoundSixBar
 from burmester.synthesis.given_linkage import OpenLink, require_linkage
 from burmester.synthesis.judgement import judged_again
@@ -45,7 +46,6 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
-from burmester.verdicts.requirement_check import Violation
 from burmester.wording import listed
 
 if TYPE_CHECKING:

@@ -26,7 +26,6 @@ from burmester.refinement.defect_free_search import driving_sides, refined_on_br
 from burmester.refinement.target import Target
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.verdicts.ranking import by_quality
-from burmester.verdicts.standard import Standard
 
 __all__ = ["best_within"]
 
@@ -55,7 +54,7 @@ class _Starts(NamedTuple):
 
 def best_within(found: Sequence[FoundLinkage], evaluation: Evaluation) -> list[FoundLinkage]:
     """Usable linkages within the task's tolerance that transmit better than those found so far."""
-    standard = Standard.of(evaluation.task).requirements(evaluation.task.requirements)
+    standard = evaluation.task.requirements.with_standard()
     target = replace(evaluation.target, requirements=standard).thinned(MAX_POSES_SEARCHED)
     starts, good, shares = _closest(found, target), [], np.array(SHARES)
     for _ in range(ROUNDS):

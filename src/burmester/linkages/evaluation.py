@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import NamedTuple, final
 
 import numpy as np
@@ -18,7 +19,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.judged_places import best_places, places_to_judge
+from burmester.linkages.judged_places import NearestPlaces, best_places
 from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.bundles import take
 from burmester.numerics.weights import weights_or_ones
@@ -30,7 +31,9 @@ from burmester.refinement.tolerance_boxes import (
     poses_counted,
     shares_used,
 )
+from burmester.requirements.table import Violation, shortcomings
 from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import length_of
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.clearance_check import clearance_of, too_close
@@ -40,8 +43,7 @@ from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.possible_types import links_covariance, possible_types
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
-from burmester.verdicts.requirement_check import Violation, places_between, violations
-from burmester.verdicts.standard import Standard
+from burmester.verdicts.requirement_check import places_between, standard_of, violations
 from burmester.verdicts.timing_check import mistimed, timing_error
 from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
@@ -161,7 +163,7 @@ class Evaluation:
             own = candidates.batch.from_canonical(frames)
             candidates = candidates._replace(own=own, batch=own.to_canonical(frames))
         every, boxes = np.arange(len(candidates.batch)), self.target.boxes
-        index, rows = places_to_judge(candidates.batch, self.target)
+        index, rows, _ = NearestPlaces.of(candidates.batch, self.target).ways()
         if boxes is not None:
             deepest = self.target.places(candidates.batch, on_both=True)
             index, rows = np.r_[every, index], np.concatenate([candidates.rows, rows])
@@ -195,7 +197,7 @@ class Evaluation:
         combined = self.target.combined_error(at_angles) * float(self.target.frames.length)
         if self.target.path is not None:
             combined = np.array([each.worst for each in errors])
-        standard = Standard.of(self.task)
+        bounds, length = standard_of(self.task), partial(length_of, task=self.task)
         distance = np.abs(own.distances(self.task.poses))
         rms, worst = np.sqrt((distance**2).mean(axis=-1)).tolist(), distance.max(axis=-1).tolist()
         sides = np.tile(np.arange(2), (len(own), 1))
@@ -234,7 +236,8 @@ class Evaluation:
                 task=self.problem.given,
             )
             found = replace(found, timing_error=timing_error(found.driven.inputs, self.task))
-            out.append(replace(found, shortcomings=standard.shortcomings(found, self.task)))
+            below = shortcomings(bounds, found.figures, length)
+            out.append(replace(found, shortcomings=tuple(each.message for each in below)))
         for k, strays in enumerate(stray_shortcomings(out, self.task)):
             if strays:
                 out[k] = replace(out[k], shortcomings=(*out[k].shortcomings, *strays))

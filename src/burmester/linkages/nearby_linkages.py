@@ -32,7 +32,6 @@ from burmester.refinement.least_error import Refined
 from burmester.refinement.target import Target
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import digits_leave_open, farthest_recommended
-from burmester.verdicts.standard import Standard
 
 __all__ = ["Move", "greatest_move", "moves", "nearby_linkages"]
 
@@ -170,7 +169,7 @@ def _targets(given: FoundLinkage, evaluation: Evaluation) -> Iterator[Target]:
     """What the linkage is refined for: what the task asks, the standard, better transmission."""
     target, asked = evaluation.target, evaluation.task.requirements
     yield target
-    sound = Standard.of(evaluation.task).requirements(asked)
+    sound = asked.with_standard()
     least = float(np.nan_to_num(given.driven.least_over_range))
     levels = [math.degrees(least) + gain for gain in TRANSMISSION_GAINS]
     for level in [sound.transmission_deg, *levels]:

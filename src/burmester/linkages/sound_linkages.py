@@ -1,8 +1,8 @@
 """Linkages to build, from those that are close and not sound.
 
-The closest linkages are refined again, with either dyad driving, under the standard (`standard`):
-they give up some nearness for a transmission angle and sane links.  A heuristic: that no other
-linkage within the bound is sound is not proved.
+The closest linkages are refined again, with either dyad driving, under the standard of
+`requirements.table`: they give up some nearness for a transmission angle and sane links.  A
+heuristic: that no other linkage within the bound is sound is not proved.
 """
 
 from __future__ import annotations
@@ -16,7 +16,6 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.refinement.defect_free_search import driving_sides, refined_on_branch
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.standard import Standard
 
 __all__ = ["sound_linkages"]
 
@@ -39,7 +38,7 @@ def sound_linkages(
         else they lack.
     """
     asked = evaluation.task.requirements
-    required = Standard.of(evaluation.task).requirements(asked)
+    required = asked.with_standard()
     if transmission_deg:
         least = max(asked.transmission_deg, min(transmission_deg, STEEPEST))
         required = replace(required, transmission_deg=least)

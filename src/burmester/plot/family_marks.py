@@ -22,6 +22,7 @@ from burmester.fourbar.dyad import RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import VERMILION, plain
+from burmester.requirements.transmission import TRANSMISSION
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -64,7 +65,7 @@ def colors_of(found: FamilyMap, classes: NDArray[np.int8], transmission: FloatAr
 
 def scale_of(found: FamilyMap) -> Normalize:
     """From what is asked for to the next full step above the best pair."""
-    asked = float(np.degrees(found.bounds.transmission))
+    asked = float(found.bounds.asked[TRANSMISSION])
     works = np.where(found.verdicts.classes <= PairClass.FARTHER, found.verdicts.transmission, 0.0)
     best = np.ceil(np.degrees(works.max(initial=0.0)) / SCALE_STEP) * SCALE_STEP
     return Normalize(asked, max(best, asked + SCALE_STEP))

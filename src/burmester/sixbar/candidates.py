@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from types import MappingProxyType
 from typing import NamedTuple, final
 
 import numpy as np
@@ -9,29 +11,26 @@ from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.requirements.figures import Figures, Values
+from burmester.requirements.requirement import Bounds
+from burmester.requirements.table import excess, standard
+from burmester.requirements.transmission import TRANSMISSION
 from burmester.sixbar.added_dyads import FourBars, with_first_dyad, with_second_dyad
 from burmester.sixbar.motion import Sides, joints_at
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.sixbar.travel import first_loop_works, least_transmission, travel
 from burmester.sixbar.watt import JOINTS, Drive, WattLinkage
-from burmester.verdicts.standard import (
-    LEAST_TRANSMISSION,
-    LONGEST_LINK,
-    MOST_LINK_RATIO,
-    SHORTEST_LINK,
-)
 
 __all__ = [
     "DRIVERS",
-    "WIDEST",
     "Candidates",
     "Conditions",
     "candidates",
     "extent_of",
+    "figures_of",
     "joined",
 ]
 
-WIDEST = 4.0  # sizes of the motion; a convention: the extent that a six-bar to build keeps
 PLACES = 33  # along the range, at which the extent is looked at
 COLUMNS = "chain", "design", "joints", "driver", "drive", "room", "transmission", "extent"
 DRIVERS: tuple[Drive, ...] = ("first", "second")
@@ -42,13 +41,12 @@ class Conditions(NamedTuple):
     """What six-bars must be.
 
     crank: whether the driver must turn fully; any_order: whether the poses may be met in any order.
-    transmission: the least angle over the range, in radians; link_ratio: the greatest.
+    asked: what else is asked.
     """
 
     crank: bool = False
     any_order: bool = False
-    transmission: float = 0.0
-    link_ratio: float = np.inf
+    asked: Bounds = MappingProxyType({})
 
 
 @final
@@ -78,22 +76,33 @@ class Candidates(NamedTuple):
         sides = self.sides.at(index)
         return self._replace(**picked, sides=sides)
 
+    @property
+    def figures(self) -> Figures:
+        """What they measure (n,)."""
+        return figures_of(self.linkages, self.transmission, True, self.extent)
+
     def excess(self, size: float) -> FloatArray:
         """How far beyond the standard link ratio, lengths and extent are: (n,), logarithms.
 
         Zero is within.  size: of the motion.
         """
-        lengths = self.linkages.lengths() / size
-        least, most = lengths.min(axis=-1), lengths.max(axis=-1)
-        over = np.maximum(0, np.log(most / least / MOST_LINK_RATIO))
-        over += np.maximum(0, np.log(SHORTEST_LINK / least))
-        over += np.maximum(0, np.log(most / LONGEST_LINK))
-        over += np.maximum(0, np.log(self.extent / size / WIDEST))
-        return np.asarray(over)
+        return excess(standard({}, size, (TRANSMISSION,)), self.figures)
 
     def merit(self, size: float) -> FloatArray:
         """What a search climbs (n,): the least transmission angle in degrees, less `excess`."""
-        return np.asarray(np.degrees(self.transmission) - LEAST_TRANSMISSION * self.excess(size))
+        return np.asarray(np.degrees(self.transmission) - TRANSMISSION.standard * self.excess(size))
+
+
+def figures_of(
+    linkage: WattLinkage, transmission: Values, turns: Values, extent: Values = math.nan
+) -> Figures:
+    """The figures of six-bars (*,) by which they are held to what is asked.
+
+    transmission: the least angle of both loops over the range, radians.
+    """
+    lengths = linkage.lengths()
+    least, most = lengths.min(axis=-1), lengths.max(axis=-1)
+    return Figures(transmission, least, most, most / least, turns=turns, extent=extent, joints=True)
 
 
 def candidates(

@@ -17,11 +17,12 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Region, Segment
 from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.progress import goes_on, time_for
+from burmester.requirements.table import excess, keeps, standard
+from burmester.requirements.transmission import TRANSMISSION
 from burmester.sixbar.candidates import Candidates, candidates, joined
 from burmester.sixbar.search_space import POSES, SearchSpace
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.verdicts.quality import best_first
-from burmester.verdicts.standard import LEAST_TRANSMISSION
 
 __all__ = ["ChainSearch", "search"]
 
@@ -246,11 +247,12 @@ def _violation(space: SearchSpace, found: Candidates) -> FloatArray:
     ):
         far = np.maximum(least - length, length - most)
         off.append(np.where(far <= slack, 0.0, far / space.size))
-    asked = space.conditions
-    lacking = np.degrees(asked.transmission - found.transmission) / LEAST_TRANSMISSION
-    ratio = np.log(np.maximum(linkage.link_ratio() / asked.link_ratio, 1.0))
+    asked = dict(space.conditions.asked)
+    lacking = np.zeros(len(found.chain))
+    if (least := asked.pop(TRANSMISSION, None)) is not None:
+        lacking = np.degrees(excess({TRANSMISSION: least}, found.figures)) / TRANSMISSION.standard
     short = np.log(np.maximum(space.bars / linkage.lengths(), 1.0)).max(axis=-1)
-    off += [np.maximum(lacking, 0.0), ratio, short]
+    off += [lacking, excess(asked, found.figures), short]
     return np.asarray(np.sum(off, axis=0))
 
 
@@ -273,8 +275,7 @@ def _distinct(
 
 def is_sound(found: Candidates, size: float) -> NDArray[np.bool_]:
     """Which six-bars meet the standard: (n,); size: of the motion."""
-    enough = np.degrees(found.transmission) >= LEAST_TRANSMISSION
-    return np.asarray(enough & (found.excess(size) == 0))
+    return keeps(standard({}, size), found.figures)
 
 
 def _ranked(found: Candidates, space: SearchSpace, most: int) -> NDArray[np.intp]:

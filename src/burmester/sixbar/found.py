@@ -13,11 +13,11 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.requirements.table import Violation
 from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
 from burmester.sixbar.watt import Drive, WattLinkage
 from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
-from burmester.verdicts.requirement_check import Violation
 
 __all__ = ["FoundSixBar"]
 

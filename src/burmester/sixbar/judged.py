@@ -28,6 +28,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
 from burmester.refinement.tolerance_boxes import counted_error, shares_used
+from burmester.requirements.table import Violation
 from burmester.sixbar.branches import Branches, branches_of
 from burmester.sixbar.candidates import DRIVERS, Candidates, extent_of
 from burmester.sixbar.dead_points import FirstLoop
@@ -42,7 +43,6 @@ from burmester.sixbar.watt import Drive, WattLinkage
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import too_short
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
-from burmester.verdicts.requirement_check import Violation
 
 __all__ = ["judged_six_bar"]
 

@@ -9,16 +9,14 @@ import numpy as np
 
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.table import Violation
+from burmester.requirements.table import violations as violations_of
+from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.watt import WattLinkage
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside
-from burmester.verdicts.requirement_check import (
-    REQUIREMENT_TOLERANCE,
-    Violation,
-    weak_transmission,
-)
 
 __all__ = ["violations"]
 
@@ -32,17 +30,8 @@ def violations(
 
     transmission: the least angle of both loops over the range, in radians; size: of the motion.
     """
-    asked, lengths = task.requirements, linkage.lengths()
-    out = weak_transmission(transmission, asked)
-    if asked.driver == "crank" and not turns_fully:
-        out.append(Violation("driver", "its driver does not turn fully"))
-    ratio = float(lengths.max() / lengths.min())
-    if ratio > asked.link_ratio * (1 + REQUIREMENT_TOLERANCE):
-        message = (
-            f"joints of one link are {ratio:.3g} times as far from each other as those of another; "
-            f"at most {asked.link_ratio:g} times is allowed"
-        )
-        out.append(Violation("link ratio", message))
+    figures = figures_of(linkage, transmission, turns_fully)
+    out = list(violations_of(task.requirements.bounds, figures, task.length_unit))
     if task.limits:
         first, second = task.limits[0], task.limits[-1]
         broken = _broken(linkage, first, second, task, LIMIT_TOLERANCE * size)

@@ -69,8 +69,7 @@ class SearchSpace:
         conditions = Conditions(
             crank=asked.driver == "crank",
             any_order=asked.any_order,
-            transmission=asked.transmission,
-            link_ratio=asked.link_ratio,
+            asked=asked.bounds,
         )
         lengths = limits[0].length, limits[1].length
         return cls(

@@ -44,4 +44,4 @@ def _bounds(synthesis: Synthesis) -> PairBounds | None:
         return None
     attempts = Assumptions.attempts(synthesis.problem)
     known = next(each for each, _ in attempts if each.bounds == synthesis.family.bounds)
-    return PairBounds.assumed(known, synthesis.problem.task)
+    return PairBounds.assumed(known)

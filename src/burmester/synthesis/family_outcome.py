@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 from burmester.errors import Advice
 from burmester.families.family import Family
+from burmester.requirements.links import LINK_RATIO
+from burmester.requirements.transmission import TRANSMISSION
 from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.stated_limits import stated_limits
-from burmester.verdicts.assumptions import LINK_RATIO
 from burmester.verdicts.explanation import in_short
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.standard import LEAST_TRANSMISSION
 from burmester.wording import count, listed
 
 __all__ = ["family_summary", "none_within_limits"]
@@ -45,9 +45,9 @@ def family_summary(
         advice.append(
             Advice(
                 "W216",
-                f"no linkage was found that transmits at {LEAST_TRANSMISSION:g}° and has a link "
-                f"ratio of {LINK_RATIO:g} at most, or what the task asks instead; {first.id} "
-                + listed(first.shortcomings or ("comes nearest",)),
+                f"no linkage was found that transmits at {TRANSMISSION.assumed[0]:g}° and has a "
+                f"link ratio of {LINK_RATIO.assumed[0]:g} at most, or what the task asks instead; "
+                f"{first.id} " + listed(first.shortcomings or ("comes nearest",)),
                 "give the pivots more room, or move a pose",
             )
         )

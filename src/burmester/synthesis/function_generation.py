@@ -284,7 +284,7 @@ def _outcome(found: tuple[FoundGenerator, ...], task: FunctionTask, head: str) -
     if not found:
         return Outcome("R361", head, _HELP, "no real linkage meets the pairs")
     reasons = [f"{each.id} {each.defects[0].message}" for each in found[:3]]
-    help = _loosened(found) or _HELP
+    help = _loosened(found, task) or _HELP
     return Outcome("R361", f"{head}, none of them usable", help, listed(reasons))
 
 
@@ -297,24 +297,14 @@ def _transmission(found: FoundGenerator) -> str:
     return f"{math.degrees(found.least_transmission):.0f}°"
 
 
-def _loosened(found: tuple[FoundGenerator, ...]) -> str:
+def _loosened(found: tuple[FoundGenerator, ...], task: FunctionTask) -> str:
     """Which one requirement to ask less of, as little as may be, and what comes of it; or empty."""
     ways = []
-    for code in ("transmission", "link-ratio", "type"):
-        some = [e for e in found if [each.code for each in e.defects] == [code]]
-        if not some:
-            continue
-        if code == "transmission":
-            best = max(some, key=lambda each: each.least_transmission)
-            least = math.floor(10 * math.degrees(best.least_transmission)) / 10
-            way = f"--min-transmission {least:g}"
-        elif code == "link-ratio":
-            best = min(some, key=lambda each: float(each.generator.link_ratio))
-            way = f"--link-ratio {math.ceil(10 * float(best.generator.link_ratio)) / 10:g}"
-        else:
-            best = some[0]
-            way = f"--type {best.type}"
-        ways.append(f"{way} ({best.id}, {_degrees(best)})")
+    for each, bound in task.requirements.bounds.items():
+        some = [one for one in found if [why.code for why in one.defects] == [each.code]]
+        if some:
+            best = min(some, key=lambda one: float(each.excess(one.figures, bound)))
+            ways.append(f"{each.cure(bound, best.figures)} ({best.id}, {_degrees(best)})")
     return f"ask for less: {listed(ways, 'or')}" if ways else ""
 
 

@@ -19,9 +19,8 @@ from burmester.synthesis.cleared_region import cleared, swept_pivots
 from burmester.synthesis.wider_region import DIGITS, plain, region_text, wider, wider_all_around
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
-from burmester.tasks.requirements import TYPES
 from burmester.tasks.stated_limits import PIVOTS, StatedLimit, with_limits
-from burmester.verdicts.explanation import above, below
+from burmester.verdicts.explanation import below
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure, listed
 
@@ -207,42 +206,14 @@ def _requirement(
     task: Task, limit: StatedLimit, found: FoundLinkage, size: float, share: float
 ) -> Loosening | None:
     """A requirement that a linkage meets."""
-    asked, kind = task.requirements, found.driver_first.type
-    if limit.kind == "transmission":
-        least = math.degrees(found.driven.least_over_range)
-        if not least < asked.transmission_deg:
-            return None
-        angle = asked.transmission_deg - share * (asked.transmission_deg - least)
-        angle = max(math.floor(10 * angle) / 10, 0.1)
-        words = f"a transmission angle of {angle:g}° instead of {asked.transmission_deg:g}°"
-        option = f"--min-transmission {angle:g}"
-        by, new = (
-            math.radians(asked.transmission_deg - angle),
-            replace(asked, transmission_deg=angle),
-        )
-    elif limit.kind == "link ratio":
-        links = found.linkage.links
-        if links is None:
-            return None
-        ratio = max(map(float, links)) / min(map(float, links))
-        if ratio <= asked.link_ratio:
-            return None
-        text = above(asked.link_ratio + share * (ratio - asked.link_ratio))
-        words = f"a longest link of {text} times the shortest instead of {asked.link_ratio:g}"
-        option, by = f"--link-ratio {text}", math.log(float(text) / asked.link_ratio)
-        new = replace(asked, link_ratio=float(text))
-    elif limit.kind == "type":
-        if asked.allows(kind):
-            return None
-        types = frozenset({*(asked.types or ()), kind})
-        names = ",".join(name for name in (*TYPES, "grashof", "non-grashof") if name in types)
-        words = f"type {kind} as well"
-        option = f'--type "{names}"' if " " in names else f"--type {names}"
-        by, new = 1.0, replace(asked, types=types)
-    else:  # the driver
-        words, option = "any driver", "--driver any"
-        by, new = 1.0, replace(asked, driver="any")
-    return Loosening(limit, words, option, by, replace(task, requirements=new), found)
+    asked = task.requirements
+    requirement = next(each for each in asked.bounds if each.kind == limit.kind)
+    looser = requirement.looser(asked.bounds[requirement], found.figures, share)
+    if looser is None:
+        return None
+    option = f"{requirement.option} {requirement.written(looser.bound)}"
+    new = replace(task, requirements=replace(asked, **{requirement.name: looser.bound}))
+    return Loosening(limit, looser.words, option, looser.size, new, found)
 
 
 def _margin(

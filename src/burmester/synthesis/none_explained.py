@@ -7,7 +7,6 @@ linkage.  A search, not a proof: less may be enough.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final, Self, TypeAlias, final
@@ -21,6 +20,7 @@ from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.progress import time_for
+from burmester.requirements.table import without as looser
 from burmester.synthesis.cleared_region import bars_clear
 from burmester.synthesis.loosening import Loosening, loosened, loosened_all_around
 from burmester.synthesis.result import Synthesis
@@ -28,7 +28,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import poses_in_words
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.tasks.stated_limits import LimitKind, StatedLimit, stated_limits, without
+from burmester.tasks.stated_limits import StatedLimit, stated_limits, without
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 
 if TYPE_CHECKING:  # loaded for few poses only
@@ -254,7 +254,7 @@ class _FewPoses(_Search):
                 loosest = without(loosest, limit, boxes.get)
         return self._evolved(loosest, {limit.kind for limit in limits})
 
-    def _evolved(self, loosest: Task, kinds: Set[LimitKind]) -> list[FoundLinkage]:
+    def _evolved(self, loosest: Task, kinds: Set[str]) -> list[FoundLinkage]:
         """Linkages of a task with some limits looser, those nearest to the limits as stated first.
 
         kinds: of these limits.
@@ -262,7 +262,6 @@ class _FewPoses(_Search):
         # Few tasks need these.
         from burmester.families.family import driver_first  # noqa: PLC0415
         from burmester.families.least_excess import (  # noqa: PLC0415
-            LEAST_USEFUL,
             assumed_to_build,
             least_excess,
         )
@@ -270,10 +269,7 @@ class _FewPoses(_Search):
 
         problem = SynthesisProblem.of(loosest, self.problem.motion, self.problem.options).merged()
         open_ = assumed_to_build(problem)
-        if "transmission" in kinds:
-            open_ = replace(open_, transmission=min(open_.transmission, LEAST_USEFUL))
-        if "link ratio" in kinds:
-            open_ = replace(open_, ratio=math.inf)
+        open_ = replace(open_, asked=looser(open_.asked, kinds))
         loose = OpenTask.of(problem, target_of(problem), open_)
         wide = bool(kinds & DYADS)
         near = least_excess(self.stated, loose, self.drawn, wide=wide)

@@ -14,6 +14,7 @@ from burmester.dyads.selection import Found, GivenPoses, within_digits
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.from_dyads import MAX_POSES_REFINED, sample_refined
+from burmester.requirements.transmission import TRANSMISSION
 from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
 from burmester.synthesis.point_conditions import point_conditions
 from burmester.synthesis.result import Outcome
@@ -24,7 +25,6 @@ from burmester.tasks.repeated_poses import rotation_range
 from burmester.verdicts.explanation import by_nearness, hints, in_short, nearness
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import only_too_far
-from burmester.verdicts.standard import LEAST_TRANSMISSION
 from burmester.wording import count, figure, listed
 
 __all__ = [
@@ -426,7 +426,7 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
     if usable and not task.requirements.transmission_deg:
         best = usable[0]
         least = best.driven.least_over_range
-        if math.degrees(least) < LEAST_TRANSMISSION - SHOWN_ANGLE:
+        if math.degrees(least) < TRANSMISSION.standard - SHOWN_ANGLE:
             help = "move a pose, or leave one out"
             if code == "R316":
                 help = "let the body turn less: no other pair of the family transmits better"

@@ -22,6 +22,7 @@ from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.progress import step
+from burmester.requirements.requirement import above
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.path_linkages import PathLinkages, is_timed_exactly, linkages_near
 from burmester.synthesis.point_approximation import ASSUMED_RATIO, LEAST_ASSUMED
@@ -40,7 +41,7 @@ from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
-from burmester.verdicts.explanation import above, hints, in_short
+from burmester.verdicts.explanation import hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 from burmester.verdicts.price_list import MET, price_list
 from burmester.verdicts.ranking import (
@@ -50,7 +51,6 @@ from burmester.verdicts.ranking import (
     only_too_far,
     ranked,
 )
-from burmester.verdicts.standard import Standard
 from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count, figure
 
@@ -175,9 +175,9 @@ def _by_nearest(
     asked, so that the answer can say what would do.
     """
     asked, nothing = task.requirements, Requirements()
-    usual = Standard.of(replace(task, requirements=nothing)).requirements(nothing)
+    usual = nothing.with_standard()
     wanted, away = (
-        Standard.of(task).requirements(asked),
+        asked.with_standard(),
         found.greatest_misses(task.poses.translation),
     )
     most = max(ERROR_RATIO * float(away.min()), SOUND_SHARE * span(task))

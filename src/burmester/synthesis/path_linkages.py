@@ -40,7 +40,6 @@ from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
-from burmester.verdicts.standard import Standard
 
 __all__ = ["PathLinkages", "is_timed_exactly", "linkages_near"]
 
@@ -242,7 +241,7 @@ def _better(wide: Evaluation, found: PathLinkages, alike: PathLinkages) -> list[
     target, task = wide.target, wide.task
     asked = task.requirements
     closed = task.path is not None and task.path.closed
-    required = Standard.of(task).requirements(asked)
+    required = asked.with_standard()
     if closed and asked.types is None:
         required = replace(required, types=frozenset({"crank-rocker", "double-crank"}))
     starts = _judged_starts(target, alike, closed=closed)

@@ -81,7 +81,7 @@ def nearest_linkage(task: Task, options: SynthesisOptions) -> FoundLinkage | Non
     """The nearest linkage found that is sound, or at least works, or at all; None without any.
 
     Nearest by the tolerances that are stated; else by squares, a radian as the length per radian.
-    Sound: without shortcomings (`verdicts.standard`), and not much farther than the nearest.
+    Sound: without shortcomings (`requirements.table`), and not much farther than the nearest.
     """
     step("looking for the linkage nearest to poses and points")
     few = _few_rows(task)

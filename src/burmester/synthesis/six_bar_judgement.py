@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import InputError
 from burmester.progress import limited, step
-from burmester.sixbar.candidates import DRIVERS
+from burmester.requirements.table import cured
+from burmester.sixbar.candidates import DRIVERS, figures_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
 from burmester.sixbar.kinds import KINDS
@@ -23,7 +22,7 @@ from burmester.tasks.motion_task import MOST, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.explanation import above, error_bounds, nearness
+from burmester.verdicts.explanation import error_bounds, nearness
 from burmester.wording import figure, listed
 
 __all__ = ["KINDS", "judge_six_bar", "judged_at_poses"]
@@ -154,14 +153,6 @@ def _options(found: FoundSixBar, problem: SynthesisProblem) -> tuple[str, ...]:
             options += error_bounds(found, problem)
         else:
             return ()
-    for each in found.violations:
-        if each.kind == "transmission" and math.isfinite(found.transmission):
-            degrees = math.floor(10 * math.degrees(found.transmission)) / 10
-            options.append(f"--min-transmission {degrees:g}")
-        elif each.kind == "link ratio":
-            options.append(f"--link-ratio {above(found.link_ratio)}")
-        elif each.kind == "driver":
-            options.append("--driver any")
-        else:
-            return ()
-    return tuple(sorted(set(options), reverse=True))
+    figures = figures_of(found.linkage, found.transmission, False)
+    cures = cured(found.violations, task.requirements.bounds, figures)
+    return () if cures is None else tuple(sorted({*options, *cures}, reverse=True))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import Advice
 from burmester.progress import limited, step
+from burmester.requirements.transmission import TRANSMISSION
 from burmester.sixbar.search_space import POSES
 from burmester.sixbar.six_bars import SixBarOptions, SixBars, best_six_bars
 from burmester.synthesis.result import Outcome, Synthesis
@@ -13,7 +14,6 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.standard import LEAST_TRANSMISSION
 from burmester.wording import count, listed
 
 __all__ = ["synthesize_six_bars"]
@@ -87,7 +87,7 @@ def _advice(result: SixBars) -> list[Advice]:
                 f"{listed(first.shortcomings)}",
                 f"look at more chains, such as --chains {MORE * result.options.chains}, give the "
                 "pivots more room, or move a pose",
-                f"the standard is a transmission angle of {LEAST_TRANSMISSION:g}° or more and "
+                f"the standard is a transmission angle of {TRANSMISSION.standard:g}° or more and "
                 "links of like lengths, within some sizes of the motion",
             )
         )

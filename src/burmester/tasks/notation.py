@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import Literal, TypeAlias
 
 import numpy as np
 
 from burmester.tasks.motion_task import Task
-from burmester.wording import figure, in_runs
+from burmester.wording import figure, in_runs, least_angle
 
 __all__ = [
     "PoseFormat",
@@ -28,13 +27,6 @@ PoseFormat: TypeAlias = Literal["name", "number and name"]
 def length_of(value: float, task: Task) -> str:
     """A length with its unit, if the task has one."""
     return figure(value) + (f" {task.length_unit}" if task.length_unit else "")
-
-
-def least_angle(angle: float) -> str:
-    """A lower bound of an angle in degrees, rounded down."""
-    if not math.isfinite(angle):
-        return "-"
-    return f"{math.floor(10 * math.degrees(angle) + 1e-6) / 10:g}°"
 
 
 def pose_labels(task: Task, poses: Sequence[int], form: PoseFormat = "name") -> list[str]:

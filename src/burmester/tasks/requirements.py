@@ -3,43 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Set
-from dataclasses import dataclass
-from numbers import Real
-from typing import Final, Literal, TypeAlias, final, get_args
+from dataclasses import dataclass, make_dataclass, replace
+from typing import Any, final
 
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.geometry.regions import Line, Polygon, Region, require_searchable
+from burmester.geometry.regions import Line, Polygon, Region
+from burmester.requirements.requirement import Requirement
+from burmester.requirements.table import ASKED, NOT_ASKED, standard
+from burmester.requirements.types import TYPES, Driver, allowed_types, types_in_words
 from burmester.tasks.limits import Kind, Limits
-from burmester.values import shown
-from burmester.wording import listed, with_article
+from burmester.wording import with_article
 
-__all__ = ["DRIVERS", "GROUPS", "TYPES", "Driver", "Requirements", "require_possible"]
-
-Driver: TypeAlias = Literal["any", "first", "second", "crank"]
-DRIVERS: Final[tuple[Driver, ...]] = get_args(Driver)
-
-# The types as `Linkage.type` names them, and the kinds of their two dyads.
-TYPES: Final[Mapping[str, tuple[Kind, Kind]]] = {
-    "crank-rocker": ("RR", "RR"),
-    "rocker-crank": ("RR", "RR"),
-    "double-crank": ("RR", "RR"),
-    "double-rocker": ("RR", "RR"),
-    "triple-rocker": ("RR", "RR"),
-    "change-point": ("RR", "RR"),
-    "slider-crank": ("RR", "PR"),
-    "inverted slider-crank": ("RR", "RP"),
-    "double slider": ("PR", "PR"),
-    "Oldham linkage": ("RP", "RP"),
-    "Rapson slide": ("PR", "RP"),
-}
-# A change point is in neither group: it is the border between the two.
-GROUPS: Final[Mapping[str, frozenset[str]]] = {
-    "grashof": frozenset({"crank-rocker", "rocker-crank", "double-crank", "double-rocker"}),
-    "non-grashof": frozenset({"triple-rocker"}),
-}
+__all__ = ["Requirements", "require_possible"]
 
 TYPES_WITHOUT_CRANK = frozenset({"double-rocker", "triple-rocker", "double slider"})
 TURNING_KINDS: frozenset[Kind] = frozenset({"RR", "RP"})  # a PR dyad slides on the ground
@@ -104,70 +81,25 @@ class Requirements:
     any_order: bool = False
 
     def __post_init__(self) -> None:
-        angle = _number(self.transmission_deg, "the least transmission angle")
-        if not 0 <= angle < 90:
-            raise InputError(
-                "E134",
-                f"a least transmission angle of {angle:g}° is impossible",
-                why="a transmission angle is between 0° and 90°",
-                help="give an angle from 0° to below 90°",
-            )
-        object.__setattr__(self, "transmission_deg", angle)
-        if self.types is not None:
-            object.__setattr__(self, "types", frozenset(_type_names(self.types)))
-        if not isinstance(self.driver, str) or self.driver not in DRIVERS:
-            raise _unknown("driver", self.driver, DRIVERS)
-        if self.footprint is not None and not isinstance(self.footprint, Polygon):
-            what = type(self.footprint).__name__.lower()
-            raise InputError(
-                "E134",
-                f"a footprint is a box or a polygon, not a {what}",
-                why="the pivots must have room in it",
-                help="give a box by two corners, or a polygon by three or more",
-            )
-        if self.footprint is not None:
-            require_searchable(self.footprint)
-        ratio = _number(self.link_ratio, "the greatest link ratio", infinite=True)
-        if ratio < 1:
-            raise InputError(
-                "E134",
-                f"a link ratio of at most {ratio:g} is impossible",
-                why="the longest of the four links is never shorter than the shortest",
-                help="give a ratio of 1 or more, such as 5",
-            )
-        object.__setattr__(self, "link_ratio", ratio)
-        for name, what, of, such in (
-            ("within", "the greatest acceptable error", "", "a length"),
-            ("within_deg", "the greatest acceptable angle error", "°", "an angle"),
-        ):
-            if (value := getattr(self, name)) is None:
-                continue
-            bound = _number(value, what)
-            if bound <= 0:
-                raise InputError(
-                    "E134",
-                    f"an error of at most {bound:g}{of} is impossible",
-                    why="no pose is met better than rounding allows",
-                    help=f"give {such} above zero, and mark poses that must be met exactly",
-                )
-            object.__setattr__(self, name, bound)
-        if not isinstance(self.any_order, bool | np.bool_):
-            raise InputError(
-                "E134",
-                f"any_order is {shown(self.any_order)}, neither true nor false",
-                help="give True where the poses need not be met in their order, else False",
-            )
-        object.__setattr__(self, "any_order", bool(self.any_order))
+        for each in ASKED:
+            if (value := getattr(self, each.name)) is not None or each.default is not None:
+                object.__setattr__(self, each.name, each.checked(value))
         allowed = self.allowed_types
         if self.driver == "crank" and allowed is not None and allowed <= TYPES_WITHOUT_CRANK:
             turning = [name for name in TYPES if name not in TYPES_WITHOUT_CRANK]
             raise InputError(
                 "E132",
                 "the requirements contradict each other: a driver that turns fully, and "
-                f"linkages of type {_types_in_words(self.types)} only",
-                why=f"no driver of a {_types_in_words(allowed)} turns fully",
+                f"linkages of type {types_in_words(self.types or ())} only",
+                why=f"no driver of a {types_in_words(allowed)} turns fully",
                 help=f"allow another type as well, such as {turning[0]}, or any driver",
             )
+
+    @property
+    def bounds(self) -> dict[Requirement, Any]:
+        """What is asked, each with its bound."""
+        values = ((each, getattr(self, each.name)) for each in ASKED)
+        return {each: value for each, value in values if value != each.default}
 
     @property
     def transmission(self) -> float:
@@ -184,22 +116,37 @@ class Requirements:
             length = reach / math.radians(self.within_deg)
         return reach, length
 
+    def with_standard(self) -> Requirements:
+        """What is asked, and the bounds of the standard that could be asked."""
+        bounds = standard(self.bounds, 0.0, NOT_ASKED)
+        return replace(self, **{each.name: bound for each, bound in bounds.items()})
+
     @property
     def has_any(self) -> bool:
         """Whether there is any requirement at all."""
-        return self != _NO_REQUIREMENTS
+        return bool(self.bounds)
 
     @property
     def allowed_types(self) -> frozenset[str] | None:
         """The types allowed, words for groups replaced by their types; None for all."""
-        if self.types is None:
-            return None
-        return frozenset().union(*(GROUPS.get(name, {name}) for name in self.types))
+        return None if self.types is None else allowed_types(self.types)
 
     def allows(self, name: str) -> bool:
         """Whether linkages of a type, named as `Linkage.type` does, are allowed."""
         allowed = self.allowed_types
         return allowed is None or name in allowed
+
+
+# What can be asked beside that follows, by its own module.
+if _BESIDE := [each for each in ASKED if each.name not in Requirements.__match_args__]:
+    Requirements = make_dataclass(  # type: ignore[misc, assignment]
+        "Requirements",
+        [(each.name, Any, each.default) for each in _BESIDE],
+        bases=(Requirements,),
+        namespace={"__module__": __name__, "__doc__": Requirements.__doc__},
+        frozen=True,
+        slots=True,
+    )
 
 
 def require_possible(requirements: Requirements, limits: tuple[Limits, ...]) -> None:
@@ -254,12 +201,12 @@ def _require_a_type(requirements: Requirements, first: Limits, second: Limits) -
     why = f"{with_article(name)} is made of {_pair_in_words(TYPES[name])}"
     if kinds != (first.kinds, second.kinds):
         why += "; where a fixed pivot is limited there is no PR, and where a moving one is no RP"
-    others = f"require {_types_in_words(possible)}" if possible else "require no type"
+    others = f"require {types_in_words(possible)}" if possible else "require no type"
     raise InputError(
         "E132",
         "the limits and the requirements contradict each other: "
         f"{_kinds_in_words(kinds)}, and linkages of type "
-        f"{_types_in_words(requirements.types)} only{crank}",
+        f"{types_in_words(requirements.types or ())} only{crank}",
         why=why,
         help=f"{others}, or let the limits allow other dyads",
     )
@@ -287,61 +234,6 @@ def _is_outside(footprint: Polygon, region: Region) -> bool:
     return bool(beyond.any())
 
 
-def _number(value: object, what: str, *, infinite: bool = False) -> float:
-    """A finite number (or infinity, where that is one), or E134."""
-    if not isinstance(value, Real) or isinstance(value, bool):
-        raise InputError(
-            "E134", f"{what} is {shown(value)}, not a number", help="give a number, such as 0.5"
-        )
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.nan
-    if not math.isfinite(number) and not (infinite and number == math.inf):
-        raise InputError(
-            "E134", f"{what} is {shown(value)}, not a finite number", help="give a finite number"
-        )
-    return number
-
-
-def _type_names(given: Iterable[str]) -> Iterator[str]:
-    """The names as `TYPES` and `GROUPS` spell them."""
-    known = {_normalized(name): name for name in (*TYPES, *GROUPS)}
-    names = list(given) if isinstance(given, Set | list | tuple) else None
-    if not names:
-        raise InputError(
-            "E134",
-            "no linkage type is left"
-            if names == []
-            else f"types is {shown(given)}, not a set of names",
-            help=f"name one type or more: {', '.join(known.values())}; or leave types out",
-        )
-    for name in names:
-        if not isinstance(name, str) or _normalized(name) not in known:
-            raise _unknown("linkage type", name, tuple(known.values()))
-        yield known[_normalized(name)]
-
-
-def _normalized(name: str) -> str:
-    return " ".join(name.lower().replace("-", " ").split())
-
-
-def _unknown(what: str, name: object, known: tuple[str, ...]) -> InputError:
-    """E134 for a name that is none of the known ones, with the likeliest of them."""
-    from difflib import get_close_matches  # noqa: PLC0415  for an error only
-
-    plain = {_normalized(each): each for each in known}
-    near = get_close_matches(_normalized(str(name)), plain, n=1)
-    guess = f"did you mean {plain[near[0]]}? " if near else ""
-    help = f"{guess}choose among {', '.join(known)}"
-    return InputError("E134", f"there is no {what} {shown(name)}", help=help)
-
-
-def _types_in_words(types: Iterable[str] | None) -> str:
-    """Names of types in one phrase, in the order of `TYPES`."""
-    return listed(sorted(types or (), key=[*TYPES, *GROUPS].index), "or")
-
-
 def _kinds_in_words(kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> str:
     """The kinds of two dyads that their limits allow, in words."""
     one, other = (", ".join(sorted(each)) for each in kinds)
@@ -352,6 +244,3 @@ def _kinds_in_words(kinds: tuple[frozenset[Kind], frozenset[Kind]]) -> str:
 
 def _pair_in_words(pair: tuple[Kind, Kind]) -> str:
     return f"two {pair[0]} dyads" if pair[0] == pair[1] else f"dyads {pair[0]} and {pair[1]}"
-
-
-_NO_REQUIREMENTS = Requirements()

@@ -5,19 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, Final, Literal, TypeAlias, final
+from typing import Any, Final, final
 
 import numpy as np
 
 from burmester.geometry.regions import Polygon, Region
 from burmester.tasks.motion_task import Task
 
-__all__ = ["PIVOTS", "LimitKind", "StatedLimit", "stated_limits", "with_limits", "without"]
+__all__ = ["PIVOTS", "StatedLimit", "stated_limits", "with_limits", "without"]
 
-LimitKind: TypeAlias = Literal[
-    "fixed pivot", "moving pivot", "length", "kinds", "transmission", "link ratio", "type",
-    "driver", "footprint", "margin", "keep-out",
-]  # fmt: skip
 PIVOTS: Final = ("fixed pivot", "moving pivot")
 
 
@@ -26,7 +22,7 @@ PIVOTS: Final = ("fixed pivot", "moving pivot")
 class StatedLimit:
     """One limit of a task; number: of the dyad's limits, or of the keep-out region, from 0."""
 
-    kind: LimitKind
+    kind: str
     number: int = 0
 
 
@@ -34,20 +30,16 @@ def stated_limits(task: Task) -> Iterator[StatedLimit]:
     """Every limit and requirement that a task states, but how far its poses may be missed."""
     asked, around = task.requirements, task.surroundings
     for number, limits in enumerate(task.limits):
-        of_dyad: dict[LimitKind, bool] = {
+        of_dyad: dict[str, bool] = {
             "fixed pivot": limits.fixed_pivot is not None,
             "moving pivot": limits.moving_pivot is not None,
             "length": limits.has_length,
         }
         yield from (StatedLimit(kind, number) for kind, given in of_dyad.items() if given)
     parts = around is not None and (around.margin or around.link_width or around.body_in_plane)
-    of_linkage: dict[LimitKind, bool] = {
+    of_linkage: dict[str, bool] = {
         "kinds": any({"RR", "PR", "RP"} - limits.kinds for limits in task.limits),
-        "transmission": asked.transmission_deg > 0,
-        "link ratio": math.isfinite(asked.link_ratio),
-        "type": asked.types is not None,
-        "driver": asked.driver != "any",
-        "footprint": asked.footprint is not None,
+        **{each.kind: True for each in asked.bounds if each.kind},
         "margin": bool(parts),
     }
     yield from (StatedLimit(kind) for kind, given in of_linkage.items() if given)
@@ -81,14 +73,10 @@ def without(task: Task, limit: StatedLimit, room: Callable[[str], Polygon | None
         rest = around.keep_out[:number] + around.keep_out[number + 1 :]
         none = not rest and not around.body_in_plane
         return replace(task, surroundings=None if none else replace(around, keep_out=rest))
-    open_: dict[LimitKind, dict[str, Any]] = {
-        "transmission": {"transmission_deg": 0.0},
-        "link ratio": {"link_ratio": math.inf},
-        "type": {"types": None},
-        "driver": {"driver": "any"},
-        "footprint": {"footprint": None},
+    open_ = {
+        each.name: each.default for each in task.requirements.bounds if each.kind == limit.kind
     }
-    return replace(task, requirements=replace(task.requirements, **open_[limit.kind]))
+    return replace(task, requirements=replace(task.requirements, **open_))
 
 
 def with_limits(task: Task, number: int, **changes: Any) -> Task:

@@ -7,7 +7,6 @@ told, with the option that changes it.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Final, Self, final
@@ -16,24 +15,18 @@ import numpy as np
 
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.requirement import Bounds
+from burmester.requirements.table import ASKED, standard
 from burmester.tasks.limits import Limits
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.standard import (
-    LEAST_TRANSMISSION,
-    LONGEST_LINK,
-    MOST_LINK_RATIO,
-    SHORTEST_LINK,
-)
-from burmester.wording import figure
+from burmester.verdicts.requirement_check import not_asked
 
-__all__ = ["FAR", "LINK_RATIO", "Assumptions", "Bound"]
+__all__ = ["FAR", "Assumptions", "Bound"]
 
 REACH: Final = 1.0  # motion sizes; how far pivots may lie from the body's places where none says
 WIDE: Final = 3.0  # the same, where nothing works within that
 FAR: Final = 12.0  # the same, where nothing works at all; poses that hardly turn need it
-LEAST_USEFUL: Final = 5.0  # degrees of transmission, where nothing transmits as it should
-LINK_RATIO: Final = 5.0  # longest over shortest of four links, where the task states none
 OUTLINE_SHARE: Final = 0.1  # of an outline's diagonal; how far beside the body its pivots may lie
 
 
@@ -52,15 +45,14 @@ class Assumptions:
     """Bounds for what the task leaves open.
 
     fixed, moving: where pivots lie that no limit holds, in F and in M.
-    size: of the motion, a length; transmission: radians; ratio: of links.
+    size: of the motion, a length; asked: what the task asks, and what is assumed beside.
     bounds: what of it the task did not say itself.
     """
 
     fixed: Polygon
     moving: Polygon
     size: float
-    transmission: float
-    ratio: float
+    asked: Bounds
     bounds: tuple[Bound, ...]
 
     @classmethod
@@ -69,10 +61,10 @@ class Assumptions:
         yield cls.of(problem), False
         limits = problem.task.limits or (Limits(),)
         open_ = any(None in (each.fixed_pivot, each.moving_pivot) for each in limits)
-        asked = problem.given.requirements
+        asked = problem.given.requirements.bounds
         if open_:
             yield cls.of(problem, WIDE), False
-        if not asked.transmission or not math.isfinite(asked.link_ratio):
+        if any(each.assumed and each not in asked for each in ASKED):
             yield cls.of(problem, WIDE if open_ else REACH, strict=False), True
         if open_:
             yield cls.of(problem, FAR), False
@@ -84,7 +76,7 @@ class Assumptions:
         reach: motion sizes, how far pivots may lie away; strict: whether linkages that one would
         rather not build are left out.
         """
-        task, asked = problem.given, problem.given.requirements
+        task, asked = problem.given, problem.given.requirements.bounds
         size = problem.motion_size
         bounds = []
         if not span(task) > 0 and task.body is None:
@@ -107,28 +99,13 @@ class Assumptions:
         if any(each.moving_pivot is None and each.slot is None for each in limits):
             away = f"moving pivots at most {length_of(moving, task)} from {near}"
             bounds.append(Bound(away, "--moving-pivot"))
-        transmission, ratio = asked.transmission, asked.link_ratio
-        if not transmission:
-            least = LEAST_TRANSMISSION if strict else LEAST_USEFUL
-            transmission = math.radians(least)
-            words = f"a transmission angle of {least:g}° or more"
-            bounds.append(Bound(words, "--min-transmission"))
-        if not math.isfinite(ratio):
-            ratio = LINK_RATIO if strict else MOST_LINK_RATIO
-            words = f"a longest link of at most {figure(ratio)} times the shortest"
-            bounds.append(Bound(words, "--link-ratio"))
+        for each in ASKED:
+            if each.assumed and each not in asked:
+                asked[each] = each.assumed[0 if strict else 1]
+                bounds.append(Bound(each.words(asked[each]), each.option))
+        asked |= standard(asked, size, not_asked(task))
         fixed, own = _box(around, reach * size), _box(body, moving)
-        return cls(fixed, own, size, transmission, ratio, tuple(bounds))
-
-    @property
-    def shortest(self) -> float:
-        """The shortest link, a length."""
-        return SHORTEST_LINK * self.size
-
-    @property
-    def longest(self) -> float:
-        """The longest link, a length."""
-        return LONGEST_LINK * self.size
+        return cls(fixed, own, size, asked, tuple(bounds))
 
 
 def _box(points: FloatArray, margin: float) -> Polygon:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from burmester.fourbar.defects import Verdict
 from burmester.fourbar.linkage import Linkage
+from burmester.requirements.table import Violation
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import Side, with_driver_first
-from burmester.verdicts.requirement_check import Violation
 from burmester.wording import figure
 
 if TYPE_CHECKING:

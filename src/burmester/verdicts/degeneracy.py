@@ -1,7 +1,7 @@
 """Degenerate linkages: links shorter than the play of any pin, or errors magnified beyond use.
 
 Such a linkage meets its poses on paper only: it works by the difference of two pivots that fall
-together.  The bounds are conventions, far below those of a linkage to build (`standard`).
+together.  The bounds are conventions, far below those of a linkage to build (`requirements.table`).
 """
 
 from __future__ import annotations

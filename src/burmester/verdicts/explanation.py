@@ -11,6 +11,8 @@ import numpy as np
 from burmester.fourbar.defects import Defect
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import ROUNDING
+from burmester.requirements.requirement import above
+from burmester.requirements.table import cured
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
@@ -19,7 +21,6 @@ from burmester.wording import figure
 
 __all__ = [
     "HasError",
-    "above",
     "asked_for",
     "below",
     "by_nearness",
@@ -195,26 +196,17 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
             options += error_bounds(found, problem)
         else:
             return ()
-    links = found.linkage.links
     for each in found.violations:
-        if each.kind == "transmission" and np.isfinite(found.driven.least_over_range):
-            degrees = math.floor(10 * math.degrees(found.driven.least_over_range)) / 10
-            options.append(f"--min-transmission {degrees:g}")
-        elif each.kind == "link ratio" and links is not None:
-            lengths = [float(length) for length in links]
-            options.append(f"--link-ratio {above(max(lengths) / min(lengths))}")
-        elif each.kind == "type":
-            name = found.driver_first.type
-            options.append(f'--type "{name}"' if " " in name else f"--type {name}")
-        elif each.kind == "timing" and found.timing_error is not None:
+        if each.kind == "timing" and found.timing_error is not None:
             away = float(np.nanmax(np.abs(found.timing_error), initial=0.0))
             if not 0 < away < MOST_TURN:
                 return ()
             options.append(f"--within-crank {above(math.degrees(away))}")
-        elif each.kind == "driver":
-            options.append("--driver any")
-        else:
-            return ()
+    others = [each for each in found.violations if each.kind != "timing"]
+    cures = cured(others, asked.bounds, found.figures)
+    if cures is None:
+        return ()
+    options += cures
     return tuple(sorted(set(options), reverse=True))  # --within first
 
 
@@ -232,12 +224,6 @@ def error_bounds(found: HasError, problem: SynthesisProblem) -> list[str]:
     bound = asked.within_deg or math.degrees(float(within) / problem.length_per_radian)
     options = [f"--within {within}"]
     return options if turned <= bound else [*options, f"--within-angle {above(turned)}"]
-
-
-def above(value: float) -> str:
-    """The value rounded up to three digits."""
-    step = 10.0 ** (math.floor(math.log10(value)) - 2)
-    return f"{math.ceil(value / step) * step:.3g}"
 
 
 def below(value: float) -> str:

@@ -10,9 +10,11 @@ from burmester.fourbar.defects import Defect, Driven, Verdict
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
+from burmester.requirements.table import Violation
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.quality import Quality
-from burmester.verdicts.requirement_check import Violation
+from burmester.verdicts.requirement_check import four_bar_figures
 from burmester.verdicts.tolerances import Spread
 from burmester.verdicts.uncertainty import DyadUncertainty
 
@@ -71,7 +73,7 @@ class FoundLinkage:
         The requirements that it violates with that driver.
     shortcomings : tuple of str
         Where it falls short of what a linkage to build is to be, where the task asks for nothing
-        (`standard.Standard`).
+        (`requirements.table`).
     quality : Quality, optional
         What a designer pays for, with the preferred driver; None where the error is infinite.
     from_search : bool
@@ -156,6 +158,11 @@ class FoundLinkage:
     def defects(self) -> tuple[Defect, ...]:
         """The defects of the linkage and of its preferred driver."""
         return self.verdict.defects + self.driven.defects
+
+    @property
+    def figures(self) -> Figures:
+        """What it measures and does with the preferred driver, but for the footprint."""
+        return four_bar_figures(self.driver_first, self.driven)
 
     @property
     def dyads_driver_first(self) -> Pair:

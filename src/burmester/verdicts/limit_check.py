@@ -12,8 +12,8 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.table import Violation
 from burmester.tasks.limits import KINDS, Limits
-from burmester.verdicts.requirement_check import Violation
 from burmester.wording import figure, listed
 
 __all__ = ["LIMIT_TOLERANCE", "limit_violations", "outside"]

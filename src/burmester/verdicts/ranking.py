@@ -1,9 +1,10 @@
 """The order of linkages: the one to build first, each once.
 
-Usable linkages stand before others.  Among them those that meet the standard (`standard`) come
-first, if they come near enough to the poses; within each group the nearest one, by both errors.
-What the digits of the poses leave open makes no linkage nearer than another.  Where the task states
-a tolerance, all usable linkages keep it, and their quality orders each group (`quality`).
+Usable linkages stand before others.  Among them those that meet the standard come first
+(`requirements.table`), if they come near enough to the poses; within each group the nearest one,
+by both errors.  What the digits of the poses leave open makes no linkage nearer than another.
+Where the task states a tolerance, all usable linkages keep it, and their quality orders each group
+(`quality`).
 """
 
 from __future__ import annotations

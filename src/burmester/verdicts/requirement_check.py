@@ -1,57 +1,71 @@
-"""The check of a linkage against the requirements of its task."""
+"""The figures of four-bars by which they are held to what is asked, and to the standard."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-from typing import Literal, TypeAlias, final
+from collections.abc import Iterator
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage import GRASHOF_SUMS, TYPES, Linkage, grashof_numbers
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
+from burmester.requirements.links import CHANGE_POINT, EXTENT
+from burmester.requirements.requirement import Bounds, Requirement
+from burmester.requirements.table import Violation, standard
+from burmester.requirements.table import violations as violations_of
+from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import span
+from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.requirements import Requirements
-from burmester.wording import figure, with_article
 
 __all__ = [
-    "REQUIREMENT_TOLERANCE",
-    "Violation",
-    "ViolationKind",
+    "figures_of",
+    "four_bar_figures",
+    "not_asked",
+    "outside",
     "places_between",
+    "standard_of",
     "violations",
-    "weak_transmission",
 ]
 
-ViolationKind: TypeAlias = Literal[
-    "transmission",
-    "type",
-    "driver",
-    "footprint",
-    "link ratio",
-    "limit",
-    "clearance",
-    "rounding",
-    "timing",
-]
-
-# Relative, and radians for angles.  A requirement missed by less than this is met.
-REQUIREMENT_TOLERANCE = 1e-9
-SHOWN_ANGLE = 1e-6  # degrees; a message writes a smaller angle as 0
+SAME_ANGLE = 1e-9  # radians; a body that turns by less has nothing but parallelograms
 FOOTPRINT_SAMPLES = 181  # number of places between the poses checked against the footprint
 
 
-@final
-@dataclass(frozen=True, slots=True)
-class Violation:
-    """A requirement that a linkage does not meet, and by how much."""
+def figures_of(linkage: Linkage, transmission: ArrayLike, turns: ArrayLike) -> Figures:
+    """The figures of four-bars (*,) driven by their first dyads; of sliders the radii are links.
 
-    kind: ViolationKind
-    message: str
+    transmission: the least angle over the range, radians; turns: whether the driver turns fully.
+    """
+    dyads, links = (linkage.first, linkage.second), linkage.links
+    lengths = links or [each.radius for each in dyads if isinstance(each, RR)]
+    if not lengths:
+        return Figures(transmission, type=TYPES.index(linkage.type), turns=turns)
+    every = np.stack(lengths, axis=-1)
+    least, most = every.min(axis=-1), every.max(axis=-1)
+    out = Figures(transmission, least, most, turns=turns)
+    if links is None:
+        return out._replace(type=TYPES.index(linkage.type))
+    change = np.abs(every @ GRASHOF_SUMS.T).min(axis=-1) / every.sum(axis=-1)
+    ratio = most / np.maximum(least, 1e-300)
+    return out._replace(ratio=ratio, change=change, type=grashof_numbers(links))
+
+
+def four_bar_figures(linkage: Linkage, driven: Driven, footprint: Polygon | None = None) -> Figures:
+    """The figures of one four-bar, driven by its first dyad."""
+    out = figures_of(linkage, driven.least_over_range, driven.turns_fully)
+    if footprint is None:
+        return out
+    pivots = _pivots(linkage, places_between(linkage, driven))
+    far = ((float(np.nanmax(footprint.distance(at))), name) for name, at in pivots)
+    away, pivot = max(far, key=lambda each: each[0], default=(0.0, ""))
+    return out._replace(outside=away, pivot=pivot)
 
 
 def violations(
@@ -63,46 +77,7 @@ def violations(
     """
     if not asked.has_any:
         return ()
-    missing: list[Violation] = []
-    missing += weak_transmission(driven.least_over_range, asked)
-    kind = linkage.type
-    if not asked.allows(kind):
-        missing.append(Violation("type", f"it is {with_article(kind)}"))
-    if asked.driver == "crank" and not driven.turns_fully:
-        missing.append(Violation("driver", "its driver does not turn fully"))
-    if (links := linkage.links) is not None:
-        lengths = [float(length) for length in links]
-        ratio = max(lengths) / min(lengths)
-        if ratio > asked.link_ratio * (1 + REQUIREMENT_TOLERANCE):
-            missing.append(
-                Violation(
-                    "link ratio",
-                    f"its longest link is {ratio:.3g} times its shortest; "
-                    f"at most {asked.link_ratio:g} times is allowed",
-                )
-            )
-    if asked.footprint is not None:
-        out, what = _outside(linkage, driven, asked.footprint)
-        if out > REQUIREMENT_TOLERANCE * float(np.ptp(asked.footprint.vertices, axis=0).max()):
-            length = f"{figure(out)}{f' {unit}' if unit else ''}"
-            missing.append(Violation("footprint", f"{what} leaves the footprint by {length}"))
-    return tuple(missing)
-
-
-def weak_transmission(least: float, asked: Requirements) -> list[Violation]:
-    """The violation of a least transmission angle over the range, in radians, if it is one."""
-    if least >= asked.transmission - REQUIREMENT_TOLERANCE:
-        return []
-    message = (
-        f"the transmission angle falls to {_degrees(least)} between the poses; "
-        f"at least {_degrees(asked.transmission)} is asked for"
-    )
-    return [Violation("transmission", message)]
-
-
-def _degrees(angle: float) -> str:
-    degrees = math.degrees(angle)
-    return f"{degrees if degrees > SHOWN_ANGLE else 0:.3g}°" if math.isfinite(angle) else "nothing"
+    return violations_of(asked.bounds, four_bar_figures(linkage, driven, asked.footprint), unit)
 
 
 def places_between(linkage: Linkage, driven: Driven) -> Displacement | None:
@@ -117,21 +92,28 @@ def places_between(linkage: Linkage, driven: Driven) -> Displacement | None:
     return Circuits.of(linkage, as_given=True)[driven.circuit].couplers(parameter)
 
 
-def _outside(linkage: Linkage, driven: Driven, footprint: Polygon) -> tuple[float, str]:
-    """The greatest distance of a pivot outside the footprint, and what the pivot is.
+def outside(linkage: Linkage, places: Displacement | None, footprint: Polygon) -> FloatArray:
+    """How far pivots of linkages (*,) leave a footprint where the body is at places (*, N)."""
+    out = [footprint.distance(points).max(axis=-1) for _, points in _pivots(linkage, places)]
+    return np.asarray(np.max(out, axis=0))
 
-    At FOOTPRINT_SAMPLES places between the poses.
-    """
-    worst, what = 0.0, ""
-    places = places_between(linkage, driven)
-    for dyad in (linkage.first, linkage.second):
-        points: list[tuple[str, FloatArray]] = []
+
+def _pivots(linkage: Linkage, places: Displacement | None) -> Iterator[tuple[str, FloatArray]]:
+    """What pivots are, and their points (*, N, 2)."""
+    dyads = linkage.first, linkage.second
+    for dyad in dyads:
         if isinstance(dyad, RR | RP):
-            points.append(("a fixed pivot", dyad.fixed_pivot))
+            yield "a fixed pivot", dyad.fixed_pivot[..., None, :]
         if isinstance(dyad, RR | PR) and places is not None:
-            points.append(("a moving pivot", places.act(dyad.moving_pivot)))
-        for name, at in points:
-            out = float(np.nanmax(footprint.signed_distance(np.asarray(at))))
-            if out > worst:
-                worst, what = out, name
-    return worst, what
+            yield "a moving pivot", places.act(dyad.moving_pivot[..., None, :])
+
+
+def standard_of(task: Task) -> Bounds:
+    """The standard of four-bars for a task; a bound that it sets itself is not asked again."""
+    return standard(task.requirements.bounds, span(task), not_asked(task))
+
+
+def not_asked(task: Task) -> tuple[Requirement, ...]:
+    """What of the standard is not asked of four-bars for a task."""
+    either = task.requirements.types is not None or rotation_range(task.poses.angle) <= SAME_ANGLE
+    return (EXTENT, CHANGE_POINT) if either else (EXTENT,)

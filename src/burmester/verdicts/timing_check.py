@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.table import Violation
 from burmester.tasks.motion_task import Task
-from burmester.verdicts.requirement_check import Violation
 from burmester.wording import figure
 
 __all__ = ["mistimed", "timing_error"]

@@ -12,6 +12,7 @@ from burmester.families.pair_verdicts import CLASS_WORDS, PairClass
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.transmission import TRANSMISSION
 from burmester.synthesis.family_map import family_map_of
 from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -32,7 +33,7 @@ def family_map(synthesis: Synthesis) -> dict[str, Any] | None:
         return None
     if found is None:
         return None
-    low = float(np.degrees(found.bounds.transmission))
+    low = float(found.bounds.asked[TRANSMISSION])
     works = found.verdicts.classes <= PairClass.FARTHER
     best = float(np.degrees(np.where(works, found.verdicts.transmission, 0.0).max()))
     high = max(float(np.ceil(best / SCALE_STEP)) * SCALE_STEP, low + SCALE_STEP)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from burmester.io.reading.limits_text import (
     ANY,
@@ -19,7 +20,8 @@ from burmester.io.reading.limits_text import (
 from burmester.io.reading.pose_table import Source, shown
 from burmester.io.reading.stated_requirements import StatedRequirement, checked_requirement
 from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance
-from burmester.tasks.requirements import Driver
+from burmester.requirements.requirement import Requirement
+from burmester.requirements.table import ASKED
 
 __all__ = [
     "lengths",
@@ -33,43 +35,31 @@ __all__ = [
 FOOTPRINT_HELP = "write box:X,Y:X,Y from lower left to upper right, or polygon:X,Y:X,Y:X,Y, or any"
 
 
-def requirements_from_options(
-    *,
-    min_transmission: str | None = None,
-    types: Sequence[str] = (),
-    driver: Driver | None = None,
-    footprint: str | None = None,
-    link_ratio: str | None = None,
-    within: str | None = None,
-    within_angle: str | None = None,
-    any_order: bool = False,
-) -> tuple[StatedRequirement, ...]:
+def requirements_from_options(**given: Any) -> tuple[StatedRequirement, ...]:
     """The requirements in the texts of the options; raises E134, E131 and E132.
 
-    The types' option is `--type`, and adds up where it is given more than once.
+    given: by `Requirement.argument`.  The types' option adds up where it is given more than once.
     """
-    out = []
-    if min_transmission is not None:
-        out.append(_number("transmission_deg", "--min-transmission", min_transmission))
-    if types:
-        names = frozenset(name for text in types for name in _types(Source("--type", text)))
-        out.append(StatedRequirement("types", names, option_text("--type", types)))
-    if driver is not None:
-        out.append(checked_requirement("driver", driver, option_text("--driver", [driver])))
-    if footprint is not None:
-        source = Source("--footprint", footprint)
-        area = None if footprint.strip() == ANY else region_from_text(source, FOOTPRINT_HELP)
-        where = option_text(source.label, [footprint])
-        out.append(checked_requirement("footprint", area, where, source.where(0, len(footprint))))
-    if link_ratio is not None:
-        out.append(_number("link_ratio", "--link-ratio", link_ratio))
-    if within is not None:
-        out.append(_number("within", "--within", within))
-    if within_angle is not None:
-        out.append(_number("within_deg", "--within-angle", within_angle))
-    if any_order:
-        out.append(checked_requirement("any_order", True, "--any-order"))
-    return tuple(out)
+    values = ((each, given.get(each.argument)) for each in ASKED)
+    return tuple(_stated(each, value) for each, value in values if value not in (None, False, ()))
+
+
+def _stated(each: Requirement, value: Any) -> StatedRequirement:
+    option = each.option
+    if each.form == "flag":
+        return checked_requirement(each.name, value, option)
+    if each.form == "names":
+        names = frozenset(name for text in value for name in _names(each, Source(option, text)))
+        return StatedRequirement(each.name, names, option_text(option, value))
+    where, source = option_text(option, [value]), Source(option, value)
+    if each.form == "choice":
+        return checked_requirement(each.name, value, where)
+    fault_at = source.where(0, len(value))
+    if each.form == "area":
+        area = None if value.strip() == ANY else region_from_text(source, FOOTPRINT_HELP)
+        return checked_requirement(each.name, area, where, fault_at)
+    bound = number_from_text(source, value, 0, "E134")
+    return checked_requirement(each.name, bound, where, fault_at)
 
 
 def positive_length(option: str, text: str) -> float:
@@ -144,19 +134,11 @@ def pose_tolerance(text: str) -> DefaultTolerance:
     return DefaultTolerance((x, y, angle), "body" if body else "fixed", "deg", where)
 
 
-def _number(field: str, option: str, text: str) -> StatedRequirement:
-    source = Source(option, text)
-    value = number_from_text(source, text, 0, "E134")
-    return checked_requirement(
-        field, value, option_text(option, [text]), source.where(0, len(text))
-    )
-
-
-def _types(source: Source) -> list[str]:
+def _names(each: Requirement, source: Source) -> list[str]:
     names, at = [], 0
     for item in source.text.split(","):
         name = item.strip()
         fault_at = source.where(at + len(item) - len(item.lstrip()), len(name))
-        names.append(checked_requirement("types", [name], source.label, fault_at).value[0])
+        names += checked_requirement(each.name, [name], source.label, fault_at).value
         at += len(item) + 1
     return names

@@ -5,13 +5,12 @@ Each requirement is stated once: in the file or on the command line.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import fields
 from typing import Any, NamedTuple
 
 from burmester.errors import InputError
-from burmester.tasks.requirements import GROUPS, TYPES, Requirements
+from burmester.requirements.table import ASKED
+from burmester.tasks.requirements import Requirements
 
 __all__ = [
     "FILE_KEYS",
@@ -23,22 +22,10 @@ __all__ = [
     "requirements_data",
 ]
 
-# Under `requirements` in a file: the fields of `Requirements`, in their order.
-FILE_KEYS = tuple(field.name for field in fields(Requirements))
+FILE_KEYS = tuple(each.name for each in ASKED)  # under `requirements` in a file
 
 # `requirements`, and keys that may stand beside the poses by mistake, where they require nothing.
 REQUIREMENT_KEYS = ("requirements", "requirement", *FILE_KEYS)
-
-_SUBJECTS = {  # of the message about a requirement that is given twice
-    "transmission_deg": "the least transmission angle is",
-    "types": "the types are",
-    "driver": "the driver is",
-    "footprint": "the footprint is",
-    "link_ratio": "the greatest link ratio is",
-    "within": "the greatest acceptable error is",
-    "within_deg": "the greatest acceptable angle error is",
-    "any_order": "the order of the poses is",
-}
 
 
 class StatedRequirement(NamedTuple):
@@ -75,9 +62,10 @@ def combined_requirements(stated: Sequence[StatedRequirement]) -> Requirements:
     known: dict[str, StatedRequirement] = {}
     for each in stated:
         if each.field in known:
+            subject = ASKED[FILE_KEYS.index(each.field)].subject
             raise InputError(
                 "E108",
-                f"{_SUBJECTS[each.field]} given twice",
+                f"{subject} given twice",
                 where=one_line(known[each.field].where, each.where),
                 help="leave one of the two out",
             )
@@ -94,21 +82,4 @@ def combined_requirements(stated: Sequence[StatedRequirement]) -> Requirements:
 
 def requirements_data(requirements: Requirements) -> dict[str, Any]:
     """The table `requirements` of a file with the same ones; empty where there are none."""
-    data: dict[str, Any] = {}
-    if requirements.transmission_deg:
-        data["transmission_deg"] = requirements.transmission_deg
-    if requirements.types is not None:
-        data["types"] = [name for name in (*TYPES, *GROUPS) if name in requirements.types]
-    if requirements.driver != "any":
-        data["driver"] = requirements.driver
-    if requirements.footprint is not None:
-        data["footprint"] = {"polygon": requirements.footprint.vertices.tolist()}
-    if requirements.link_ratio != math.inf:
-        data["link_ratio"] = requirements.link_ratio
-    if requirements.within is not None:
-        data["within"] = requirements.within
-    if requirements.within_deg is not None:
-        data["within_deg"] = requirements.within_deg
-    if requirements.any_order:
-        data["any_order"] = True
-    return data
+    return {each.name: each.plain(bound) for each, bound in requirements.bounds.items()}

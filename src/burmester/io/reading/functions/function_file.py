@@ -21,6 +21,7 @@ from burmester.functions.function_task import FunctionTask
 from burmester.io.reading.file_content import is_parquet, require_moderate
 from burmester.io.reading.functions.function_kind import source_of
 from burmester.io.reading.functions.function_options import (
+    KEPT,
     FunctionSettings,
     task_of_function,
     task_of_pairs,
@@ -34,10 +35,7 @@ from burmester.io.reading.pose_table import Source, held_float, shown
 
 __all__ = ["read_function", "settings_of_tree", "task_of_tree"]
 
-SETTINGS: Final = (
-    "minimax", "input_phase_deg", "output_phase_deg", "ground", "transmission_deg", "link_ratio",
-    "types",
-)  # fmt: skip
+SETTINGS: Final = (*FunctionSettings._fields[:-1], *(each.name for each in KEPT))
 KEYS: Final = (
     "expression", "x", "input_deg", "output_deg", "opposite", "pairs", "spacing", *SETTINGS,
 )  # fmt: skip
@@ -116,22 +114,17 @@ def settings_of_tree(tree: Any, *, known: Sequence[str] = SETTINGS) -> FunctionS
                 f"[function] has an unknown key {shown(key)}",
                 help=f"the keys are {', '.join(known)}",
             )
-    return FunctionSettings(
-        _number(tree, "input_phase_deg"),
-        _number(tree, "output_phase_deg"),
-        _number(tree, "ground") or 1.0,
-        _flag(tree, "minimax"),
-        _number(tree, "transmission_deg"),
-        _number(tree, "link_ratio"),
-        _names(tree, "types"),
-    )
+    read: dict[str, Any] = {"minimax": _flag, "types": _names}
+    stated = {k: read.get(k, _number)(tree, k) for k in SETTINGS if tree.get(k) is not None}
+    asked = {each.name: stated.pop(each.name) for each in KEPT if each.name in stated}
+    return FunctionSettings(**stated, asked=asked)
 
 
 def task_of_tree(tree: Any, settings: FunctionSettings = FunctionSettings()) -> FunctionTask:  # noqa: B008
     """The task of the table [function], with settings of options beside it."""
     stated = settings_of_tree(tree, known=KEYS)
     given = {n: v for n, v in settings._asdict().items() if v != FunctionSettings()._asdict()[n]}
-    merged = stated._replace(**given)
+    merged = stated._replace(**{**given, "asked": {**stated.asked, **settings.asked}})
     pairs = tree.get("pairs")
     expression = tree.get("expression")
     if expression is None:

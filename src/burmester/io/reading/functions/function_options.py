@@ -6,8 +6,9 @@ E191 a function task that makes no sense      E194 settings that are missing or 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Final, Literal, NamedTuple, TypeAlias
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any, Final, Literal, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -23,11 +24,15 @@ from burmester.functions.function_task import (
 from burmester.io.reading.functions.expression import read_expression
 from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.requirements import TYPES, Requirements
+from burmester.requirements.links import LINK_RATIO
+from burmester.requirements.transmission import TRANSMISSION
+from burmester.requirements.types import TYPE, TYPES
+from burmester.tasks.requirements import Requirements
 from burmester.wording import listed
 
-__all__ = ["FunctionSettings", "Spacing", "task_of_function", "task_of_pairs"]
+__all__ = ["KEPT", "FunctionSettings", "Spacing", "task_of_function", "task_of_pairs"]
 
+KEPT: Final = (TRANSMISSION, LINK_RATIO, TYPE)  # what can be asked of generators
 Spacing: TypeAlias = Literal["chebyshev", "even"]
 SAMPLES: Final = 61  # of a function whose number of pairs is not given
 MOST_PAIRS: Final = 1000
@@ -37,25 +42,21 @@ LEAST_STEP: Final = 1e-9  # radians; inputs that differ less are one
 
 
 class FunctionSettings(NamedTuple):
-    """What is asked of a function generator beside its pairs; angles in degrees.
+    """What is asked of a function generator beside its pairs, by the keys of a file.
 
-    The last three are requirements; None: nothing is asked.
+    asked: requirements, by their names in `Requirements`.
     """
 
-    input_phase: float | None = None
-    output_phase: float | None = None
+    input_phase_deg: float | None = None
+    output_phase_deg: float | None = None
     ground: float = 1.0
     minimax: bool = False
-    transmission_deg: float | None = None
-    link_ratio: float | None = None
-    types: frozenset[str] | None = None
+    asked: Mapping[str, Any] = MappingProxyType({})
 
     @property
     def requirements(self) -> Requirements:
         """What a linkage has to keep; raises E134 and E194."""
-        given = self._asdict()
-        names = ("transmission_deg", "link_ratio", "types")
-        asked = Requirements(**{name: given[name] for name in names if given[name] is not None})
+        asked = Requirements(**self.asked)
         of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
         if not any(map(asked.allows, of_generators)):
             allowed = sorted(asked.allowed_types or ())
@@ -193,7 +194,7 @@ def _task(
             f"the length of the ground link is {settings.ground:g}",
             help="give a number above 0 and below 1e+09",
         )
-    for name, value in (("input", settings.input_phase), ("output", settings.output_phase)):
+    for name, value in (("input", settings.input_phase_deg), ("output", settings.output_phase_deg)):
         if value is not None and not math.isfinite(value):
             raise InputError(
                 "E194", f"the {name} phase is {shown(value)}", help="give an angle in degrees"
@@ -201,8 +202,8 @@ def _task(
     return FunctionTask(
         inputs,
         outputs,
-        _radians(settings.input_phase),
-        _radians(settings.output_phase),
+        _radians(settings.input_phase_deg),
+        _radians(settings.output_phase_deg),
         weights,
         settings.ground,
         function,

@@ -8,7 +8,7 @@ from __future__ import annotations
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import Field, ValidationError
+from pydantic import Field, ValidationError, create_model
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Region
@@ -21,7 +21,8 @@ from burmester.io.reading.stated_requirements import (
 )
 from burmester.io.reading.trees.limits_tree import Model, Number, Pair, TwoPairs, model_fault
 from burmester.io.reading.trees.locations import Document, close_match
-from burmester.tasks.requirements import DRIVERS
+from burmester.requirements.requirement import Form
+from burmester.requirements.table import ASKED
 from burmester.wording import listed
 
 __all__ = ["read_requirements"]
@@ -32,30 +33,15 @@ class _Footprint(Model):
     polygon: Annotated[list[Pair], Field(min_length=3)] | None = None
 
 
-class _Requirements(Model):
-    transmission_deg: Number | None = None
-    types: list[str] | None = None
-    driver: str | None = None
-    footprint: _Footprint | None = None
-    link_ratio: Number | None = None
-    within: Number | None = None
-    within_deg: Number | None = None
-    any_order: bool | None = None
-
-
-_FOOTPRINT = (
-    "a footprint has one key: box with two points [[X, Y], [X, Y]], or polygon with three or more"
+_VALUES: dict[Form | None, Any] = {
+    "number": Number, "names": list[str], "choice": str, "area": _Footprint, "flag": bool,
+}  # fmt: skip
+_Requirements = create_model(
+    "_Requirements",
+    __base__=Model,
+    **{each.name: (_VALUES[each.form] | None, None) for each in ASKED},  # type: ignore[call-overload]
 )
-_HELP = {
-    "transmission_deg": "transmission_deg is one number, in degrees, such as 40",
-    "types": 'types is a list of names, such as ["crank-rocker", "double-crank"]',
-    "driver": "driver is one of " + ", ".join(f'"{name}"' for name in DRIVERS),
-    "footprint": _FOOTPRINT,
-    "link_ratio": "link_ratio is one number, such as 5",
-    "within": "within is one length in the unit of the poses, such as 0.5",
-    "within_deg": "within_deg is one angle in degrees, such as 2",
-    "any_order": "write true or false",
-}
+_HELP = {each.name: each.such for each in ASKED}
 _TABLE = f"a table of requirements has {listed(FILE_KEYS)}, or some of them"
 
 
@@ -79,18 +65,18 @@ def read_requirements(tree: dict[str, Any], document: Document) -> tuple[StatedR
     except ValidationError as error:
         raise _requirements_fault(document, error.errors(include_url=False)[0]) from None
     out = []
-    for key in FILE_KEYS:
-        value = getattr(table, key)
+    for each in ASKED:
+        key, value = each.name, getattr(table, each.name)
         if value is None:
             continue
-        if key == "types" and value:
+        if each.form == "names" and value:
             names = [
                 _requirement(document, key, [name], path, key, i).value
                 for i, name in enumerate(value)
             ]
             value = frozenset(name for each in names for name in each)
-        elif key == "footprint":
-            value = _footprint(value, document)
+        elif each.form == "area":
+            value = _area(value, document, path, key)
         stated = _requirement(document, key, value, path, key)
         out.append(stated._replace(where=document.where(path, key, key=True)))
     return tuple(out)
@@ -104,12 +90,12 @@ def _requirement(document: Document, field: str, value: Any, *path: str | int) -
         raise document.again(error, *path) from None
 
 
-def _footprint(tree: _Footprint, document: Document) -> Region:
-    given, path = tree.model_dump(exclude_none=True), ("requirements", "footprint")
+def _area(tree: _Footprint, document: Document, *path: str) -> Region:
+    given = tree.model_dump(exclude_none=True)
     if len(given) != 1:
         code, what = ("E108", " and ".join(given)) if given else ("E105", "no shape")
         message, where = f"{document.named(*path)} has {what}", document.where(*path)
-        raise InputError(code, message, where=where, help=_FOOTPRINT)
+        raise InputError(code, message, where=where, help=_HELP[path[-1]])
     ((shape, points),) = given.items()
     try:
         return SHAPES[shape][1](np.array(points))
