@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -126,12 +125,6 @@ class FoundSixBar:
     def driver(self) -> str:
         """The driver as results name it: "first" or "second" of Watt's, else its pivot."""
         return self.linkage.driver_name(self.driver_pivot)
-
-    @property
-    def sides(self) -> tuple[float, ...]:
-        """On which sides the loops are closed at the first pose, as its driver sees them."""
-        linkage: Any = self.linkage  # Watt's, of which pages ask it
-        return tuple(linkage.sides(self._joints(self.drive[:1])[0], self.driver_pivot))
 
     @property
     def turns(self) -> int:

@@ -23,7 +23,7 @@ from burmester.mechanisms.contract import Locked
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.sixbar.dead_points import OF_FIRST_LOOP, dead_places, dead_points, first_loop
-from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at, sides_of
+from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at
 
 __all__ = ["BARS", "DRIVES", "FIGURES", "JOINTS", "LINKS", "WATT_I", "WattLinkage", "pairs_of"]
 
@@ -170,11 +170,6 @@ class WattLinkage:
     def driver_name(pivot: str) -> str:
         """A driver as results name it."""
         return DRIVES[pivot]
-
-    def sides(self, joints: ComplexArray, pivot: str) -> tuple[float, ...]:
-        """On which sides the loops are closed where the joints are (7,), as a driver sees them."""
-        first, second = sides_of(joints, DRIVES[pivot])
-        return float(first), float(second)
 
     def why_open(self) -> str:
         """Why one linkage that is open everywhere cannot be assembled, in words."""

@@ -281,54 +281,38 @@ var CardList = class {
 var Cards = class extends CardList {
   constructor(data, linkages, choose) {
     const unit2 = data.unit ? ` ${data.unit}` : "";
-    super(linkages.map((each, k) => card(each, unit2, () => choose(k))));
+    super(linkages.map((each, k) => fourBarCard(each, unit2, () => choose(k))));
   }
 };
-function card(linkage, unit2, onclick) {
-  const { said } = linkage;
-  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-  const links = said.links ? Object.values(said.links) : [];
+function card(linkage, onclick, facts, ...below) {
   return h(
     "button",
     { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
     h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
     h("span", { class: "bm-verdict" }, verdictOf(linkage)),
-    h(
-      "dl",
-      {},
-      fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
-      fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
-      said.quality.extent ? fact("extent, sensitivity", [h("span", { class: "bm-whole-word" }, said.quality.extent), ", ", h("span", { class: "bm-whole-word" }, said.quality.sensitivity)], "bm-detail") : null,
-      fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? fact("links", links.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
-    ),
-    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
-    said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
+    h("dl", {}, facts),
+    below
   );
 }
-
-// src/burmester/web/widget/function_cards.mjs
-var Cards2 = class extends CardList {
-  constructor(generators, choose) {
-    super(generators.map((each, k) => card2(each, () => choose(k))));
-  }
-};
-function card2(generator, onclick) {
-  const { said } = generator;
-  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-  return h(
-    "button",
-    { type: "button", class: `bm-choice ${generator.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": generator.id, onclick },
-    h("span", { class: "bm-choice-head" }, h("b", {}, generator.id), " ", h("span", { class: "bm-type" }, generator.type)),
-    h("span", { class: "bm-verdict" }, verdictOf(generator)),
-    h(
-      "dl",
-      {},
-      fact("greatest error", said.max_error),
-      fact("transmission", said.transmission === "–" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
-      fact("links", said.links.map(([, value], k) => [k ? " " : "", h("span", {}, value)]), "bm-detail bm-links")
-    ),
-    generator.defects.length || generator.shortcomings.length ? h("span", { class: "bm-reason" }, `It ${[...generator.defects, ...generator.shortcomings].join("; ")}`) : null
+var fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+var transmissionFact = (text) => fact("transmission", text === "–" ? text : text === "0°" ? "down to 0°" : `${text} or more`);
+var linksFact = (lengths) => fact("links", lengths.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links");
+function fourBarCard(linkage, unit2, onclick) {
+  const { said } = linkage;
+  const links = said.links ? Object.values(said.links) : [];
+  const whole = (text) => h("span", { class: "bm-whole-word" }, text);
+  return card(
+    linkage,
+    onclick,
+    [
+      fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", whole(part)])),
+      transmissionFact(said.transmission === "-" ? "–" : said.transmission),
+      said.quality.extent ? fact("extent, sensitivity", [whole(said.quality.extent), ", ", whole(said.quality.sensitivity)], "bm-detail") : null,
+      fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
+      links.length ? linksFact(links) : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
+    ],
+    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
+    said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
   );
 }
 
@@ -521,6 +505,15 @@ var ErrorCurves = class {
 };
 
 // src/burmester/web/widget/function_tables.mjs
+function generatorCard(generator, onclick) {
+  const { said, defects, shortcomings } = generator;
+  return card(
+    generator,
+    onclick,
+    [fact("greatest error", said.max_error), transmissionFact(said.transmission), linksFact(said.links.map(([, value]) => value))],
+    defects.length || shortcomings.length ? h("span", { class: "bm-reason" }, `It ${[...defects, ...shortcomings].join("; ")}`) : null
+  );
+}
 function generatorTable(data) {
   const heads = [
     "",
@@ -3377,7 +3370,7 @@ var FunctionReport = class {
     this.root = root;
     const main = h("div", { class: "bm-main" });
     if (data.generators.length) {
-      this.cards = new Cards2(data.generators, (index) => this.choose(index));
+      this.cards = new CardList(data.generators.map((each, k) => generatorCard(each, () => this.choose(k))));
       this.stand = h("div", { class: "bm-stand" });
       main.append(this.stand);
       body.append(this.cards.element);
@@ -3689,13 +3682,13 @@ var SixBarPlots = class extends Plots {
 // src/burmester/web/widget/six_bar_tables.mjs
 var SixBarCards = class extends CardList {
   constructor(linkages, choose) {
-    super(linkages.map((each, k) => card3(each, () => choose(k))));
+    super(linkages.map((each, k) => card2(each, () => choose(k))));
   }
 };
 var verdictOf2 = (linkage) => !linkage.usable ? "✕ does not work" : linkage.sound ? "✓ works, sound" : "✓ works";
-function card3(linkage, onclick) {
+function card2(linkage, onclick) {
   const { said } = linkage, [, driver, turn] = said.row, lacks = said.shortcomings.length ? `It ${said.shortcomings.join("; ")}` : null;
-  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+  const fact2 = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
   return h(
     "button",
     { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
@@ -3704,10 +3697,10 @@ function card3(linkage, onclick) {
     h(
       "dl",
       {},
-      fact("driver", `${driver}${linkage.turns_fully ? ", turns fully" : `, by ${turn}`}`),
-      fact("transmission", `${said.transmission} or more`),
-      fact("extent", said.extent),
-      fact("link ratio", said.link_ratio, "bm-detail")
+      fact2("driver", `${driver}${linkage.turns_fully ? ", turns fully" : `, by ${turn}`}`),
+      fact2("transmission", `${said.transmission} or more`),
+      fact2("extent", said.extent),
+      fact2("link ratio", said.link_ratio, "bm-detail")
     ),
     said.why_not || lacks ? h("span", { class: "bm-reason" }, said.why_not ?? lacks) : null
   );
