@@ -242,7 +242,7 @@ def test_the_command_writes_the_page_or_says_why_not(tmp_path, capsys):
     hard = table("hard.csv", [(0, 0, 0), (4, 9, 70), (9, 2, 95), (1, 6, 20), (7, 7, 150)])
     code, out, _ = run(capsys, "report", easy, "--six-bars", "--chains", 300, "-o", file)
     assert code == 0
-    assert out.startswith("S1 is a six-bar of Watt's first kind, driven at ")
+    assert out.startswith("S1 is a Watt I six-bar, driven at ")
     assert '"six_bars":[{"id":"S1"' in file.read_text()
     code, out, _ = run(capsys, "report", hard, "-o", tmp_path / "four.html")
     assert code == 1

@@ -53,7 +53,7 @@ def test_command_and_python_give_the_same_six_bars(folder, result, capsys):
         assert mine.lengths == theirs["lengths"]
     assert data["linkages"] == []
     text = run(capsys, "synthesize", folder / "task.csv", "--six-bars", "--chains", 1000)[1]
-    assert text.startswith("S1 is a six-bar of Watt's first kind, driven at ")
+    assert text.startswith("S1 is a Watt I six-bar, driven at ")
     for bar in ("AC", "GH"):
         assert f"{found[0]['lengths'][bar]:.7g}" in text
     for number in (*found[0]["ground"]["A"], *found[0]["body"]["H"]):

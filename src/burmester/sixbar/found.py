@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,10 +11,11 @@ from burmester.fourbar.defect_messages import Defect
 from burmester.fourbar.linkage import Configuration
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.requirements.table import Violation
 from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
-from burmester.sixbar.watt import BARS, JOINTS, TYPE, Drive, WattLinkage
+from burmester.sixbar.watt import Drive, WattLinkage
 from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
 
@@ -79,7 +80,7 @@ class FoundSixBar:
     @property
     def type(self) -> str:
         """What it is, in words."""
-        return TYPE
+        return self.skeleton.name
 
     @property
     def unit(self) -> str | None:
@@ -102,6 +103,31 @@ class FoundSixBar:
         return bool(np.isinf(self.room).all())
 
     @property
+    def skeleton(self) -> Skeleton:
+        """Its joints and links."""
+        return self.linkage.skeleton
+
+    @property
+    def carries(self) -> str:
+        """The name of the link that is the body."""
+        return self.linkage.carries
+
+    @property
+    def frames(self) -> Frames:
+        """The joints (2,) of each link, in the frame of that link; of the body in M."""
+        return self.linkage.frames()
+
+    @property
+    def driver_pivot(self) -> str:
+        """The pivot on the ground about which the driver turns."""
+        return {"first": "A", "second": "B"}[self.driver]
+
+    @property
+    def turns(self) -> int:
+        """After how many turns of the driver all is as it was; 0 where it cannot turn fully."""
+        return int(self.turns_fully)
+
+    @property
     def drive_range(self) -> tuple[float, float]:
         """The least and the greatest angle of the driver at the poses, in radians."""
         return float(self.drive.min()), float(self.drive.max())
@@ -114,7 +140,7 @@ class FoundSixBar:
     @property
     def lengths(self) -> dict[str, float]:
         """The distances between joints of one link: {"AB": 30.0, ...}."""
-        return dict(zip(BARS, self.linkage.lengths().tolist(), strict=True))
+        return dict(zip(self.skeleton.bars, self.linkage.lengths().tolist(), strict=True))
 
     def joints(self, drive: FloatArray) -> dict[str, FloatArray]:
         """Where the joints are when the driver is at angles (*,) in radians: {"A": (*, 2), ...}.
@@ -123,7 +149,11 @@ class FoundSixBar:
         """
         there = self._joints(np.asarray(drive, dtype=np.float64))
         places = np.stack([there.real, there.imag], axis=-1)
-        return {name: places[..., k, :] for k, name in enumerate(JOINTS)}
+        return {name: places[..., k, :] for k, name in enumerate(self.skeleton.joints)}
+
+    def links(self, drive: FloatArray) -> dict[str, Displacement]:
+        """Where the frames of all links are when the driver is at angles (*,), (*,) each."""
+        return self.skeleton.places(self.frames, self.joints(drive))
 
     def body(self, drive: FloatArray) -> Displacement:
         """The poses (*,) of the body when the driver is at angles (*,) in radians."""
@@ -148,6 +178,15 @@ class FoundSixBar:
         Both in radians.
         """
         return transmission(self._joints(np.asarray(drive, dtype=np.float64)), self.driver)
+
+    def scaled(self, scale: float) -> FoundSixBar:
+        """The same in another unit of length, `scale` of them for one."""
+        frames = {
+            link: {name: at * scale for name, at in joints.items()}
+            for link, joints in self.frames.items()
+        }
+        linkage = self.linkage.of(self.carries, frames)
+        return replace(self, linkage=linkage, extent=self.extent * scale)
 
     def along(self, count: int) -> FloatArray:
         """So many angles of the driver, evenly over the range of the poses, in radians.

@@ -13,29 +13,35 @@ are ours).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Final, Literal, TypeAlias, final
+from typing import Any, ClassVar, Final, Literal, TypeAlias, final
 
 import numpy as np
 
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["BARS", "FIGURES", "JOINTS", "LINKS", "TYPE", "Drive", "WattLinkage", "pairs_of"]
+__all__ = ["BARS", "FIGURES", "JOINTS", "LINKS", "WATT_I", "Drive", "WattLinkage", "pairs_of"]
 
 Drive: TypeAlias = Literal["first", "second"]
 
-TYPE: Final = "Watt I six-bar"
-JOINTS: Final = "ABCDEGH"
-LINKS: Final = {
-    "ground": "AB",
-    "first crank": "AC",
-    "coupler": "CDE",
-    "second crank": "BDG",
-    "floating link": "GH",
-    "body": "EH",
-}
-# Every distance between two joints of one link.
-BARS: Final = ("AB", "AC", "CD", "DE", "CE", "BD", "DG", "BG", "GH", "EH")
+WATT_I: Final = Skeleton(
+    "Watt I six-bar",
+    "ABCDEGH",
+    {
+        "ground": "AB",
+        "first crank": "AC",
+        "coupler": "CDE",
+        "second crank": "BDG",
+        "floating link": "GH",
+        "body": "EH",
+    },
+    drivers="AB",
+    along={"coupler": "CE"},
+)
+JOINTS: Final = WATT_I.joints
+LINKS: Final = WATT_I.links
+BARS: Final = WATT_I.bars
 FIGURES: Final = 16  # numbers that make a linkage
 
 
@@ -66,6 +72,9 @@ class WattLinkage:
     Lengths are in the task's unit.
     """
 
+    skeleton: ClassVar[Skeleton] = WATT_I
+    carries: ClassVar[str] = "body"
+
     fixed_first: FloatArray
     fixed_second: FloatArray
     first_crank: FloatArray
@@ -85,6 +94,37 @@ class WattLinkage:
     def __getitem__(self, index: Any) -> WattLinkage:
         """Pick along the leading axes (indices, slices, masks)."""
         return WattLinkage(*(getattr(self, name)[index] for name in self.__match_args__))
+
+    def frames(self) -> Frames:
+        """The joints (*, 2) of each link, in the frame of that link: {"coupler": {"C": ...}}."""
+        origin = np.zeros((*self.shape, 2))
+        ends = (self.first_crank, self.coupler_arm, self.second_crank, self.floating_link)
+        to_c, to_e, to_d, to_h = (np.stack([x, np.zeros_like(x)], axis=-1) for x in ends)
+        return {
+            "ground": {"A": self.fixed_first, "B": self.fixed_second},
+            "first crank": {"A": origin, "C": to_c},
+            "coupler": {"C": origin, "D": self.coupler_joint, "E": to_e},
+            "second crank": {"B": origin, "D": to_d, "G": self.crank_joint},
+            "floating link": {"G": origin, "H": to_h},
+            "body": {"E": self.body_joint, "H": self.link_joint},
+        }
+
+    @classmethod
+    def of(cls, carries: str, frames: Frames) -> WattLinkage:
+        """The six-bar whose links have joints (*, 2) in their frames, those of no body in any."""
+        coupler, crank, body = (frames[name] for name in ("coupler", "second crank", carries))
+        return cls(
+            fixed_first=frames["ground"]["A"],
+            fixed_second=frames["ground"]["B"],
+            first_crank=distance(frames["first crank"], "AC"),
+            coupler_arm=distance(coupler, "CE"),
+            coupler_joint=seen_along(coupler, "CE", "D"),
+            second_crank=distance(crank, "BD"),
+            crank_joint=seen_along(crank, "BD", "G"),
+            floating_link=distance(frames["floating link"], "GH"),
+            body_joint=body["E"],
+            link_joint=body["H"],
+        )
 
     def lengths(self) -> FloatArray:
         """The distances between joints of one link, in the order of `BARS`: (*, 10)."""

@@ -8,12 +8,13 @@ from burmester.diagnosis.checks import diagnose
 from burmester.errors import InputError
 from burmester.progress import limited, step
 from burmester.requirements.table import cured
-from burmester.sixbar.candidates import figures_of
+from burmester.sixbar.candidates import DRIVERS, figures_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
+from burmester.sixbar.kinds import KINDS
 from burmester.sixbar.search_space import FEWEST, POSES, require_kept
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
-from burmester.sixbar.watt import BARS, LINKS, Drive, WattLinkage
+from burmester.sixbar.watt import BARS, LINKS, WattLinkage
 from burmester.synthesis.judgement import exact_note
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
@@ -24,7 +25,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import error_bounds, nearness
 from burmester.wording import figure, listed
 
-__all__ = ["judge_six_bar", "judged_at_poses"]
+__all__ = ["KINDS", "judge_six_bar", "judged_at_poses"]
 
 SAME_JOINT = 1e-6  # sizes of the motion; joints of a link that are nearer to each other are one
 FARTHEST = 1e6  # sizes of the motion; of what is longer rounding takes too many digits
@@ -62,15 +63,16 @@ def judge_six_bar(
 
 
 def judged_at_poses(
-    linkage: WattLinkage, problem: SynthesisProblem, driver: Drive | None = None
+    linkage: WattLinkage, problem: SynthesisProblem, driver: object = None
 ) -> FoundSixBar:
     """A six-bar where it works, else where it is nearest; raises E112, E154 and E155.
 
-    driver: the crank that is to drive, where it works so.
+    driver: the crank that is to drive, where it works so; what is none is as nothing.
     """
     _require_links(linkage, problem)
-    if driver is not None and (found := judged_six_bar(linkage, problem, (driver,))).usable:
-        return found
+    for own in DRIVERS:
+        if own == driver and (found := judged_six_bar(linkage, problem, (own,))).usable:
+            return found
     return judged_six_bar(linkage, problem)
 
 
