@@ -30,7 +30,9 @@ mujoco = pytest.importorskip("mujoco")
 @cache
 def made(name):
     given = task(TURNING, length_unit="mm")
-    found = synthesize_six_bars(given, SixBarOptions(chains=400, most=1)).six_bars.found[0]
+    found = synthesize_six_bars(
+        given, SixBarOptions(kind="Watt I", chains=400, most=1)
+    ).six_bars.found[0]
     return MAKERS[name](found)
 
 

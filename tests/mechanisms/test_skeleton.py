@@ -21,7 +21,9 @@ STEPHENSON = Skeleton(
 
 @pytest.fixture(scope="module")
 def found():
-    return synthesize_six_bars(task(TURNING), SixBarOptions(chains=400, most=1)).six_bars.found[0]
+    return synthesize_six_bars(
+        task(TURNING), SixBarOptions(kind="Watt I", chains=400, most=1)
+    ).six_bars.found[0]
 
 
 def test_bars_are_the_sides_of_links():

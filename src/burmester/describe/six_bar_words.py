@@ -33,7 +33,7 @@ __all__ = [
     "sentences",
 ]
 
-HEADS = ("", "driver", "turns by", "transmits", "link ratio", "extent", "locks after")
+HEADS = ("", "driver", "turns by", "transmits", "link ratio", "extent", "locks after", "kind")
 POSE_HEADS = ("pose", "off by", "turned by", "driver at", "transmits")
 OF_TOLERANCE = "of the tolerance"
 MOST_POSES = 20  # of which errors are told one by one; of more those that are missed most
@@ -116,6 +116,7 @@ def row(synthesis: Synthesis, found: FoundSixBar) -> tuple[str, ...]:
         figure(found.link_ratio),
         length_of(found.extent, synthesis.task),
         room,
+        found.skeleton.name.removesuffix(" six-bar"),
     )
 
 

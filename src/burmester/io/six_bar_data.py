@@ -30,7 +30,10 @@ def six_bars_data(result: SixBars) -> dict[str, Any]:
         "designs": result.designs,
         "working": result.working,
         "seed": int(result.options.seed),
-        "options": {name: int(each) for name, each in asdict(result.options).items()},
+        "options": {
+            name: each if isinstance(each, str) else int(each)
+            for name, each in asdict(result.options).items()
+        },
         "free_poses": result.free_poses,
         "found": [six_bar_data(each) for each in result.found],
     }

@@ -38,7 +38,7 @@ from burmester.wording import listed
 
 if TYPE_CHECKING:
     from burmester.numerics.arrays import FloatArray
-    from burmester.sixbar.watt import WattLinkage
+    from burmester.sixbar.kinds import SixBar
 
 __all__ = ["is_six_bar", "six_bar_of"]
 
@@ -51,7 +51,7 @@ def is_six_bar(tree: dict[str, Any]) -> bool:
     return "dyads" not in tree and any(key in tree for key in OWN)
 
 
-def six_bar_of(tree: dict[str, Any]) -> WattLinkage:
+def six_bar_of(tree: dict[str, Any]) -> SixBar:
     """The six-bar of an object; raises E156."""
     usual = next(iter(KINDS))
     name = tree.get("type", usual)

@@ -7,10 +7,16 @@ files hold it, whatever its class.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final
+from typing import Final, TypeAlias
 
 from burmester.sixbar.watt import WattLinkage
+from burmester.stephenson.linkage import CLASSES, StephensonClass, StephensonLinkage
 
-__all__ = ["KINDS"]
+__all__ = ["KINDS", "SixBar"]
 
-KINDS: Final[Mapping[str, type[WattLinkage]]] = {WattLinkage.skeleton.name: WattLinkage}
+SixBar: TypeAlias = WattLinkage | StephensonLinkage
+
+KINDS: Final[Mapping[str, type[WattLinkage] | StephensonClass]] = {
+    WattLinkage.skeleton.name: WattLinkage,
+    **CLASSES,
+}
