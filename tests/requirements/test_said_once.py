@@ -1,4 +1,4 @@
-"""What is asked is named by the table: modules that name a requirement by its key only get fewer."""
+"""What is asked is named by the table: few modules name a requirement by its key, and only fewer."""
 
 from pathlib import Path
 
