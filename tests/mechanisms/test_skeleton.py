@@ -66,3 +66,22 @@ def test_frames_make_the_linkage_again(found):
     for bar, length in dimensions(found.linkage).items():
         assert found.lengths[bar] == pytest.approx(length)
         assert found.scaled(10.0).lengths[bar] == pytest.approx(10 * length)
+
+
+def test_loops_and_legs_of_every_chain():
+    """As drawn by hand: where loops are open, and through which links a driver moves the others."""
+    second = Skeleton(
+        "Stephenson II six-bar",
+        "ACEFGKL",
+        {"ground": "AF", "ACK": "ACK", "CE": "CE", "KL": "KL", "EGL": "EGL", "FG": "FG"},
+        drivers="AF",
+    )
+    assert [joint for joint, *_ in WATT_I.closures] == ["D", "H"]
+    assert STEPHENSON.closures == (("D", "CDE", "BD"), ("E", "CDE", "EG"))
+    assert [on for _, on, _ in STEPHENSON.tree] == ["ground", "AC", "ground", "ground", "FG"]
+    assert WATT_I.legs("A") == (("CD", "BD"), ("GH", "EH"))
+    assert WATT_I.legs("B") == (("AC", "DC"), ("GH", "EH"))
+    assert STEPHENSON.legs("A") == (("BD", "CD"), ("EG", "FG"))
+    assert STEPHENSON.legs("F") == (("AC", "BD", "GE"),)  # a triad
+    assert second.legs("A") == (("CE", "KL", "FG"),)
+    assert second.legs("F") == (("CE", "KL", "AG"),)  # its third leg is no bar
