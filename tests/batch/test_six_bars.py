@@ -29,7 +29,9 @@ def test_a_row_builds_six_bars_that_carry_the_body_through_its_poses(tmp_path):
     tasks = {"reach": REACH, "bent": BENT, "many": MANY}
     lines = [f"{name},{x},{y},{angle}" for name, rows in tasks.items() for x, y, angle in rows]
     (tmp_path / "tasks.csv").write_text("\n".join(["task,x,y,angle_deg", *lines, ""]))
-    (tmp_path / "options.toml").write_text("[six_bars]\nchains = 300\nseed = 2\nmost = 2\n")
+    (tmp_path / "options.toml").write_text(
+        '[six_bars]\nchains = 300\nseed = 2\nmost = 2\nkind = "Watt I"\n'
+    )
     summary = run(
         tmp_path / "tasks.csv",
         tmp_path / "out",

@@ -1,1 +1,1 @@
-"""Six-bars of Watt's first kind: the linkages that are left where no four-bar works."""
+"""Six-bars: the linkages that are left where no four-bar works."""
