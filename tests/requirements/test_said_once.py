@@ -1,4 +1,4 @@
-"""What is asked is named by the table: modules that name a requirement by its key only get fewer."""
+"""Modules that name a requirement by its key, beside its own, only get fewer."""
 
 from pathlib import Path
 
