@@ -155,7 +155,7 @@ def faults_of(result, folder, rng, counts):
     if (best := read.best) is None:
         return
     to = str(rng.choice(QUICK))
-    if isinstance(read, burmester.SixBarResult):
+    if isinstance(read, burmester.Result) and read.six_bars is not None:
         to = "json" if to == "pylinkage" else to
         export, judged = read.export, burmester.judge(read.task, best)
     elif isinstance(read, burmester.Result):

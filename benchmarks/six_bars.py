@@ -36,10 +36,11 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--chains", type=int, default=2000)
+    parser.add_argument("--kind", default="all")
     parser.add_argument("--spread", type=float, default=0.5)
     given = parser.parse_args()
     random = np.random.default_rng(given.seed)
-    options = SixBarOptions(given.chains, given.seed)
+    options = SixBarOptions(given.chains, given.seed, kind=given.kind)
     four, six, sound, saved, seconds, angles = 0, 0, 0, 0, 0.0, []
     for _ in range(given.count):
         task = random_task(random, given.spread)

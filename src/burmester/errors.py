@@ -59,6 +59,10 @@ class BurmesterError(Exception):
         self.why = why
         self.help = help
 
+    def to_dict(self) -> dict[str, str | None]:
+        """The five fields, as JSON and pages have them."""
+        return {name: getattr(self, name) for name in ("code", "message", "where", "why", "help")}
+
     def __str__(self) -> str:
         lines = [f"error[{self.code}]: {self.message}"]
         if self.where:

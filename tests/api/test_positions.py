@@ -85,7 +85,7 @@ def test_beyond_a_dead_point_there_is_no_place():
 
 def test_a_six_bar_too():
     rows = [(0, 0, 0), (1, 0.3, 8), (2.1, 0.5, 17), (3, 0.9, 25), (4.2, 1.1, 36)]
-    best = burmester.synthesize_six_bars(rows, angle_unit="deg", chains=500).best
+    best = burmester.synthesize_six_bars(rows, angle_unit="deg", kind="Watt I", chains=500).best
     here = best.at(np.degrees(best.drive))
     assert here.body.translation == pytest.approx(np.array(rows)[:, :2], abs=1e-9)
     assert sorted(here.joints) == list("ABCDEGH")

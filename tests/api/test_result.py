@@ -257,7 +257,7 @@ def all_kinds(results, folder):
         "\n".join(["x,y,crank_deg", *(f"{x},{y},{9 * t}" for x, y, t in rows)])
     )
     yield burmester.synthesize(burmester.read_task(folder / "path.csv"))
-    yield burmester.synthesize_six_bars(rows, angle_unit="deg", chains=300)
+    yield burmester.synthesize_six_bars(rows, angle_unit="deg", kind="Watt I", chains=300)
     settings = {"input_deg": 60, "output_deg": 60}
     yield burmester.synthesize_function("log10(x)", (1, 2), pairs=5, **settings)
 

@@ -45,7 +45,9 @@ def six_bar(name):
         "full turn": (wandering(6), 1),
         "angle": (wandering(4), 0),
     }[name]
-    found = synthesize_six_bars(given, SixBarOptions(chains=400, most=3)).six_bars.found
+    found = synthesize_six_bars(
+        given, SixBarOptions(kind="Watt I", chains=400, most=3)
+    ).six_bars.found
     return found[number]
 
 

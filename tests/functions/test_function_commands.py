@@ -80,7 +80,8 @@ def test_what_is_wrong_in_a_workbook_or_in_parquet_is_shown_where_it_is():
     assert (caught.value.code, "row 2" in caught.value.where) == ("E104", True)
     with pytest.raises(InputError) as caught:
         read_function(parquet({"input_deg": [0.0, None], "output_deg": [0.0, 1.0]}), "a.parquet")
-    assert (caught.value.code, caught.value.message) == ("E103", "row 2 has no finite number")
+    assert (caught.value.code, caught.value.message) == ("E104", "'None' is not a number")
+    assert caught.value.where.startswith("a.parquet:3:1")
     assert not is_function(parquet({"x": [0.0], "y": [1.0], "angle_deg": [2.0]}), "a.parquet")
 
 

@@ -85,3 +85,26 @@ def test_the_coupler_passes_its_places_as_the_input_link_drives(seed):
     assert best.driver == "first"
     assert best.driven.least_over_range == pytest.approx(found.least_transmission, abs=1e-6)
     assert witness.misses(best.linkage, judged.task.poses, 40.0).max() < 1e-5
+
+
+@pytest.mark.parametrize("phases_only", [True, False])
+def test_generators_that_lie_apart_are_those_that_one_by_one_are_near_no_earlier_one(phases_only):
+    rng = np.random.default_rng(3)
+    sizes = np.exp(rng.uniform(-0.4, 0.4, (3, 60)))
+    phases = rng.choice([0.0, 0.2, 3.1, -3.1], (2, 60)) + rng.uniform(0, 0.1, (2, 60))
+    every = Generator(*sizes, *phases, rng.choice([1.0, -1.0], 60))
+    kept = []
+    for k in range(60):
+        for j in kept:
+            near = [abs(np.angle(np.exp(1j * (p[k] - p[j])))) <= 0.25 for p in phases]
+            if not phases_only:
+                near += [abs(np.log(s[k] / s[j])) <= 0.25 for s in sizes]
+                near.append(every.side[k] == every.side[j])
+            if all(near):
+                break
+        else:
+            kept.append(k)
+    assert 3 < len(kept) < 60
+    for most in (60, 3):
+        found = every.first_apart(0.25, most, phases_only=phases_only)
+        assert found.tolist() == kept[:most]

@@ -125,8 +125,8 @@ SCENES = {
         "synthesize pairs.csv -o result.json", "check pairs.csv",
         "judge pairs.csv --linkage result.json")),
     "six-bars": Scene({"lid.csv": EXAMPLES / "lid.csv"}, (
-        "synthesize lid.csv --six-bars --chains 2000 -o result.json",
-        "report lid.csv --six-bars --chains 2000 -o page.html",
+        'synthesize lid.csv --six-bars --six-bar-kind "Watt I" --chains 2000 -o result.json',
+        'report lid.csv --six-bars --six-bar-kind "Watt I" --chains 2000 -o page.html',
         "judge lid.csv --linkage result.json",
         *_exports("svg", "dxf", "openscad", "mjcf", "csv"))),
     "batch": Scene({"tasks.csv": MANY}, (

@@ -1,15 +1,18 @@
 """Scenes played: what their commands print, and the files that they leave."""
 
 import io
+import math
 import os
 import shlex
 from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from pathlib import Path
+from unittest.mock import patch
 
 import pyarrow.parquet as pq
 
 from burmester import cli
+from burmester.cli import batch_progress
 from tests.golden.commands import Scene
 from tests.golden.fingerprint import as_text
 
@@ -33,7 +36,9 @@ def played(scene: Scene, folder: Path) -> Iterator[tuple[str, str]]:
 
 def _printed(line: str) -> str:
     out, err, code = io.StringIO(), io.StringIO(), None
-    with redirect_stdout(out), redirect_stderr(err):
+    # How often a batch says how far it is depends on the load of the machine.
+    silent = patch.object(batch_progress, "PERIOD_S", math.inf)
+    with redirect_stdout(out), redirect_stderr(err), silent:
         try:
             cli.main(shlex.split(line))
         except SystemExit as end:

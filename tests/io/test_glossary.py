@@ -16,6 +16,7 @@ LINES = [
     if line.startswith("- ")
 ]
 TIMED = "x,y,crank_deg\n0.5,1.1,0\n0.1,0.9,80\n0,0.4,160\n0.2,0.3,240\n0.5,0.7,300\n"
+POSES = "x,y,angle_deg,crank_deg\n0,0,0,0\n2.3936,-1.449,-45,342.3\n3.7607,-1.1026,9.3,324.8\n"
 POINTS = """x,y,angle_deg
 0.973329,1.841643,51.84518
 1.013217,2.219586,38.83281
@@ -92,9 +93,10 @@ def test_every_key_is_printed(tmp_path):
     (tmp_path / "rails.json").write_text(json.dumps(RAILS))
     done = CliRunner().invoke(burmester, ["synthesize", str(tmp_path / "rails.json"), "--json"])
     printed |= keys(json.loads(done.stdout))
-    for content in (TIMED, POINTS):
+    for content, more in ((TIMED, []), (POINTS, []), (POSES, ["--absolute-crank"])):
         (tmp_path / "points.csv").write_text(content)
-        done = CliRunner().invoke(burmester, ["synthesize", str(tmp_path / "points.csv"), "--json"])
+        asked = ["synthesize", str(tmp_path / "points.csv"), "--json", *more]
+        done = CliRunner().invoke(burmester, asked)
         printed |= keys(json.loads(done.stdout))
     assert given - printed == set()
 

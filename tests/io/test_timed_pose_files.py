@@ -71,7 +71,7 @@ def test_json_and_toml_have_the_angle_in_the_pose(tmp_path):
 def test_a_result_keeps_its_timing_and_is_judged_again_by_it(tmp_path):
     rows = [(0, 0, 0), (2.393562138, -1.449021839, -45), (3.760708125, -1.10255857, 9.3)]
     result = synthesize(rows, angle_unit="deg", crank=[0, 342.3, 324.8])
-    assert "1 link from the ground has these crank angles" in result.outcome.message
+    assert "1 driving link turns by these crank angles, and no other" in result.outcome.message
     path = result.save(tmp_path / "result.json")
     data = json.loads(path.read_text())
     assert [pose["crank_deg"] for pose in data["task"]["poses"]] == [0, 342.3, 324.8]

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import burmester
-from burmester.report.page import function_page
 from burmester.web.function_data import function_report
 from tests.oracles import function_loops
 
@@ -18,7 +17,7 @@ def page(browser, tmp_path_factory):
     """The page of five pairs, opened on a narrow screen."""
     found = burmester.synthesize_function(PAIRS, angle_unit="deg")
     path = tmp_path_factory.mktemp("functions") / "pairs.html"
-    path.write_text(function_page(found.synthesis, "pairs"), encoding="utf-8")
+    found.report(path, title="pairs")
     opened = browser.new_page(viewport={"width": 390, "height": 800}, reduced_motion="reduce")
     said = []
     opened.on("console", lambda each: said.append(each.text))

@@ -95,7 +95,7 @@ def require_dimensions(page, found):
 @pytest.fixture(scope="module")
 def result():
     given = replace(task(BENT, length_unit="cm"), body=Polygon(PLATE))
-    return burmester.synthesize_six_bars(given, chains=600, seed=2)
+    return burmester.synthesize_six_bars(given, kind="Watt I", chains=600, seed=2)
 
 
 def of_each_driver(result):
@@ -184,7 +184,7 @@ def test_bars_keep_their_lengths_while_it_plays_and_where_it_locks(browser, file
 
 def test_a_driver_that_turns_fully_is_played_all_round_by_keyboard(browser, tmp_path):
     given = replace(task(TURNING), requirements=Requirements(driver="crank"))
-    result = burmester.synthesize_six_bars(given, chains=1500, most=1)
+    result = burmester.synthesize_six_bars(given, kind="Watt I", chains=1500, most=1)
     found = result.best
     with browsers.opened(browser, result.report(tmp_path / "turning.html")) as (page, said, _):
         page.locator(".bm-whole input").check()
@@ -240,9 +240,20 @@ def test_the_command_writes_the_page_or_says_why_not(tmp_path, capsys):
 
     file, easy = tmp_path / "page.html", table("easy.csv", TURNING)
     hard = table("hard.csv", [(0, 0, 0), (4, 9, 70), (9, 2, 95), (1, 6, 20), (7, 7, 150)])
-    code, out, _ = run(capsys, "report", easy, "--six-bars", "--chains", 300, "-o", file)
+    code, out, _ = run(
+        capsys,
+        "report",
+        easy,
+        "--six-bars",
+        "--six-bar-kind",
+        "Watt I",
+        "--chains",
+        300,
+        "-o",
+        file,
+    )
     assert code == 0
-    assert out.startswith("S1 is a six-bar of Watt's first kind, driven at ")
+    assert out.startswith("S1 is a Watt I six-bar, driven at ")
     assert '"six_bars":[{"id":"S1"' in file.read_text()
     code, out, _ = run(capsys, "report", hard, "-o", tmp_path / "four.html")
     assert code == 1

@@ -13,6 +13,7 @@ from burmester.errors import InputError
 from tests.oracles.six_bars import LIST, dimensions, driven
 from tests.sixbar.tasks import TURNING
 
+WATT = "--six-bar-kind", "Watt I"
 HEAD = "x_mm,y_mm,angle_deg\n"
 
 
@@ -30,7 +31,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module")
 def result():
     return burmester.synthesize_six_bars(
-        TURNING, angle_unit="deg", length_unit="mm", chains=1000, most=3
+        TURNING, angle_unit="deg", length_unit="mm", kind="Watt I", chains=1000, most=3
     )
 
 
@@ -43,7 +44,7 @@ def run(capsys, *words):
 
 def test_command_and_python_give_the_same_six_bars(folder, result, capsys):
     code, out, _ = run(
-        capsys, "synthesize", folder / "task.csv", "--six-bars", "--chains", 1000, "--json"
+        capsys, "synthesize", folder / "task.csv", "--six-bars", *WATT, "--chains", 1000, "--json"
     )
     data = json.loads(out)
     assert code == 0
@@ -52,8 +53,8 @@ def test_command_and_python_give_the_same_six_bars(folder, result, capsys):
         assert mine.id == theirs["id"]
         assert mine.lengths == theirs["lengths"]
     assert data["linkages"] == []
-    text = run(capsys, "synthesize", folder / "task.csv", "--six-bars", "--chains", 1000)[1]
-    assert text.startswith("S1 is a six-bar of Watt's first kind, driven at ")
+    text = run(capsys, "synthesize", folder / "task.csv", "--six-bars", *WATT, "--chains", 1000)[1]
+    assert text.startswith("S1 is a Watt I six-bar, driven at ")
     for bar in ("AC", "GH"):
         assert f"{found[0]['lengths'][bar]:.7g}" in text
     for number in (*found[0]["ground"]["A"], *found[0]["body"]["H"]):

@@ -51,7 +51,7 @@ def table(rows):
 def made():
     """Six-bars of a search."""
     return burmester.synthesize_six_bars(
-        TURNING, angle_unit="deg", length_unit="mm", chains=300, most=3
+        TURNING, angle_unit="deg", length_unit="mm", kind="Watt I", chains=300, most=3
     )
 
 

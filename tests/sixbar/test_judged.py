@@ -7,7 +7,8 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Point, Segment, box
-from burmester.sixbar.branches import branches_of
+from burmester.mechanisms.branches import branches_of
+from burmester.mechanisms.circuits import circuits_of
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.sixbar.watt import WattLinkage
 from burmester.synthesis.six_bar_judgement import judge_six_bar
@@ -26,7 +27,7 @@ OPTIONS = SynthesisOptions(length_per_radian=RADIAN)
 @pytest.fixture(scope="module")
 def six_bars():
     """Some for each of two tasks."""
-    some = SixBarOptions(chains=300, most=4)
+    some = SixBarOptions(kind="Watt I", chains=300, most=4)
     return [synthesize_six_bars(task(rows), some).six_bars.found for rows in (REACH, TURNING)]
 
 
@@ -107,11 +108,21 @@ def test_errors_and_verdict_are_those_of_brute_force(six_bars, seed):
     assert seed or any(verdicts)
 
 
-def test_both_drivers_have_the_same_circuits(six_bars):
+def test_branches_are_those_of_brute_force(six_bars):
     for found in (*six_bars[0], *six_bars[1]):
-        one, two = (branches_of(found.linkage, driver) for driver in ("first", "second"))
-        assert len(one.low) + len(two.low) == len(runs(found.linkage))
-        assert len(set(one.circuit)) == len(set(two.circuit))
+        circuits = circuits_of(found.linkage)
+        assert circuits.closed.all()
+        seen = runs(found.linkage)
+        for pivot, driver in (("A", "first"), ("B", "second")):
+            branches = branches_of(found.linkage, circuits, pivot)
+            assert all(each.certain for each in branches)
+            own = [each for each in seen if each.driver == driver]
+            assert len(branches) == len(own)
+            ends = sorted(2 * np.pi if each.turns else np.ptp(each.drives) for each in branches)
+            wide = sorted(
+                2 * np.pi if each.full else np.ptp(np.unwrap(each.angles)) for each in own
+            )
+            assert ends == pytest.approx(wide, abs=2e-3)
 
 
 @pytest.mark.parametrize(

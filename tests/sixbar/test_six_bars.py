@@ -14,7 +14,7 @@ from tests.oracles.six_bars import driven
 from tests.sixbar.driving import require_driven, rows_of
 from tests.sixbar.tasks import REACH, TURNING, task, wandering
 
-FEW = SixBarOptions(chains=1500, most=3)
+FEW = SixBarOptions(kind="Watt I", chains=1500, most=3)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -29,7 +29,7 @@ def test_every_six_bar_is_driven_through_its_poses(seed):
 @pytest.mark.parametrize("kept", [(0, 1, 3, 4), (0, 2, 4), (0, 4)])
 def test_fewer_poses_leave_poses_between_them_free(kept):
     given = task([REACH[k] for k in kept])
-    answer = synthesize_six_bars(given, SixBarOptions(chains=500, most=3))
+    answer = synthesize_six_bars(given, SixBarOptions(kind="Watt I", chains=500, most=3))
     assert answer.six_bars.free_poses == 5 - len(kept)
     assert "W235" in [each.code for each in answer.warnings]
     for found in answer.six_bars.found:
@@ -38,7 +38,9 @@ def test_fewer_poses_leave_poses_between_them_free(kept):
 
 def test_the_same_seed_gives_the_same_six_bars_and_another_one_others():
     first, again, other = (
-        synthesize_six_bars(task(REACH), SixBarOptions(chains=600, seed=seed)).six_bars.found
+        synthesize_six_bars(
+            task(REACH), SixBarOptions(kind="Watt I", chains=600, seed=seed)
+        ).six_bars.found
         for seed in (3, 3, 4)
     )
     assert [each.lengths for each in first] == [each.lengths for each in again]
@@ -46,7 +48,7 @@ def test_the_same_seed_gives_the_same_six_bars_and_another_one_others():
 
 
 def test_sound_ones_come_first_then_the_greatest_transmission_angle():
-    answer = synthesize_six_bars(task(TURNING), SixBarOptions(chains=3000))
+    answer = synthesize_six_bars(task(TURNING), SixBarOptions(kind="Watt I", chains=3000))
     short = [bool(each.shortcomings) for each in answer.six_bars.found]
     assert short == sorted(short)
     sound = [each.transmission for each in answer.six_bars.found if not each.shortcomings]
@@ -65,7 +67,7 @@ def test_regions_lengths_and_requirements_are_kept():
     asked = Requirements(transmission_deg=12, link_ratio=8, driver="crank")
     limits = Limits(box([-6, -6], [12, 1]), box([-4, -4], [4, 4]), (0.5, 9))
     given = task(TURNING, limits=(limits,), requirements=asked)
-    answer = synthesize_six_bars(given, SixBarOptions(chains=3000, most=2))
+    answer = synthesize_six_bars(given, SixBarOptions(kind="Watt I", chains=3000, most=2))
     assert answer.six_bars.found
     for found in answer.six_bars.found:
         require_driven(found, given)
@@ -92,7 +94,7 @@ def test_what_breaks_a_requirement_is_never_in_the_answer():
     limits = Limits(box([-3, -3], [5, 4]))
     given = task(TURNING, limits=(limits,), requirements=asked)
     for seed in range(3):
-        answer = synthesize_six_bars(given, SixBarOptions(chains=300, seed=seed))
+        answer = synthesize_six_bars(given, SixBarOptions(kind="Watt I", chains=300, seed=seed))
         for found in answer.six_bars.found:
             assert np.degrees(found.transmission) >= 45
             assert found.link_ratio <= 6
@@ -121,7 +123,9 @@ def test_poses_in_any_order():
 
 def test_a_time_limit_ends_the_search_and_says_so():
     answer = synthesize_six_bars(
-        task(TURNING), SixBarOptions(chains=1_000_000), SynthesisOptions(time_limit=0.3)
+        task(TURNING),
+        SixBarOptions(kind="Watt I", chains=1_000_000),
+        SynthesisOptions(time_limit=0.3),
     )
     assert answer.six_bars.chains < 1_000_000
     assert "W221" in [each.code for each in answer.warnings]
@@ -144,7 +148,9 @@ def test_what_six_bars_are_not_looked_for_with(rows, further, code):
     assert refused.value.code == code
 
 
-@pytest.mark.parametrize("wrong", [{"chains": 0}, {"chains": 1.5}, {"seed": -1}, {"most": 0}])
+@pytest.mark.parametrize(
+    "wrong", [{"chains": 0}, {"chains": 1.5}, {"seed": -1}, {"most": 0}, {"kind": "Watt II"}]
+)
 def test_options_that_make_no_sense(wrong):
     with pytest.raises(InputError) as refused:
         SixBarOptions(**wrong)

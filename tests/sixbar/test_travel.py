@@ -5,7 +5,7 @@ import pytest
 
 from burmester.geometry.displacement import Displacement
 from burmester.sixbar.added_dyads import added_dyads
-from burmester.sixbar.motion import Sides, drive_of, joints_at
+from burmester.sixbar.motion import Sides, drive_of, joints_at, sides_of
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.sixbar.travel import first_loop_works, least_transmission, travel
 from tests.sixbar.tasks import REACH, TURNING, task
@@ -103,7 +103,7 @@ def test_the_room_beside_the_poses_ends_where_a_loop_opens(driver):
     assert len(good) > 5
     low, high = way.drive[good].min(axis=1), way.drive[good].max(axis=1)
     below, above = low - way.room[good, 0], high + way.room[good, 1]
-    sides = Sides(*(side[good] for side in way.sides))
+    sides = Sides(*(side[good, 0] for side in sides_of(added.joints, driver)))
     for inside, end in ((1, below), (-1, above)):
         for off, is_open in ((1e-7, False), (-1e-7, True)):
             there = joints_at(added.linkages[good], end + inside * off, sides, driver)
@@ -115,7 +115,7 @@ def test_the_least_transmission_angle_is_that_of_a_fine_sampling(driver):
     added = designs(REACH, 7)
     way = travel(added.linkages, added.joints, driver)
     at = np.flatnonzero(way.works)
-    least = least_transmission(added.linkages[at], way.take(at), driver, added.joints[at])
+    least = least_transmission(added.linkages[at], way.drive[at], driver, added.joints[at])
     for k, exact in zip(at, least, strict=True):
         drives = np.linspace(way.drive[k].min(), way.drive[k].max(), 4001)
         e, h = followed(added.joints[k], driver, drives)

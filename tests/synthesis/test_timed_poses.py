@@ -110,7 +110,7 @@ def test_directions_on_the_ground():
     _, poses, beta = planted(3, 3)
     angles = np.array([beta[0], beta[1], np.nan])
     result = synthesize(Task(poses, timing=CrankTiming(angles, absolute=True)))
-    assert "from the ground" in result.outcome.message
+    assert "by these crank angles, and no other" in result.outcome.message
     pivots = {tuple(each.dyads[0].dyad.fixed_pivot.round(6)) for each in result.linkages}
     assert len(pivots) <= 2
     for each in result.linkages:

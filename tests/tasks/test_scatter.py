@@ -7,11 +7,11 @@ import pytest
 from benchmarks.two_origins import pair_of_tasks, same
 
 from burmester import read_task, synthesize
-from burmester.stacked.plain_tasks import plain_tasks
-from burmester.stacked.task_stack import TaskStack
+from burmester.geometry.displacement import Displacement
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import General, Rotation, TwoSliders
 from burmester.tasks.motion_task import Task
+from burmester.tasks.plain_motions import plain_motions
 from burmester.tasks.scatter import last_digit
 from tests.oracles.recordings import trc
 from tests.oracles.two_slider_motions import general, planted
@@ -150,7 +150,7 @@ def test_what_scatters_about_a_special_motion_is_no_plain_task_of_a_stack():
         stack.append(np.column_stack([0.03 * rng.normal(size=(9, 2)), angle]))
         rows = planted(rng, 9, np.radians(110), inverted=bool(rng.integers(2)))
         stack.append(rows + 2e-3 * rng.normal(size=(9, 3)) * [1, 1, 0])
-    plain, _ = plain_tasks(TaskStack(np.array(stack)))
+    plain, _ = plain_motions(Displacement.from_poses(np.array(stack)), (0.0, 0.0))
     alone = [
         classify_motion(Task.from_rows([tuple(row) for row in rows], angle_unit="rad")).kind
         for rows in stack

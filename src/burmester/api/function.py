@@ -86,11 +86,6 @@ class FunctionGenerators(AnyResult[FoundGenerator]):
         """The object of `burmester synthesize --json`."""
         return function_data(self.synthesis)
 
-    def _page(self, title: str) -> str:
-        from burmester.report.page import function_page  # noqa: PLC0415
-
-        return function_page(self.synthesis, title)
-
     def plot(self) -> Figure:
         """The structural error over the input, by Matplotlib."""
         from burmester import plot  # noqa: PLC0415  Matplotlib may be missing

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import TypeAlias, TypedDict, Unpack, overload
+from typing import TypeAlias, TypedDict, Unpack, cast, overload
 
 from numpy.typing import ArrayLike
 
@@ -17,13 +17,14 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_file import read_linkage
+from burmester.mechanisms.contract import Mechanism
 from burmester.progress import Listener
 from burmester.progress import shown as told
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.watt import WattLinkage
 from burmester.synthesis.given_linkage import GivenDyad, OpenLink
 from burmester.synthesis.judgement import judge_linkage
-from burmester.synthesis.six_bar_judgement import judge_six_bar
+from burmester.synthesis.six_bar_judgement import SixBar, judge_six_bar
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.options import Norm, SynthesisOptions
 from burmester.values import real_numbers, shown
@@ -33,7 +34,7 @@ __all__ = ["judge"]
 
 Pivots: TypeAlias = tuple[ArrayLike, ArrayLike]
 FourBar: TypeAlias = Linkage | FoundLinkage | Sequence[Dyad | Pivots]
-SixBar: TypeAlias = WattLinkage | FoundSixBar
+GivenSixBar: TypeAlias = SixBar | FoundSixBar
 LinkageFile: TypeAlias = str | os.PathLike[str]
 
 
@@ -62,7 +63,7 @@ def judge(
 @overload
 def judge(
     poses: Task | Displacement | ArrayLike,
-    linkage: SixBar,
+    linkage: GivenSixBar,
     **how: Unpack[_How],
 ) -> SixBarResult: ...
 
@@ -77,7 +78,7 @@ def judge(
 
 def judge(
     poses: Task | Displacement | ArrayLike,
-    linkage: FourBar | SixBar | LinkageFile,
+    linkage: FourBar | GivenSixBar | LinkageFile,
     *,
     improve: bool = False,
     id: str | None = None,
@@ -140,7 +141,7 @@ def judge(
     task = task_of(poses, angle_unit, length_unit)
     with in_python_words(), told(progress):
         given = _linkage(linkage, id, task.length_unit)
-        if isinstance(given, WattLinkage):
+        if isinstance(given, Mechanism):
             _require_none(improve=improve, norm=norm != "rms", tolerance=manufacturing_tolerance)
             return Result.of(judge_six_bar(task, given, options))
         return Result.of(judge_linkage(task, given, options, improve=improve))
@@ -148,14 +149,14 @@ def judge(
 
 def _linkage(
     given: object, id: str | None, unit: str | None
-) -> Linkage | WattLinkage | Sequence[GivenDyad]:
+) -> Linkage | SixBar | Sequence[GivenDyad]:
     """What `judge_linkage` or `judge_six_bar` takes, or E153."""
     if isinstance(given, str | os.PathLike):
         return read_linkage(given, id, unit)
     if isinstance(given, FoundLinkage):
         return given.linkage
-    if isinstance(given, FoundSixBar | WattLinkage):
-        return _one_six_bar(given if isinstance(given, WattLinkage) else given.linkage)
+    if isinstance(given, FoundSixBar | Mechanism):
+        return _one_six_bar(given.linkage if isinstance(given, FoundSixBar) else given)
     if isinstance(given, Linkage):
         return given
     if not isinstance(given, list | tuple) or len(given) != 2:
@@ -170,8 +171,10 @@ def _linkage(
     return [_dyad(first, 1), _dyad(second, 2)]
 
 
-def _one_six_bar(given: WattLinkage) -> WattLinkage:
+def _one_six_bar(given: object) -> SixBar:
     """The same with arrays as dimensions; E153 where it is not one."""
+    if not isinstance(given, WattLinkage):
+        return cast("SixBar", given)
     points = ("fixed_first", "fixed_second", "coupler_joint", "crank_joint", "body_joint")
     values = {}
     for name in WattLinkage.__match_args__:

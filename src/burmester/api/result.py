@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from burmester.synthesis.function_generation import FunctionSynthesis
+
 __all__ = ["AnyResult", "Result"]
 
 LINES = 12  # of a `repr`, at most
@@ -60,6 +62,9 @@ class AnyResult(Generic[Kind]):
     __slots__ = ()
 
     if TYPE_CHECKING:
+
+        @property
+        def synthesis(self) -> Synthesis | FunctionSynthesis: ...
 
         @property
         def outcome(self) -> Outcome: ...
@@ -132,9 +137,6 @@ class AnyResult(Generic[Kind]):
             files.write(path, self.to_json(), force=force)
         return Path(path)
 
-    @abstractmethod
-    def _page(self, title: str) -> str: ...
-
     def report(
         self, path: str | os.PathLike[str], *, title: str | None = None, force: bool = False
     ) -> Path:
@@ -142,9 +144,11 @@ class AnyResult(Generic[Kind]):
 
         title: the heading, the file's name if not given.  Raises InputError E140 and E141.
         """
+        from burmester.report import page  # noqa: PLC0415
+
         with in_python_words():
             files.require_writable(path, force=force)
-            files.write(path, self._page(title or Path(path).stem), force=force)
+            files.write(path, page(self.synthesis, title or Path(path).stem), force=force)
         return Path(path)
 
 
@@ -232,11 +236,6 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
     def to_dict(self) -> dict[str, Any]:
         """The object of `burmester synthesize --json`."""
         return synthesis_data(self)
-
-    def _page(self, title: str) -> str:
-        from burmester.report import page  # noqa: PLC0415
-
-        return page(self, title)
 
     def __repr__(self) -> str:
         if self.six_bars is not None:

@@ -32,10 +32,13 @@ def synthesize_six_bars(
     chains: int = CHAINS,
     seed: int = 0,
     most: int = 8,
+    kind: str = "all",
     time_limit: float | None = None,
     progress: Listener | None = None,
 ) -> Result[ResultSixBar]:
-    """Six-bars of Watt's first kind that carry a body through two to five poses, by random search.
+    """Six-bars that carry a body through two to five poses, by random search.
+
+    Of Watt's first kind, and of Stephenson's first and third.
 
     Parameters
     ----------
@@ -48,11 +51,13 @@ def synthesize_six_bars(
     length_unit : str, optional
         The unit of x and y, such as "mm".
     chains : int
-        How many 3R chains are drawn at random and made six-bars.
+        How many 3R chains are drawn at random and made six-bars of each kind.
     seed : int
         Of the random numbers; the same one gives the same answer.
     most : int
         How many six-bars the answer has at most.
+    kind : {"all", "Watt I", "Stephenson I", "Stephenson III"}
+        Whether six-bars of one kind only are looked for.
     time_limit : float, optional
         Seconds after which no further chains are looked at.
     progress : callable, optional
@@ -82,7 +87,7 @@ def synthesize_six_bars(
     """
     require_callable(progress)
     task = task_of(poses, angle_unit, length_unit)
-    options = SixBarOptions(chains, seed, most)
+    options = SixBarOptions(chains, seed, most, kind)
     with shown(progress):
         how = SynthesisOptions(time_limit=time_limit)
         return Result.of(road.synthesize_six_bars(task, options, how))

@@ -65,10 +65,16 @@ GENERATOR: Final = pa.struct(
     ]
 )
 _POINTS: Final = ("fixed_first", "fixed_second", "coupler_joint", "crank_joint")
+_JOINT: Final = pa.struct(
+    [("link", pa.string()), ("joint", pa.string()), ("x", _NUMBER), ("y", _NUMBER)]
+)
 SIX_BAR: Final = pa.struct(
     [
         ("verdict", pa.string()),
-        ("driver", pa.string()),
+        *((name, pa.string()) for name in ("driver", "type", "carries")),
+        ("joints", pa.list_(_JOINT)),  # of links with more than a length, in the frames of links
+        ("lengths", pa.map_(pa.string(), _NUMBER)),
+        # Of the class Watt I alone.
         *((f"{name}_{axis}", _NUMBER) for name in _POINTS for axis in "xy"),
         *((f"{name}_{axis}", _NUMBER) for name in ("body_joint", "link_joint") for axis in "xy"),
         *((name, _NUMBER) for name in ("first_crank", "coupler_arm", "second_crank")),

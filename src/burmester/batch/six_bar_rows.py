@@ -13,6 +13,8 @@ from burmester.batch.schema import DYAD, GENERATOR, LINKAGE, SIX_BAR
 
 __all__ = ["six_bar_rows"]
 
+WATT = "Watt I six-bar"
+
 
 def six_bar_rows(found: Mapping[int, Mapping[str, Any]]) -> pa.Table:
     """What `burmester synthesize --six-bars --json` tells, by the places of tasks in a part."""
@@ -32,6 +34,33 @@ def six_bar_rows(found: Mapping[int, Mapping[str, Any]]) -> pa.Table:
 
 
 def _six_bar(data: Mapping[str, Any]) -> dict[str, Any]:
+    keys = {link: link.replace(" ", "_") for link in data["joints_of_links"]}
+    joints = [
+        {"link": link, "joint": joint, "x": x, "y": y}
+        for link, key in keys.items()
+        for joint, (x, y) in data.get(key, {}).items()
+    ]
+    below, above = data["reserve_deg"]
+    return {
+        "verdict": "not sound" if data["shortcomings"] else "sound",
+        "driver": data["driver"],
+        "type": data["type"],
+        "carries": data["carries"],
+        "joints": joints,
+        "lengths": list(data["lengths"].items()),
+        **(_watt(data) if data["type"] == WATT else {}),
+        "drive_deg": data["drive_deg"],
+        "turns_fully": data["turns_fully"],
+        "reserve_below_deg": below,
+        "reserve_above_deg": above,
+        "transmission_deg": data["min_transmission_angle_deg"],
+        "link_ratio": data["link_ratio"],
+        "extent": data["extent"],
+    }
+
+
+def _watt(data: Mapping[str, Any]) -> dict[str, Any]:
+    """The columns that only this class has."""
     coupler, crank, lengths = data["coupler"], data["second_crank"], data["lengths"]
     points = {
         "fixed_first": data["ground"]["A"],
@@ -41,20 +70,10 @@ def _six_bar(data: Mapping[str, Any]) -> dict[str, Any]:
         "body_joint": data["body"]["E"],
         "link_joint": data["body"]["H"],
     }
-    below, above = data["reserve_deg"]
     return {
-        "verdict": "not sound" if data["shortcomings"] else "sound",
-        "driver": data["driver"],
         **{f"{name}_{axis}": at[k] for name, at in points.items() for k, axis in enumerate("xy")},
         "first_crank": lengths["AC"],
         "coupler_arm": coupler["E"][0],
         "second_crank": crank["D"][0],
         "floating_link": lengths["GH"],
-        "drive_deg": data["drive_deg"],
-        "turns_fully": data["turns_fully"],
-        "reserve_below_deg": below,
-        "reserve_above_deg": above,
-        "transmission_deg": data["min_transmission_angle_deg"],
-        "link_ratio": data["link_ratio"],
-        "extent": data["extent"],
     }

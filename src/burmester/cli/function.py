@@ -301,7 +301,7 @@ def _check(task: FunctionTask, source: str, notes: tuple[Advice, ...], *, as_jso
     """Show a function task and what stands out in it; returns the exit code."""
     from burmester.functions.pair_checks import pair_findings
     from burmester.io.files import quoted
-    from burmester.io.function_overview import function_check_data, show_function_check
+    from burmester.io.function_table import function_check_data, show_function_check
 
     findings = pair_findings(task)
     if as_json:
@@ -326,6 +326,6 @@ def _figure(synthesis: FunctionSynthesis, suffix: str) -> bytes:
 
 def _page(synthesis: FunctionSynthesis, title: str) -> str:
     from burmester.printable import printable
-    from burmester.report.page import function_page
+    from burmester.report import page
 
-    return function_page(synthesis, printable(title))
+    return page(synthesis, printable(title))

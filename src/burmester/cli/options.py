@@ -361,18 +361,27 @@ METHOD: tuple[Decorator, ...] = (
     TIME_LIMIT,
 )
 
+OF_SIX_BARS = {"chains": "--chains", "seed": "--seed", "kind": "--six-bar-kind"}
 SIX_BARS: tuple[Decorator, ...] = (
     _method(
         "--six-bars",
         is_flag=True,
-        help="Look for linkages of six bars instead (Watt's first kind), through two to five poses "
-        "exactly, for tasks that no four-bar does.",
+        help="Look for linkages of six bars instead (Watt I, Stephenson I and III), through two to "
+        "five poses exactly, for tasks that no four-bar does.",
     ),
     _method(
         "--chains",
         metavar="N",
         type=click.IntRange(min=1),
-        help="How many 3R chains are made six-bars, drawn at random; by default 20,000.",
+        help="How many 3R chains are made six-bars of each kind, drawn at random; by default "
+        "20,000.",
+    ),
+    _method(
+        "--six-bar-kind",
+        "kind",
+        metavar="KIND",
+        help='Six-bars of one kind only: "Watt I", "Stephenson I" or "Stephenson III"; by default '
+        "all.",
     ),
     _method(
         "--seed",
@@ -497,7 +506,7 @@ def run_six_bars(poses: str, **given: Any) -> Synthesis:
     from burmester.tasks.options import SynthesisOptions
 
     _refuse_options(_NOT_FOR_SIX_BARS, "--six-bars")
-    numbers = {name: given[name] for name in ("chains", "seed") if given[name] is not None}
+    numbers = {name: given[name] for name in OF_SIX_BARS if given[name] is not None}
     options = SynthesisOptions(time_limit=_time_limit(given))
     with working("reading the poses"):
         return synthesize_six_bars(read_poses(poses, **given), SixBarOptions(**numbers), options)
@@ -507,11 +516,11 @@ def require_six_bars(**given: Any) -> None:
     """Refuse the options of six-bars where no six-bars are looked for; raises E197."""
     from burmester.errors import InputError
 
-    for name in ("chains", "seed"):
+    for name, option in OF_SIX_BARS.items():
         if given[name] is not None:
             raise InputError(
                 "E197",
-                f"--{name} is for six-bars, and they are not looked for",
+                f"{option} is for six-bars, and they are not looked for",
                 help="give --six-bars as well, or leave it out",
             )
 
@@ -542,7 +551,7 @@ def run_judgement(
         lengths_and_limits,
         require_one_source,
     )
-    from burmester.sixbar.watt import WattLinkage
+    from burmester.mechanisms.contract import Mechanism
     from burmester.synthesis.judgement import judge_linkage
     from burmester.tasks.options import SynthesisOptions
 
@@ -555,7 +564,7 @@ def run_judgement(
             one: Linkage | Sequence[GivenDyad] = dyads_from_options(dyad, lengths)
         else:
             given_one = read_linkage(linkage, id, task.length_unit)
-            if isinstance(given_one, WattLinkage):
+            if isinstance(given_one, Mechanism):
                 from burmester.synthesis.six_bar_judgement import judge_six_bar
 
                 _refuse_options(_NOT_FOR_JUDGED_SIX_BARS, "take a four-bar")

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.sixbar.found import FoundSixBar
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle, length_of, pose_labels
 from burmester.verdicts.explanation import meets_exactly, worst_miss
 from burmester.verdicts.tolerance_words import percent
-from burmester.wording import figure, listed
+from burmester.wording import figure, listed, with_article
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = [
     "HEADS",
@@ -30,27 +33,26 @@ __all__ = [
     "sentences",
 ]
 
-HEADS = ("", "driver", "turns by", "transmits", "link ratio", "extent", "locks after")
+HEADS = ("", "driver", "turns by", "transmits", "link ratio", "extent", "locks after", "kind")
 POSE_HEADS = ("pose", "off by", "turned by", "driver at", "transmits")
 OF_TOLERANCE = "of the tolerance"
 MOST_POSES = 20  # of which errors are told one by one; of more those that are missed most
 DIGITS = 7  # significant ones of dimensions
-_PLAIN = {"first crank": "AC", "floating link": "GH"}
 
 
 def driver_name(found: FoundSixBar) -> str:
     """The crank that drives: "AC" or "BD"."""
-    return "AC" if found.driver == "first" else "BD"
+    return found.skeleton.arm(found.driver_pivot)
 
 
 def headline(found: FoundSixBar) -> str:
     """What to build, in a sentence."""
+    what = f"{found.id} is {with_article(found.type)}"
     if not found.usable:
-        at = driver_name(found)
-        return f"{found.id} is a six-bar of Watt's first kind, nearest to the poses driven at {at}"
+        return f"{what}, nearest to the poses driven at {driver_name(found)}"
     low, high = (math.degrees(each) for each in found.drive_range)
     return (
-        f"{found.id} is a six-bar of Watt's first kind, driven at {driver_name(found)} over "
+        f"{what}, driven at {driver_name(found)} over "
         f"{high - low:.1f}°; it transmits at {least_angle(found.transmission)} or more"
     )
 
@@ -72,27 +74,29 @@ def sentences(synthesis: Synthesis, found: FoundSixBar) -> list[str]:
     return out
 
 
-def joint_rows(found: FoundSixBar) -> list[tuple[str, str, str]]:
-    """The two joints of each link that has more than a length, in the frame of the link."""
-    linkage = found.linkage
-    arm, crank = (np.array([float(x), 0]) for x in (linkage.coupler_arm, linkage.second_crank))
-    links: dict[str, dict[str, FloatArray]] = {
-        "ground, in F": {"A": linkage.fixed_first, "B": linkage.fixed_second},
-        "coupler, C to E along x": {"D": linkage.coupler_joint, "E": arm},
-        "second crank, B to D along x": {"D": crank, "G": linkage.crank_joint},
-        "body, in M": {"E": linkage.body_joint, "H": linkage.link_joint},
-    }
-    rows = []
-    for name, joints in links.items():
-        one, two = (_point(joint, at) for joint, at in joints.items())
-        rows.append((name, one, two))
+def joint_rows(found: FoundSixBar) -> list[tuple[str, ...]]:
+    """The joints of each link that has more than a length, in the frame of the link."""
+    skeleton, rows = found.skeleton, []
+    for link in skeleton.held(found.carries):
+        joints = dict(found.frames[link])
+        frame = "in F" if link == skeleton.ground else "in M"
+        if link not in (skeleton.ground, found.carries):
+            origin, along = tuple(skeleton.axis(link))
+            frame = f"{origin} to {along} along x"
+            del joints[origin]
+        rows.append((f"{link}, {frame}", *(_point(name, at) for name, at in joints.items())))
     return rows
 
 
-def length_rows(found: FoundSixBar) -> list[tuple[str, str, str]]:
-    """The lengths of the two links that have no more than that."""
-    length = found.lengths
-    return [(f"{name}, {bar}", _number(length[bar]), "") for name, bar in _PLAIN.items()]
+def length_rows(found: FoundSixBar) -> list[tuple[str, ...]]:
+    """The lengths of the links that have no more than that."""
+    skeleton, length = found.skeleton, found.lengths
+    held = skeleton.held(found.carries)
+    plain = {link: bar for link, bar in skeleton.links.items() if link not in held}
+    return [
+        (bar if link == bar else f"{link}, {bar}", _number(length[bar]))
+        for link, bar in plain.items()
+    ]
 
 
 def distances(found: FoundSixBar) -> list[tuple[str, str]]:
@@ -112,6 +116,7 @@ def row(synthesis: Synthesis, found: FoundSixBar) -> tuple[str, ...]:
         figure(found.link_ratio),
         length_of(found.extent, synthesis.task),
         room,
+        found.skeleton.name.removesuffix(" six-bar"),
     )
 
 

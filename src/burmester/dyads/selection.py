@@ -346,6 +346,8 @@ def _nearest_sliders(fits: Fits, solutions: Solutions, blur: FloatArray) -> tupl
     nearest: list[tuple[Indices, PR | RP]] = []
     for of, part, mask in ((fixed_lines, in_f, on_ground), (moving_lines, in_m, ~on_ground)):
         index = np.flatnonzero(mask)
+        if not len(index):
+            continue
         which = task[index]
         weights = None if fits.given.weights is None else fits.given.weights[which]
         lines, rms, _ = of(fits.seen[which], weights)
@@ -451,14 +453,11 @@ def beside(first: Found, more: Found, length: FloatArray) -> tuple[Found, Mask]:
     both = first._replace(left_out=first.task), more._replace(left_out=more.task)
     rows: Found = take(concatenate(both), order)
     late = late[order]
-    table = _Padded.of(rows, len(length))
-    kept, of_more = table.kind >= 0, np.zeros(table.kind.shape, dtype=bool)
-    of_more[rows.task, table.column] = late
-    for column in range(1, kept.shape[1]):
-        same = (table.same(column, length) & ~of_more[:, :column]).any(axis=1)
-        kept[:, column] = ~(same & of_more[:, column])
-    keep = kept[rows.task, table.column]
-    return take(rows, keep)._replace(left_out=first.left_out), late[keep]
+    task, one, other = same_dyads(rows, length)
+    start = np.searchsorted(rows.task, task)
+    again = (start + other)[~late[start + one] & late[start + other]]
+    kept = np.delete(np.arange(len(late)), again)
+    return take(rows, kept)._replace(left_out=first.left_out), late[kept]
 
 
 def same_dyads(found: Found, length: FloatArray) -> tuple[Indices, Indices, Indices]:

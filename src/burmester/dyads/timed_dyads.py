@@ -35,6 +35,8 @@ def timing_equations(
 
     dimensions: (k, 5), as `LinkageBatch` has them; places: (N,), or (k, N).  Lengths; two values
     for each condition, which are affine in the dimensions.
+
+    Formula `timing-equations` of the theory.
     """
     index, turn = timing.timed, np.exp(1j * timing.turns)
     at, bodies = complex_of(places.translation)[..., index], np.exp(1j * places.angle)[..., index]

@@ -23,7 +23,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
 from burmester.io.six_bar_data import six_bar_data
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.watt import BARS, JOINTS
 
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
@@ -49,11 +48,11 @@ def write_csv(chosen: FoundSixBar, path: Path, options: Options) -> None:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(
             ["drive_deg", "x", "y", "angle_deg"]
-            + [f"{name}_{axis}" for name in JOINTS for axis in "xy"]
+            + [f"{name}_{axis}" for name in joints for axis in "xy"]
             + ["pose"]
         )
         for k, (value, pose) in enumerate(marked):
-            at = [float(each) for name in JOINTS for each in joints[name][k]]
+            at = [float(each) for own in joints.values() for each in own[k]]
             row = [math.degrees(value), *places[k].values(), *at]
             table.writerow([*map(number, row), pose or ""])
 
@@ -63,7 +62,9 @@ def check_csv(chosen: FoundSixBar, path: Path, options: Options) -> None:
     with open(path, encoding="utf-8", newline="") as file:
         _, *rows = list(csv.reader(file))
     numbers = np.array([[float(cell) for cell in row[:-1]] for row in rows])
-    at = dict(zip(JOINTS, np.moveaxis(numbers[:, 4:].reshape(-1, 7, 2), 1, 0), strict=True))
+    joints = chosen.skeleton.joints
+    places = np.moveaxis(numbers[:, 4:].reshape(-1, len(joints), 2), 1, 0)
+    at = dict(zip(joints, places, strict=True))
     body = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
     _require_linkage(chosen, at, body, np.radians(numbers[:, 0]))
     poses = sorted((int(row[-1]) - 1, k) for k, row in enumerate(rows) if row[-1])
@@ -83,31 +84,32 @@ def write_json(chosen: FoundSixBar, path: Path, options: Options) -> None:
 def check_json(chosen: FoundSixBar, path: Path, options: Options) -> None:
     """Joints, drives and poses."""
     data = json.loads(path.read_text(encoding="utf-8"))
-    at = {name: np.array([each[name] for each in data["joints"]]) for name in JOINTS}
+    names = chosen.skeleton.joints
+    at = {name: np.array([each[name] for each in data["joints"]]) for name in names}
     poses, places = (_read_poses(data[name]) for name in ("poses", "places"))
     _require_linkage(chosen, at, places, np.radians(data["drive_deg"]))
     _require_places(chosen, places)
     _require_same(chosen, "the poses", poses, chosen.task.poses)
-    lengths = [data["lengths"][bar] for bar in BARS]
-    require_equal("the lengths", lengths, chosen.linkage.lengths(), CLOSE * _size(chosen))
+    wanted = chosen.lengths
+    lengths = [data["lengths"][bar] for bar in wanted]
+    require_equal("the lengths", lengths, [*wanted.values()], CLOSE * _size(chosen))
 
 
 def _require_linkage(
     chosen: FoundSixBar, at: dict[str, FloatArray], body: Displacement, drives: FloatArray
 ) -> None:
     """Compare rows of joints, of the body and of the driver with the linkage's dimensions."""
-    linkage, off = chosen.linkage, CLOSE * _size(chosen)
-    for bar, length in zip(BARS, linkage.lengths().tolist(), strict=True):
+    found, off = chosen, CLOSE * _size(chosen)
+    skeleton, frames = found.skeleton, found.frames
+    for bar, length in found.lengths.items():
         apart = np.linalg.norm(at[bar[1]] - at[bar[0]], axis=-1)
         require_equal(f"the length of {bar}", apart, np.full(len(apart), length), off)
-    for name, wanted in (
-        ("A", np.broadcast_to(linkage.fixed_first, at["A"].shape)),
-        ("B", np.broadcast_to(linkage.fixed_second, at["B"].shape)),
-        ("E", body.act(linkage.body_joint)),
-        ("H", body.act(linkage.link_joint)),
-    ):
+    for name, own in frames[skeleton.ground].items():
+        wanted = np.broadcast_to(own, at[name].shape)
         require_equal(f"joint {name}", at[name], wanted, 100 * off)
-    pivot, end = ("A", "C") if chosen.driver == "first" else ("B", "D")
+    for name, own in frames[found.carries].items():
+        require_equal(f"joint {name}", at[name], body.act(own), 100 * off)
+    pivot, end = tuple(skeleton.arm(found.driver_pivot))
     arm = (at[end] - at[pivot]) @ np.array([1, 1j])
     turned = np.abs(arm / np.abs(arm) - np.exp(1j * drives)).max()
     require_equal("the driver", turned, 0, 1e-8)
@@ -130,4 +132,4 @@ def _require_same(chosen: FoundSixBar, what: str, got: Displacement, wanted: Dis
 
 
 def _size(chosen: FoundSixBar) -> float:
-    return float(chosen.linkage.lengths().max())
+    return max(chosen.lengths.values())

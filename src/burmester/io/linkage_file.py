@@ -21,7 +21,7 @@ from __future__ import annotations
 import json
 import os
 import tomllib
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from burmester.errors import InputError
 from burmester.fourbar.linkage import Linkage
@@ -32,10 +32,12 @@ from burmester.io.result import SCHEMA
 from burmester.io.saved import read_result
 from burmester.io.six_bar_file import is_six_bar, six_bar_of
 from burmester.printable import printable
-from burmester.sixbar.watt import WattLinkage
 from burmester.synthesis.given_linkage import GivenDyad
 from burmester.values import shown
 from burmester.wording import in_unit
+
+if TYPE_CHECKING:
+    from burmester.sixbar.kinds import SixBar
 
 __all__ = ["read_linkage"]
 
@@ -50,10 +52,11 @@ HELP = (
 
 def read_linkage(
     source: str | os.PathLike[str], id: str | None = None, unit: str | None = None
-) -> Linkage | WattLinkage | tuple[GivenDyad, GivenDyad]:
+) -> Linkage | SixBar | tuple[GivenDyad, GivenDyad]:
     """The linkage of a result, or that in another file, or on standard input ("-").
 
-    A six-bar is a `WattLinkage`; of a file of dyads they are given as they stand.
+    A six-bar is a linkage of its class, such as `WattLinkage`; of a file of dyads they are given as
+    they stand.
 
     id: of a linkage of a result, the first if None; unit: of the lengths of the task, which a file
     that states one has to share.
@@ -109,7 +112,7 @@ def _is_table(text: str) -> bool:
     return text.lstrip().partition("\n")[0].strip().strip("[]").strip().replace("_", "").isalpha()
 
 
-def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage | WattLinkage:
+def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage | SixBar:
     """A linkage of a result, its dyads in the order of the file, or a six-bar."""
     try:
         chosen = read_result(path, data).choose(id)

@@ -50,9 +50,11 @@ if TYPE_CHECKING:  # few results hold any of these
 __all__ = [
     "failure",
     "json_line",
+    "limits_data",
     "message_data",
     "motion_data",
-    "rail_data",
+    "path_data",
+    "region_data",
     "synthesis_data",
     "task_data",
 ]
@@ -231,9 +233,9 @@ def task_data(task: Task) -> dict[str, Any]:
     if task.timing is not None:
         data |= crank_data(poses, task.timing)
     if task.path is not None:
-        data["path"] = _path(task.path)
+        data["path"] = path_data(task.path)
     if task.limits:
-        data["limits"] = [_limits(each) for each in task.limits]
+        data["limits"] = [limits_data(each) for each in task.limits]
     if task.body is not None:
         data["body"] = task.body.vertices.tolist()
     if task.surroundings is not None:
@@ -245,7 +247,7 @@ def task_data(task: Task) -> dict[str, Any]:
     return data
 
 
-def _path(path: TracedPath) -> dict[str, Any]:
+def path_data(path: TracedPath) -> dict[str, Any]:
     """How points are traced; crank angles in degrees, with all their digits."""
     data: dict[str, Any] = {"closed": path.closed}
     if path.crank_angles is not None:
@@ -253,14 +255,17 @@ def _path(path: TracedPath) -> dict[str, Any]:
     return data
 
 
-def _limits(limits: Limits) -> dict[str, Any]:
-    data: dict[str, Any] = {}
+def limits_data(
+    limits: Limits, shape: Callable[[Region], dict[str, Any]] | None = None
+) -> dict[str, Any]:
+    """Limits as files hold them, regions by `shape`; `region_data` where it is not given."""
+    data, shape = dict[str, Any](), shape or region_data
     for name in ("fixed_pivot", "moving_pivot"):
         if (region := getattr(limits, name)) is not None:
-            data[name] = region_data(region)
+            data[name] = shape(region)
     for name in ("rail", "slot"):
         if (rail := getattr(limits, name)) is not None:
-            data[name] = rail_data(rail, region_data)
+            data[name] = _rail(rail, shape)
     bounds = {"least": limits.length[0], "most": limits.length[1]}
     if limits.has_length:
         data["length"] = {end: value for end, value in bounds.items() if 0 < value < math.inf}
@@ -278,7 +283,7 @@ def region_data(region: Region) -> dict[str, Any]:
     return {"polygon": region.vertices.tolist()}
 
 
-def rail_data(rail: Rail, shape: Callable[[Region], dict[str, Any]]) -> dict[str, Any]:
+def _rail(rail: Rail, shape: Callable[[Region], dict[str, Any]]) -> dict[str, Any]:
     """A rail or slot as files hold it, its regions by `shape`."""
     data: dict[str, Any] = {}
     if rail.direction_deg is not None:
@@ -389,13 +394,7 @@ def failure(error: BurmesterError) -> dict[str, Any]:
     """The same object for input that could not be used."""
     return {
         "schema": SCHEMA,
-        "outcome": {
-            "code": error.code,
-            "message": error.message,
-            "where": error.where,
-            "why": error.why,
-            "help": error.help,
-        },
+        "outcome": error.to_dict(),
         "task": None,
         "dyads": [],
         "linkages": [],

@@ -10,8 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from burmester.errors import InputError
-from burmester.io.six_bar_file import DIMENSIONS, six_bar_of
-from burmester.sixbar.candidates import DRIVERS
+from burmester.io.six_bar_file import six_bar_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
 from burmester.synthesis.six_bar_judgement import judged_at_poses
@@ -42,9 +41,8 @@ def six_bars_again(
             why = f"its id is {shown(id)}, and each has an id of its own, such as S1"
             raise _unlike(f"$.six_bars.found[{k}]", why)
         try:
-            linkage = six_bar_of({key: each[key] for key in DIMENSIONS if key in each})
-            driver = next((side for side in DRIVERS if side == each.get("driver")), None)
-            found = judged_at_poses(linkage, problem, driver)
+            linkage = six_bar_of(each)
+            found = judged_at_poses(linkage, problem, each.get("driver"))
         except InputError as error:
             why = f"{error.message}{(error.why and f': {error.why}') or ''}"
             refused[id] = _unlike(f"$.six_bars.found[{k}]", why)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import asdict
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from burmester.io.linkage_data import defect_data, errors_data, shares_data, unmet_data
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import RULE, SixBars
-from burmester.sixbar.watt import LINKS
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["six_bar_data", "six_bars_data"]
 
@@ -29,7 +30,10 @@ def six_bars_data(result: SixBars) -> dict[str, Any]:
         "designs": result.designs,
         "working": result.working,
         "seed": int(result.options.seed),
-        "options": {name: int(each) for name, each in asdict(result.options).items()},
+        "options": {
+            name: each if isinstance(each, str) else int(each)
+            for name, each in asdict(result.options).items()
+        },
         "free_poses": result.free_poses,
         "found": [six_bar_data(each) for each in result.found],
     }
@@ -37,28 +41,20 @@ def six_bars_data(result: SixBars) -> dict[str, Any]:
 
 def six_bar_data(found: FoundSixBar) -> dict[str, Any]:
     """One six-bar: its dimensions, what it does, and where its joints are at the poses."""
-    linkage = found.linkage
-    origin = [0.0, 0.0]
+    skeleton, frames = found.skeleton, found.frames
     joints = found.joints(found.drive)
     data: dict[str, Any] = {
         "id": found.id,
-        "type": found.type,
+        "type": skeleton.name,
         "usable": found.usable,
         "chain": found.chain,
         "driver": found.driver,
-        "joints_of_links": {name: list(joints) for name, joints in LINKS.items()},
-        "ground": {"A": _pair(linkage.fixed_first), "B": _pair(linkage.fixed_second)},
-        "coupler": {
-            "C": origin,
-            "D": _pair(linkage.coupler_joint),
-            "E": [float(linkage.coupler_arm), 0.0],
+        "carries": found.carries,
+        "joints_of_links": {name: list(joints) for name, joints in skeleton.links.items()},
+        **{
+            link.replace(" ", "_"): {name: _pair(at) for name, at in frames[link].items()}
+            for link in skeleton.held(found.carries)
         },
-        "second_crank": {
-            "B": origin,
-            "D": [float(linkage.second_crank), 0.0],
-            "G": _pair(linkage.crank_joint),
-        },
-        "body": {"E": _pair(linkage.body_joint), "H": _pair(linkage.link_joint)},
         "lengths": found.lengths,
         "drive_deg": np.degrees(found.drive).tolist(),
         "turns_fully": found.turns_fully,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
@@ -9,10 +11,12 @@ from rich.text import Text
 from burmester.describe import six_bar_words
 from burmester.io.linkage_table import new_table
 from burmester.io.message import draw, message, note, print_trimmed
-from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import SixBars
 from burmester.synthesis.result import Synthesis
 from burmester.wording import in_unit
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["show_six_bars"]
 

@@ -19,7 +19,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.judged_places import best_places, places_to_judge
+from burmester.linkages.judged_places import NearestPlaces, best_places
 from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.bundles import take
 from burmester.numerics.weights import weights_or_ones
@@ -163,7 +163,7 @@ class Evaluation:
             own = candidates.batch.from_canonical(frames)
             candidates = candidates._replace(own=own, batch=own.to_canonical(frames))
         every, boxes = np.arange(len(candidates.batch)), self.target.boxes
-        index, rows = places_to_judge(candidates.batch, self.target)
+        index, rows, _ = NearestPlaces.of(candidates.batch, self.target).ways()
         if boxes is not None:
             deepest = self.target.places(candidates.batch, on_both=True)
             index, rows = np.r_[every, index], np.concatenate([candidates.rows, rows])

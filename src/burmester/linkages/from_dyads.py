@@ -200,7 +200,7 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
         none = np.zeros(len(start), dtype=bool)
         candidates = Candidates(start, target.places(start), pairs, none)
         return into_boxes(candidates, target) if refine else candidates
-    _, one, best, apart = NearestPlaces.of(start, target)
+    _, _, one, best, apart = NearestPlaces.of(start, target)
     both = apart & np.isfinite(one).all(axis=(1, 2)) & refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])

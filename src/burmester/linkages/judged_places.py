@@ -8,7 +8,7 @@ it has to be taken apart between the poses, and that is what is to be said of it
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -17,54 +17,66 @@ from numpy.typing import NDArray
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import nearest, on_circuits
+from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.refinement.target import ONE_CIRCUIT_RATIO, Target
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["NearestPlaces", "best_places", "places_to_judge"]
+__all__ = ["NearestPlaces", "best_places"]
 
 
 class NearestPlaces(NamedTuple):
     """Places of linkages (k,) nearest to the poses.
 
-    both: (k, 2, N, 3), on each circuit; one: (k, N, 3), on the nearer of them; best: (k, N, 3), on
-    either at each pose.  apart: (k,), whether `one` is much farther from the poses than `best`.
+    both: (k, 2, N, 3), on each circuit; one: (k, N, 3), on the nearer of them, by its number
+    nearer (k,); best: (k, N, 3), on either at each pose.  apart: (k,), whether `one` is much
+    farther from the poses than `best`.
     """
 
     both: FloatArray
+    nearer: NDArray[np.intp]
     one: FloatArray
     best: FloatArray
     apart: NDArray[np.bool_]
 
     @classmethod
     def of(cls, batch: LinkageBatch, target: Target) -> NearestPlaces:
-        """Those of linkages (k,), whichever of their dyads is the first."""
-        found = on_circuits(_in_one_order(batch), target.poses, target.length)
-        both, wanted = (rows_of(each, target.length) for each in (found, target.poses))
-        cost = np.nan_to_num(target.cost(both), nan=np.inf)
-        one = both[np.arange(len(both)), cost.argmin(axis=1)]
-        best = rows_of(nearest(found, target.poses, target.length), target.length)
+        """Those of linkages (k,) of one task, whichever of their dyads is the first."""
+        return cls.to(batch, target.poses, target.length, target.cost)
+
+    @classmethod
+    def to(
+        cls,
+        batch: LinkageBatch,
+        poses: Displacement,
+        length: float,
+        cost: Callable[[FloatArray], FloatArray],
+    ) -> NearestPlaces:
+        """Those to poses (N,) of all linkages (k,), or (k, N) of each; cost: of rows, (k, 2)."""
+        found = on_circuits(_in_one_order(batch), poses, length)
+        both, wanted = (rows_of(each, length) for each in (found, poses))
+        nearer = np.nan_to_num(cost(both), nan=np.inf).argmin(axis=1)
+        one = both[np.arange(len(both)), nearer]
+        best = rows_of(nearest(found, poses, length), length)
         away, least = (
             np.sqrt(np.nan_to_num(((each - wanted) ** 2).sum(axis=-1), nan=np.inf)).max(axis=1)
             for each in (one, best)
         )
         apart = (away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)) & np.isfinite(least)
-        return cls(both, one, best, apart)
+        return cls(both, nearer, one, best, apart)
 
+    def ways(self) -> tuple[NDArray[np.intp], FloatArray, NDArray[np.bool_]]:
+        """The numbers (n,) of linkages, the rows (n, N, 3) of each way to judge them.
 
-def places_to_judge(batch: LinkageBatch, target: Target) -> tuple[NDArray[np.intp], FloatArray]:
-    """The numbers (n,) of linkages (k,), and the rows (n, N, 3) of each way to judge them.
-
-    They depend on the linkage alone, and not on where a search has left it.  Every linkage has a
-    way, by rising number; places may be nan.
-    """
-    near = NearestPlaces.of(batch, target)
-    both = near.both
-    exists = np.asarray(np.isfinite(both).all(axis=(-1, -2)))
-    mixed = np.where(np.isfinite(near.best).all(axis=(1, 2), keepdims=True), near.best, near.one)
-    every = np.concatenate([both, mixed[:, None]], axis=1)
-    index, way = np.nonzero(np.column_stack([exists, near.apart | ~exists.any(axis=1)]))
-    return index, every[index, way]
+        Every linkage has a way, by rising number; places may be nan.  Also returns which (n,) is
+        the first way of each: the one on the nearer circuit.
+        """
+        exists = np.asarray(np.isfinite(self.both).all(axis=(-1, -2)))
+        met = np.isfinite(self.best).all(axis=(1, 2), keepdims=True)
+        every = np.concatenate([self.both, np.where(met, self.best, self.one)[:, None]], axis=1)
+        none = ~exists.any(axis=1)
+        index, way = np.nonzero(np.column_stack([exists, self.apart | none]))
+        return index, every[index, way], way == np.where(none, 2, self.nearer)[index]
 
 
 def _in_one_order(batch: LinkageBatch) -> LinkageBatch:

@@ -17,19 +17,18 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
+from burmester.geometry.regions import Polygon, Region, box
 from burmester.io.pose_data import crank_data, degrees_of, tolerances_data
 from burmester.io.reading.outlines.outline_file import FROM_PAGE
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.requirements_text import positive_length
 from burmester.io.reading.stated_requirements import requirements_data
-from burmester.io.result import rail_data
+from burmester.io.result import limits_data, path_data, region_data
 from burmester.live.plain import plain
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances, nominal_values
-from burmester.tasks.traced_path import TracedPath
 
 __all__ = [
     "MOST_POSES",
@@ -143,7 +142,7 @@ def document_of(task: Task) -> dict[str, Any]:
         meant = crank_data(document["poses"], task.timing)
         document |= plain({**meant, "poses": document["poses"]})
     if task.path is not None:
-        document["path"] = _path(task.path)
+        document["path"] = plain(path_data(task.path))
     if task.body is not None:
         document["body"] = plain(task.body.vertices.tolist())
     if task.surroundings is not None:
@@ -218,43 +217,21 @@ def _usual_tolerance(task: Task) -> dict[str, Any] | None:
     return {"x": plain(x), "y": plain(y), "angle_deg": plain(angle)}
 
 
-def _path(path: TracedPath) -> dict[str, Any]:
-    """How points are traced, as the key `path` of a file has it."""
-    turned = path.crank_angles
-    timing = {} if turned is None else {"crank_deg": [degrees_of(e) for e in turned.tolist()]}
-    return {"closed": path.closed, **plain(timing)}
-
-
 def _limits(limits: Limits) -> dict[str, Any]:
-    data: dict[str, Any] = {}
-    for name in ("fixed_pivot", "moving_pivot"):
-        if (region := getattr(limits, name)) is not None:
-            data[name] = _shape(region)
-    for name in ("rail", "slot"):
-        if (rail := getattr(limits, name)) is not None:
-            data[name] = plain(rail_data(rail, _shape))
-    if limits.has_length:
-        least, most = limits.length
-        ends = {"least": least} if least > 0 else {}
-        data["length"] = plain(ends | ({"most": most} if most < math.inf else {}))
-    if len(limits.kinds) < len(KINDS):
-        data["kinds"] = [kind for kind in KINDS if kind in limits.kinds]
-    return data
+    data = limits_data(limits, _shape)
+    if len(data["kinds"]) == len(KINDS):
+        del data["kinds"]
+    return dict(plain(data))
 
 
 def _shape(region: Region) -> dict[str, Any]:
     """A region by its shape; a polygon that is what a box makes is a box."""
-    if isinstance(region, Point):
-        return {"point": plain(region.at.tolist())}
-    if isinstance(region, Line | Segment):
-        ends = [region.start.tolist(), region.end.tolist()]
-        return {type(region).__name__.lower(): plain(ends)}
-    corners = region.vertices
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    same = box(low.tolist(), high.tolist())
-    if isinstance(same, Polygon) and np.array_equal(same.vertices, corners):
-        return {"box": plain([low.tolist(), high.tolist()])}
-    return {"polygon": plain(corners.tolist())}
+    if isinstance(region, Polygon):
+        ends = region.vertices.min(axis=0).tolist(), region.vertices.max(axis=0).tolist()
+        same = box(*ends)
+        if isinstance(same, Polygon) and np.array_equal(same.vertices, region.vertices):
+            return {"box": plain(list(ends))}
+    return dict(plain(region_data(region)))
 
 
 def _with_digits(document: dict[str, Any], task: Task) -> dict[str, Any]:

@@ -14,18 +14,8 @@ __all__ = ["fault_data"]
 def fault_data(error: Exception) -> dict[str, Any]:
     """An error as a message; one that is no `BurmesterError` is a fault of burmester itself."""
     if isinstance(error, BurmesterError):
-        return {
-            "code": error.code,
-            "message": error.message,
-            "where": error.where,
-            "why": error.why,
-            "help": error.help,
-        }
+        return error.to_dict()
     traceback.print_exception(error, file=sys.stderr)
-    return {
-        "code": "E900",
-        "message": f"burmester itself failed: {type(error).__name__}: {error}",
-        "where": None,
-        "why": None,
-        "help": "this is a bug; please report it with the task that led here",
-    }
+    message = f"burmester itself failed: {type(error).__name__}: {error}"
+    help = "this is a bug; please report it with the task that led here"
+    return BurmesterError("E900", message, help=help).to_dict()

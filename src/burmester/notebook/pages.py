@@ -166,7 +166,7 @@ class Pages:
             self._refuse(view, n, error)
             return
         if isinstance(answer, str):
-            said = {"code": "E157", "message": answer, "where": None, "why": None, "help": None}
+            said = InputError("E157", answer).to_dict()
             self._tell(view, n=n, kind="refused", messages=[said], solve=True)
         else:
             self._studio.send({"view": view, "n": n, "kind": "followed"}, [answer])

@@ -15,21 +15,18 @@ from burmester.web.data import report_data
 from burmester.web.function_data import function_report
 from burmester.web.six_bar_data import six_bar_report
 
-__all__ = ["function_page", "page", "page_of"]
+__all__ = ["page", "page_of"]
 
 
-def page(synthesis: Synthesis, title: str) -> str:
+def page(synthesis: Synthesis | FunctionSynthesis, title: str) -> str:
     """The report of a synthesis: a whole HTML document, scripts, styles and data within.
 
-    It shows the six-bars where these were looked for, else the four-bars.
+    It shows the function generators, or the six-bars where these were looked for, else four-bars.
     """
+    if isinstance(synthesis, FunctionSynthesis):
+        return page_of(function_report(synthesis), title)
     report = report_data if synthesis.six_bars is None else six_bar_report
     return page_of(report(synthesis), title)
-
-
-def function_page(synthesis: FunctionSynthesis, title: str) -> str:
-    """The same of function generators."""
-    return page_of(function_report(synthesis), title)
 
 
 def page_of(report: dict[str, Any], title: str) -> str:

@@ -21,7 +21,15 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.sixbar.watt import WattLinkage
 
-__all__ = ["Added", "FourBars", "added_dyads", "with_first_dyad", "with_second_dyad"]
+__all__ = [
+    "Added",
+    "FourBars",
+    "added_dyads",
+    "dyads_but",
+    "size_of",
+    "with_first_dyad",
+    "with_second_dyad",
+]
 
 TRIVIAL = 1e-5  # of a task's size: a dyad whose pivots are as near to the chain's is the chain
 MISSED = 1e-7  # of a task's size; a dyad that misses a pose by more is lost to rounding
@@ -62,8 +70,8 @@ def with_first_dyad(chains: ThreeRChain, poses: Displacement, side: FloatArray) 
     reached = np.flatnonzero(np.isfinite(elbow).all(axis=-1))
     chains, poses, elbow = chains[reached], poses[reached], elbow[reached]
     middle = chains.middle_link(poses, elbow)
-    size = _size(poses) + chains.first_length + chains.second_length
-    row, dyad = _others(middle, chains.fixed_pivot, np.zeros(2), size)
+    size = size_of(poses) + chains.first_length + chains.second_length
+    row, dyad = dyads_but(middle, chains.fixed_pivot, np.zeros(2), size)
     a, b = complex_of(chains.fixed_pivot)[row, None], complex_of(dyad.fixed_pivot)[:, None]
     d = complex_of(middle[row].act(dyad.moving_pivot[:, None, :]))
     e = complex_of(poses[row].act(chains.body_joint[row, None, :]))
@@ -78,9 +86,9 @@ def with_second_dyad(chains: ThreeRChain, poses: Displacement, bars: FourBars) -
     """
     b, d = bars.joints[..., 1], bars.joints[..., 3]
     crank = Displacement(np.stack([b.real, b.imag], axis=-1), np.angle(d - b))
-    size = _size(poses) + chains.first_length + chains.second_length + bars.dyad.radius
+    size = size_of(poses) + chains.first_length + chains.second_length + bars.dyad.radius
     end = np.stack([bars.dyad.radius, np.zeros_like(bars.dyad.radius)], axis=-1)
-    row, dyad = _others(crank.inverse() @ poses, end, chains.body_joint, size)
+    row, dyad = dyads_but(crank.inverse() @ poses, end, chains.body_joint, size)
     chains, first = chains[row], bars.dyad[row]
     linkages = WattLinkage(
         fixed_first=chains.fixed_pivot,
@@ -111,12 +119,13 @@ def added_dyads(chains: ThreeRChain, poses: Displacement, side: FloatArray) -> A
     return added._replace(task=bars.task[added.task])
 
 
-def _others(
+def dyads_but(
     poses: Displacement, fixed: FloatArray, moving: FloatArray, size: FloatArray
 ) -> tuple[NDArray[np.intp], RR]:
     """The dyads through poses (k, 5) but the one that is there: their tasks (n,), and they.
 
-    fixed, moving: (k, 2), the pivots of the one that is there; size: (k,), of the tasks.
+    fixed, moving: (k, 2), the pivots of the one that is there, nan where none is; size: (k,), of
+    the tasks.
     """
     if not len(size):
         empty = np.empty((0, 2))
@@ -128,12 +137,12 @@ def _others(
         np.linalg.norm(dyads.moving_pivot - moving[..., None, :], axis=-1),
     )
     with np.errstate(invalid="ignore"):
-        good = four.real & (apart > TRIVIAL * size) & (dyads.radius < LONGEST * size)
+        good = four.real & ~(apart <= TRIVIAL * size) & (dyads.radius < LONGEST * size)
         good &= (four.max_error < MISSED * size) & four.determined[:, None]
     task, root = np.nonzero(good)
     return task, dyads[task, root]
 
 
-def _size(poses: Displacement) -> FloatArray:
+def size_of(poses: Displacement) -> FloatArray:
     """The span of the origins of poses (k, 5): (k,)."""
     return np.asarray(np.linalg.norm(np.ptp(poses.translation, axis=-2), axis=-1))

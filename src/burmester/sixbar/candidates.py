@@ -16,24 +16,26 @@ from burmester.requirements.requirement import Bounds
 from burmester.requirements.table import excess, standard
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.sixbar.added_dyads import FourBars, with_first_dyad, with_second_dyad
-from burmester.sixbar.motion import Sides, joints_at
+from burmester.sixbar.kinds import SixBar
+from burmester.sixbar.motion import Drive, Sides, joints_at, sides_of
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.sixbar.travel import first_loop_works, least_transmission, travel
-from burmester.sixbar.watt import JOINTS, Drive, WattLinkage
+from burmester.sixbar.watt import DRIVES, WattLinkage
 
 __all__ = [
-    "DRIVERS",
     "Candidates",
     "Conditions",
-    "candidates",
+    "box_diagonal",
     "extent_of",
     "figures_of",
     "joined",
+    "merit_of",
+    "steps_along",
+    "watt_candidates",
 ]
 
 PLACES = 33  # along the range, at which the extent is looked at
-COLUMNS = "chain", "design", "joints", "driver", "drive", "room", "transmission", "extent"
-DRIVERS: tuple[Drive, ...] = ("first", "second")
+COLUMNS = "chain", "design", "joints", "driver", "transmission", "extent"
 
 
 @final
@@ -51,21 +53,19 @@ class Conditions(NamedTuple):
 
 @final
 class Candidates(NamedTuple):
-    """Six-bars (n,) that work, each with one driver.
+    """Six-bars (n,) of one class that work, each with one driver.
 
-    chain: (n,), which of the chains given; design: (n,), a number that the two drivers of one
-    six-bar share; designs: how many six-bars were judged in all.
-    joints: (n, N, 7), at the poses.  transmission: (n,), radians; extent: (n,), a length.
+    chain: (n,), which of the chains given; design: (n,), a number that the drivers of one six-bar
+    share; designs: how many six-bars were judged in all.
+    joints: (n, N, 7), at the poses; driver: (n,), its number among the skeleton's.
+    transmission: (n,), radians; extent: (n,), a length.
     """
 
     chain: NDArray[np.intp]
     design: NDArray[np.intp]
-    linkages: WattLinkage
+    linkages: SixBar
     joints: ComplexArray
     driver: NDArray[np.intp]
-    drive: FloatArray
-    room: FloatArray
-    sides: Sides
     transmission: FloatArray
     extent: FloatArray
     designs: int
@@ -73,28 +73,29 @@ class Candidates(NamedTuple):
     def take(self, index: NDArray[np.intp]) -> Candidates:
         """Some of them."""
         picked = {name: getattr(self, name)[index] for name in ("linkages", *COLUMNS)}
-        sides = self.sides.at(index)
-        return self._replace(**picked, sides=sides)
+        return self._replace(**picked)
 
     @property
     def figures(self) -> Figures:
         """What they measure (n,)."""
         return figures_of(self.linkages, self.transmission, True, self.extent)
 
-    def excess(self, size: float) -> FloatArray:
-        """How far beyond the standard link ratio, lengths and extent are: (n,), logarithms.
-
-        Zero is within.  size: of the motion.
-        """
-        return excess(standard({}, size, (TRANSMISSION,)), self.figures)
-
     def merit(self, size: float) -> FloatArray:
-        """What a search climbs (n,): the least transmission angle in degrees, less `excess`."""
-        return np.asarray(np.degrees(self.transmission) - TRANSMISSION.standard * self.excess(size))
+        """What a search climbs (n,): the least transmission angle, degrees, less the excess."""
+        return merit_of(self.figures, size)
+
+
+def merit_of(figures: Figures, size: float) -> FloatArray:
+    """How good figures (*,) are: degrees of transmission, less what is beyond the standard.
+
+    size: of the motion.
+    """
+    beyond = excess(standard({}, size, (TRANSMISSION,)), figures)
+    return np.asarray(np.degrees(figures.transmission) - TRANSMISSION.standard * beyond)
 
 
 def figures_of(
-    linkage: WattLinkage, transmission: Values, turns: Values, extent: Values = math.nan
+    linkage: SixBar, transmission: Values, turns: Values, extent: Values = math.nan
 ) -> Figures:
     """The figures of six-bars (*,) by which they are held to what is asked.
 
@@ -105,10 +106,10 @@ def figures_of(
     return Figures(transmission, least, most, most / least, turns=turns, extent=extent, joints=True)
 
 
-def candidates(
+def watt_candidates(
     chains: ThreeRChain, poses: Displacement, side: FloatArray, conditions: Conditions
 ) -> Candidates:
-    """All six-bars of chains (k,) through poses (k, N = 5) that work with a driver.
+    """All Watt I six-bars of chains (k,) through poses (k, N = 5) that work with a driver.
 
     Of the conditions only that on the driver and the order are asked here.
     side: (k,), of the elbow.  A four-bar whose poses no driver reaches is not gone on with.
@@ -116,17 +117,17 @@ def candidates(
     order = {"any_order": conditions.any_order}
     bars = with_first_dyad(chains, poses, side)
     good = np.zeros(len(bars.task), dtype=bool)
-    for driver in DRIVERS:
+    for driver in DRIVES.values():
         good |= first_loop_works(bars.joints, driver, **order)
     bars = FourBars(bars.task[good], bars.joints[good], bars.dyad[good])
     added = with_second_dyad(chains[bars.task], poses[bars.task], bars)
     chain = bars.task[added.task]
     linkages, joints = added.linkages, added.joints
     parts = []
-    for number, driver in enumerate(DRIVERS):
+    for number, driver in enumerate(DRIVES.values()):
         way = travel(linkages, joints, driver, **order)
-        at = np.flatnonzero(way.works & (np.isinf(way.room).all(axis=-1) | (not conditions.crank)))
-        way, links, there = way.take(at), linkages[at], joints[at]
+        at = np.flatnonzero(way.works & (way.turns_fully | (not conditions.crank)))
+        drive, links, there = way.drive[at], linkages[at], joints[at]
         parts.append(
             Candidates(
                 chain=chain[at],
@@ -134,11 +135,8 @@ def candidates(
                 linkages=links,
                 joints=there,
                 driver=np.full(len(at), number),
-                drive=way.drive,
-                room=way.room,
-                sides=way.sides,
-                transmission=least_transmission(links, way, driver, there),
-                extent=extent_of(links, way.drive, way.sides, driver),
+                transmission=least_transmission(links, drive, driver, there),
+                extent=extent_of(links, drive, driver, there),
                 designs=len(added.task),
             )
         )
@@ -146,25 +144,34 @@ def candidates(
 
 
 def joined(parts: list[Candidates], designs: int) -> Candidates:
-    """Several in one; designs: of all of them."""
-    linkages = WattLinkage(
-        *(
-            np.concatenate([getattr(each.linkages, name) for each in parts])
-            for name in WattLinkage.__match_args__
-        )
-    )
-    sides = Sides(*(np.concatenate(each) for each in zip(*(p.sides for p in parts), strict=True)))
+    """Several of one class in one; designs: of all of them."""
+    first, *others = (each.linkages for each in parts)
     columns = {name: np.concatenate([getattr(each, name) for each in parts]) for name in COLUMNS}
-    return Candidates(linkages=linkages, sides=sides, designs=designs, **columns)
+    return Candidates(linkages=first.beside(others), designs=designs, **columns)
 
 
-def extent_of(linkage: WattLinkage, drive: FloatArray, sides: Sides, driver: Drive) -> FloatArray:
-    """The diagonals (n,) of the boxes around all joints at places along the range."""
+def extent_of(
+    linkage: WattLinkage, drive: FloatArray, driver: Drive, joints: ComplexArray
+) -> FloatArray:
+    """The diagonals (n,) of the boxes around all joints at places along the range.
+
+    drive: (n, N), joints: (n, N, 7), at the poses.
+    """
+    steps, (first, second) = steps_along(drive), sides_of(joints[:, :1], driver)
+    return box_diagonal(joints_at(linkage[:, None], steps, Sides(first, second), driver))
+
+
+def steps_along(drive: FloatArray) -> FloatArray:
+    """Even steps (n, places) over the range of drives (n, N)."""
     low, high = drive.min(axis=-1)[:, None], drive.max(axis=-1)[:, None]
-    steps = low + (high - low) * np.linspace(0, 1, PLACES)
-    joints = joints_at(linkage[:, None], steps, sides.at((slice(None), None)), driver)
-    joints = joints.reshape(len(joints), PLACES * len(JOINTS))
-    parts = joints.real, joints.imag
+    return np.asarray(low + (high - low) * np.linspace(0, 1, PLACES))
+
+
+def box_diagonal(joints: ComplexArray) -> FloatArray:
+    """The diagonals (*,) of the boxes around joints (*, places, j)."""
     # An end of the range that is beside a dead point may be nan by rounding.
-    width, height = (np.fmax.reduce(p, axis=-1) - np.fmin.reduce(p, axis=-1) for p in parts)
+    width, height = (
+        np.fmax.reduce(part, axis=(-2, -1)) - np.fmin.reduce(part, axis=(-2, -1))
+        for part in (joints.real, joints.imag)
+    )
     return np.asarray(np.hypot(width, height))

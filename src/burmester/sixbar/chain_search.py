@@ -7,8 +7,8 @@ the answer is the best that was seen, and no proof that there is no better one.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple, final
+from collections.abc import Callable, Mapping, Sequence
+from typing import Final, NamedTuple, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,12 +19,21 @@ from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.progress import goes_on, time_for
 from burmester.requirements.table import excess, keeps, standard
 from burmester.requirements.transmission import TRANSMISSION
-from burmester.sixbar.candidates import Candidates, candidates, joined
+from burmester.sixbar.candidates import Candidates, Conditions, joined, watt_candidates
 from burmester.sixbar.search_space import POSES, SearchSpace
+from burmester.sixbar.stephenson_candidates import first_class_candidates, third_class_candidates
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.verdicts.quality import best_first
 
-__all__ = ["ChainSearch", "search"]
+__all__ = ["SEARCHED", "ChainSearch", "is_sound", "search"]
+
+# How the six-bars of a class are worked out of chains, by the name of the class.
+Recipe: TypeAlias = Callable[[ThreeRChain, Displacement, FloatArray, Conditions], Candidates]
+SEARCHED: Final[Mapping[str, Recipe]] = {
+    "Watt I six-bar": watt_candidates,
+    "Stephenson I six-bar": first_class_candidates,
+    "Stephenson III six-bar": third_class_candidates,
+}
 
 ROUND = 500  # chains worked out at a time
 DRAWN_SHARE = 0.4  # of the rounds, in which chains are drawn at random; then near the best as well
@@ -44,16 +53,13 @@ APART = (
 
 @final
 class ChainSearch(NamedTuple):
-    """What a search has found: six-bars (n,), the best first, with the poses (n, 5) of each.
+    """What a search has found: six-bars (n,) of one class, the best first.
 
-    task_poses: (N,), which of the five are the task's.  chains, designs, working: how many were
-    worked out, how many six-bars they made (with a first loop that works), and how many of these
-    work within the regions.
+    chains, designs, working: how many were worked out, how many six-bars they made (with a first
+    loop that works), and how many of these work within the regions.
     """
 
     best: Candidates
-    poses: Displacement
-    task_poses: NDArray[np.intp]
     chains: int
     designs: int
     working: int
@@ -107,45 +113,63 @@ class _Chains(NamedTuple):
         return ThreeRChain(self.fixed, (total + less) / 2, (total - less) / 2, self.moving)
 
 
-def search(space: SearchSpace, chains: int, seed: int, most: int) -> ChainSearch:
-    """The best six-bars of so many chains, `most` at most.
+def search(
+    space: SearchSpace, kinds: Sequence[str], chains: int, seed: int, most: int
+) -> list[ChainSearch]:
+    """The best six-bars of each class on so many chains, `most` at most of each.
 
     The same seed gives the same answer.  A time limit (`progress.limited`) ends it after a round.
     """
-    random = np.random.default_rng(seed)
     rounds = -(-chains // ROUND)
-    given = space.poses.shape[0]
-    own = np.round(np.linspace(0, POSES - 1, given)).astype(np.intp)
-    kept: Candidates | None = None
-    drawn: _Chains | None = None
-    looked = designs = working = 0
+    searches = [_Search(space, kind, seed) for kind in kinds]
     time_for(f"looking for six-bars on {chains} chains")
     for number in range(rounds):
         if number and not goes_on(number + 1, rounds, "round"):
             break
-        count = min(ROUND, chains - looked)
-        fresh = _drawn(space, own, count, random)
-        if drawn is not None and len(drawn.side) and number >= DRAWN_SHARE * rounds:
-            fresh = _varied(space, drawn, fresh, random)
-        found = candidates(fresh.chains(), fresh.poses, fresh.side, space.conditions)
-        looked, designs = looked + count, designs + found.designs
-        working += len(np.unique(found.design[_violation(space, found) == 0]))
-        found = found._replace(chain=found.chain + looked - count)
-        mine = fresh.take(found.chain - (looked - count))
+        for each in searches:
+            each.look(min(ROUND, chains - ROUND * number), number >= DRAWN_SHARE * rounds)
+    return [each.found(most) for each in searches]
+
+
+class _Search:
+    """The search for six-bars of one class: chains that were looked at, and the best so far."""
+
+    def __init__(self, space: SearchSpace, kind: str, seed: int) -> None:
+        self._space, self._kind = space, kind
+        self._random = np.random.default_rng(seed)
+        given = space.poses.shape[0]
+        self._own = np.round(np.linspace(0, POSES - 1, given)).astype(np.intp)
+        self._kept: Candidates | None = None
+        self._drawn: _Chains | None = None
+        self._looked = self._designs = self._working = 0
+
+    def look(self, count: int, near: bool) -> None:
+        """Work out so many chains more, those near the best among them if `near`."""
+        space, kept, drawn = self._space, self._kept, self._drawn
+        fresh = _drawn(space, self._own, count, self._random)
+        if near and drawn is not None and len(drawn.side):
+            fresh = _varied(space, drawn, fresh, self._random)
+        worked_out = SEARCHED[self._kind]
+        found = worked_out(fresh.chains(), fresh.poses, fresh.side, space.conditions)
+        self._designs += found.designs
+        self._working += len(np.unique(found.design[_violation(space, found) == 0]))
+        mine = fresh.take(found.chain)
+        found = found._replace(chain=found.chain + self._looked)
+        self._looked += count
         if kept is not None and drawn is not None:
-            found = joined([kept, found], designs)
+            found = joined([kept, found], self._designs)
             mine = drawn.beside(mine)
-        merit = found.merit(space.size)
-        merit -= VIOLATED * _violation(space, found)
+        merit = found.merit(space.size) - VIOLATED * _violation(space, found)
         order = np.argsort(-merit, kind="stable")
         best = _distinct(found, order, NICHE * space.size, KEPT)
-        kept, drawn = found.take(best), mine.take(best)
-    assert kept is not None
-    assert drawn is not None
-    within = np.flatnonzero(_violation(space, kept) == 0)
-    kept, drawn = kept.take(within), drawn.take(within)
-    order = _ranked(kept, space, most)
-    return ChainSearch(kept.take(order), drawn.take(order).poses, own, looked, designs, working)
+        self._kept, self._drawn = found.take(best), mine.take(best)
+
+    def found(self, most: int) -> ChainSearch:
+        """What was found, the best `most` of it."""
+        assert self._kept is not None
+        kept = self._kept.take(np.flatnonzero(_violation(self._space, self._kept) == 0))
+        best = kept.take(_ranked(kept, self._space, most))
+        return ChainSearch(best, self._looked, self._designs, self._working)
 
 
 def _drawn(
@@ -235,23 +259,23 @@ def _violation(space: SearchSpace, found: Candidates) -> FloatArray:
     In sizes of the motion, logarithms of ratios, and shares of a transmission angle of 30°.
     """
     linkage, slack = found.linkages, OUTSIDE * space.size
+    skeleton, frames, lengths = linkage.skeleton, linkage.frames(), linkage.lengths()
     off = []
-    for region, pivot in (
-        (space.fixed[1], linkage.fixed_second),
-        (space.moving[1], linkage.link_joint),
-    ):
-        far = region.distance(pivot)
-        off.append(np.where(far <= slack, 0.0, far / space.size))
-    for (least, most), length in zip(
-        space.lengths, (linkage.first_crank, linkage.second_crank), strict=True
-    ):
+    for regions, link in ((space.fixed, skeleton.ground), (space.moving, linkage.carries)):
+        for at in list(frames[link].values())[1:]:  # the first one is drawn in its region
+            far = regions[1].distance(at)
+            off.append(np.where(far <= slack, 0.0, far / space.size))
+    for number, pivot in enumerate(skeleton.drivers):
+        least, most = space.lengths[min(number, 1)]
+        arm = set(skeleton.arm(pivot))
+        length = lengths[:, [set(bar) for bar in skeleton.bars].index(arm)]
         far = np.maximum(least - length, length - most)
         off.append(np.where(far <= slack, 0.0, far / space.size))
     asked = dict(space.conditions.asked)
     lacking = np.zeros(len(found.chain))
-    if (least := asked.pop(TRANSMISSION, None)) is not None:
-        lacking = np.degrees(excess({TRANSMISSION: least}, found.figures)) / TRANSMISSION.standard
-    short = np.log(np.maximum(space.bars / linkage.lengths(), 1.0)).max(axis=-1)
+    if (angle := asked.pop(TRANSMISSION, None)) is not None:
+        lacking = np.degrees(excess({TRANSMISSION: angle}, found.figures)) / TRANSMISSION.standard
+    short = np.log(np.maximum(space.bars[skeleton.name] / lengths, 1.0)).max(axis=-1)
     off += [lacking, excess(asked, found.figures), short]
     return np.asarray(np.sum(off, axis=0))
 

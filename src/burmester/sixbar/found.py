@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,10 +11,13 @@ from burmester.fourbar.defect_messages import Defect
 from burmester.fourbar.linkage import Configuration
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.branches import Branch
+from burmester.mechanisms.contract import body_of
+from burmester.mechanisms.skeleton import Frames, Skeleton
+from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.requirements.table import Violation
-from burmester.sixbar.motion import Sides, joints_at, poses_of, transmission
-from burmester.sixbar.watt import BARS, JOINTS, TYPE, Drive, WattLinkage
+from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
 
@@ -31,15 +34,13 @@ class FoundSixBar:
         S1, S2, ..., by rank.
     linkage : WattLinkage
         Its dimensions; no leading axes.
-    driver : {"first", "second"}
-        Which crank drives.
+    branch : Branch
+        On which it goes through the poses, and about which pivot its driver turns.
     drive : (N,) array
         The driver's angle at the poses, in radians, in F, without jumps.
     room : (2,) array
         How far the driver goes on below and above the range of the poses before the linkage locks,
         in radians; infinite where the driver turns fully.
-    sides : Sides
-        On which side both loops are closed.
     transmission : float
         The least transmission angle of both loops over the range, in radians.
     extent : float
@@ -61,11 +62,10 @@ class FoundSixBar:
     """
 
     id: str
-    linkage: WattLinkage
-    driver: Drive
+    linkage: SixBar
+    branch: Branch
     drive: FloatArray
     room: FloatArray
-    sides: Sides
     transmission: float
     extent: float
     error: PoseError
@@ -79,7 +79,7 @@ class FoundSixBar:
     @property
     def type(self) -> str:
         """What it is, in words."""
-        return TYPE
+        return self.skeleton.name
 
     @property
     def unit(self) -> str | None:
@@ -102,6 +102,36 @@ class FoundSixBar:
         return bool(np.isinf(self.room).all())
 
     @property
+    def skeleton(self) -> Skeleton:
+        """Its joints and links."""
+        return self.linkage.skeleton
+
+    @property
+    def carries(self) -> str:
+        """The name of the link that is the body."""
+        return self.linkage.carries
+
+    @property
+    def frames(self) -> Frames:
+        """The joints (2,) of each link, in the frame of that link; of the body in M."""
+        return self.linkage.frames()
+
+    @property
+    def driver_pivot(self) -> str:
+        """The pivot on the ground about which the driver turns."""
+        return self.branch.pivot
+
+    @property
+    def driver(self) -> str:
+        """The driver as results name it: "first" or "second" of Watt's, else its pivot."""
+        return self.linkage.driver_name(self.driver_pivot)
+
+    @property
+    def turns(self) -> int:
+        """After how many turns of the driver all is as it was; 0 where it cannot turn fully."""
+        return self.branch.turns
+
+    @property
     def drive_range(self) -> tuple[float, float]:
         """The least and the greatest angle of the driver at the poses, in radians."""
         return float(self.drive.min()), float(self.drive.max())
@@ -114,20 +144,24 @@ class FoundSixBar:
     @property
     def lengths(self) -> dict[str, float]:
         """The distances between joints of one link: {"AB": 30.0, ...}."""
-        return dict(zip(BARS, self.linkage.lengths().tolist(), strict=True))
+        return dict(zip(self.skeleton.bars, self.linkage.lengths().tolist(), strict=True))
 
     def joints(self, drive: FloatArray) -> dict[str, FloatArray]:
         """Where the joints are when the driver is at angles (*,) in radians: {"A": (*, 2), ...}.
 
         nan beyond where the linkage locks.
         """
-        there = self._joints(np.asarray(drive, dtype=np.float64))
+        there = self._joints(drive)
         places = np.stack([there.real, there.imag], axis=-1)
-        return {name: places[..., k, :] for k, name in enumerate(JOINTS)}
+        return {name: places[..., k, :] for k, name in enumerate(self.skeleton.joints)}
+
+    def links(self, drive: FloatArray) -> dict[str, Displacement]:
+        """Where the frames of all links are when the driver is at angles (*,), (*,) each."""
+        return self.skeleton.places(self.frames, self.joints(drive))
 
     def body(self, drive: FloatArray) -> Displacement:
         """The poses (*,) of the body when the driver is at angles (*,) in radians."""
-        return poses_of(self.linkage, self._joints(np.asarray(drive, dtype=np.float64)))
+        return body_of(self.linkage, self._joints(drive))
 
     def at(self, driver: ArrayLike) -> Configuration:
         """Where body and joints are for the driver's angle, or for an array of angles, in degrees.
@@ -147,7 +181,16 @@ class FoundSixBar:
 
         Both in radians.
         """
-        return transmission(self._joints(np.asarray(drive, dtype=np.float64)), self.driver)
+        return least_transmission_angle(self.skeleton, self._joints(drive), self.driver_pivot)
+
+    def scaled(self, scale: float) -> FoundSixBar:
+        """The same in another unit of length, `scale` of them for one."""
+        frames = {
+            link: {name: at * scale for name, at in joints.items()}
+            for link, joints in self.frames.items()
+        }
+        linkage = KINDS[self.skeleton.name].of(self.carries, frames)
+        return replace(self, linkage=linkage, extent=self.extent * scale)
 
     def along(self, count: int) -> FloatArray:
         """So many angles of the driver, evenly over the range of the poses, in radians.
@@ -159,4 +202,4 @@ class FoundSixBar:
         return np.linspace(*ends, count)
 
     def _joints(self, drive: FloatArray) -> ComplexArray:
-        return joints_at(self.linkage, drive, self.sides, self.driver)
+        return self.branch.at(self.linkage, drive)

@@ -1,7 +1,7 @@
-"""A six-bar that exists, at the poses of a task: where it is nearest to them, and whether it works.
+"""A mechanism that exists, at the poses of a task: where it is nearest to them, and if it works.
 
-Nothing is refined.  For both drivers every branch is looked at (`branches`), and the body placed
-on it as near to each pose as it comes.
+Nothing is refined.  For all its drivers every branch is looked at, and the body placed on it as
+near to each pose as it comes.  What kind of mechanism it is does not matter here.
 """
 
 from __future__ import annotations
@@ -25,21 +25,22 @@ from burmester.fourbar.pose_order import (
     tolerated_step,
 )
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.mechanisms.branches import Branch, branches_of
+from burmester.mechanisms.circuits import circuits_of
+from burmester.mechanisms.contract import body_of
+from burmester.mechanisms.nearest_places import least_along, minima_of, nearest_shares
+from burmester.mechanisms.transmission import least_transmission_angle
+from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import weights_or_ones
 from burmester.refinement.tolerance_boxes import counted_error, shares_used
 from burmester.requirements.table import Violation
-from burmester.sixbar.branches import Branches, branches_of
-from burmester.sixbar.candidates import DRIVERS, Candidates, extent_of
-from burmester.sixbar.dead_points import FirstLoop
+from burmester.sixbar.candidates import box_diagonal, figures_of, merit_of
 from burmester.sixbar.defects import ELSEWHERE, Course, defects_of
 from burmester.sixbar.found import FoundSixBar
-from burmester.sixbar.motion import joints_at, poses_of, transmission
-from burmester.sixbar.nearest_places import PoseMeasure, nearest_drives
+from burmester.sixbar.kinds import SixBar
+from burmester.sixbar.pose_measure import PoseMeasure
 from burmester.sixbar.requirement_check import violations
 from burmester.sixbar.standard import least_bars, shortcomings
-from burmester.sixbar.travel import Travel, least_transmission
-from burmester.sixbar.watt import Drive, WattLinkage
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import too_short
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
@@ -49,24 +50,30 @@ __all__ = ["judged_six_bar"]
 SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
 ALIKE = 1e-6  # sizes of the motion; errors that differ by less are one
 MERIT_DIGITS = 6  # decimals of a degree by which branches are compared
+PLACES = 33  # along the range, at which the extent is looked at
 
 
 @final
 class _OneDriver(NamedTuple):
-    """What a six-bar does at poses (N,) on its branches (k,) with one driver.
+    """What a mechanism does at poses (N,) on its branches (k,) with one driver.
 
-    missed: (k, N), in what is allowed.  combined: (k,), the error of all poses in one.
-    shares: (k, N, 3), of the tolerances that are used, where these decide.
+    drive: (k, N), the driver's angle at the poses, without jumps; room: (k, 2), how far it goes on
+    below and above.  missed: (k, N), in what is allowed.  combined: (k,), the error of all poses in
+    one.  shares: (k, N, 3), of the tolerances that are used, where these decide.
+    transmission, extent: (k,), over the range; at_poses: (k, N), the transmission there.
     """
 
-    branches: Branches
-    candidates: Candidates
+    branches: tuple[Branch, ...]
+    drive: FloatArray
+    room: FloatArray
     errors: list[PoseError]
     missed: FloatArray
     combined: FloatArray
     shares: FloatArray | None
     out_of_order: NDArray[np.bool_]
     at_poses: FloatArray
+    transmission: FloatArray
+    extent: FloatArray
 
 
 @final
@@ -87,23 +94,34 @@ class _Verdict(NamedTuple):
 
 
 def judged_six_bar(
-    linkage: WattLinkage, problem: SynthesisProblem, drivers: Sequence[Drive] = DRIVERS
+    linkage: SixBar, problem: SynthesisProblem, pivots: Sequence[str] | None = None
 ) -> FoundSixBar:
     """A six-bar on the branch where it works, else on that where it is nearest to the poses.
 
     Of branches on which it works the nearest one; of equally near ones, that with the greater least
-    transmission angle, as a search chooses between both drivers.
-    drivers: the cranks that may drive.  Raises E155 where it cannot be assembled.
+    transmission angle, as a search chooses between drivers.
+    pivots: of the drivers; all if None.  Raises E155 where it cannot be assembled.
     """
+    task = problem.given
+    number = task.poses.shape[0]
+    measure = PoseMeasure(task.poses, task.tolerances, problem.length_per_radian, problem.length)
+    circuits = circuits_of(linkage)
+    if not len(circuits.first):
+        raise InputError(
+            "E155",
+            "the six-bar cannot be assembled at any place",
+            why=linkage.why_open(),
+            help="measure its joints again; those of each link are in the frame of the link",
+        )
+    minima = minima_of(linkage, circuits, measure, number)
     every: list[_Verdict] = []
-    for driver in drivers:
-        branches = branches_of(linkage, driver)
-        if len(branches.low):
-            driven = _driven(linkage, branches, driver, problem)
-            every += [_verdict(driven, k, problem) for k in range(len(branches.low))]
-    if not every:
-        raise _open(linkage)
-    return _found(_best(every, problem), problem)
+    for pivot in linkage.skeleton.drivers if pivots is None else pivots:
+        branches = branches_of(linkage, circuits, pivot)
+        if branches:
+            near = nearest_shares(linkage, branches, minima, measure, number)
+            driven = _driven(linkage, branches, *near, problem)
+            every += [_verdict(linkage, driven, k, problem) for k in range(len(branches))]
+    return _found(linkage, _best(every, problem), problem)
 
 
 def _best(every: list[_Verdict], problem: SynthesisProblem) -> _Verdict:
@@ -124,48 +142,50 @@ def _best(every: list[_Verdict], problem: SynthesisProblem) -> _Verdict:
 
 
 def _driven(
-    linkage: WattLinkage, branches: Branches, driver: Drive, problem: SynthesisProblem
+    linkage: SixBar,
+    branches: tuple[Branch, ...],
+    shares: FloatArray,
+    off: FloatArray,
+    problem: SynthesisProblem,
 ) -> _OneDriver:
-    """A six-bar on all its branches (k,) with one driver."""
-    task, count = problem.given, len(branches.low)
-    measure = PoseMeasure(task.poses, task.tolerances, problem.length_per_radian, problem.length)
-    at_poses, off = nearest_drives(linkage, branches, driver, measure)
-    links = linkage[None][np.zeros(count, dtype=np.intp)]
-    sides = branches.sides
-    joints = joints_at(links[:, None], at_poses, sides.at((slice(None), None)), driver)
-    places = poses_of(linkage, joints)
-    errors = [counted_error(places[k], task) for k in range(count)]
-    missed, shares, slack = _missed(places, errors, problem)
-    order = _along(at_poses, places, branches, slack, problem)
+    """A mechanism on its branches (k,), at the shares (k, N) that are nearest to the poses."""
+    task, rows = problem.given, list(enumerate(branches))
+    joints = np.array([each.at_share(linkage, shares[k]) for k, each in rows])
+    places = body_of(linkage, joints)
+    errors = [counted_error(places[k], task) for k, _ in rows]
+    missed, used, slack = _missed(places, errors, problem)
+    at_poses = np.array([each.drive(linkage, shares[k]) for k, each in rows])
+    turns = np.array([each.turns for each in branches])
+    order = _along(at_poses, places, turns, slack, problem)
     drive = order.along
-    low, high = drive.min(axis=-1), drive.max(axis=-1)
-    room = np.stack([low - branches.low, branches.high - high], axis=-1)
-    room = np.where(branches.full[:, None], np.inf, room)
-    ordered = order.back <= np.maximum(REPEATED_POSE_STEP, order.slack)
-    way = Travel(np.ones(count, dtype=bool), ordered, drive, room, sides)
-    share = weights_or_ones(task.weights, task.poses.shape)
+    ranges = np.stack([drive.min(axis=-1), drive.max(axis=-1)], axis=-1)
+    ends = np.array([each.ends for each in branches])
+    weights = weights_or_ones(task.weights, task.poses.shape)
+    ranged = [_over_range(linkage, each, ranges[k]) for k, each in rows]
     return _OneDriver(
         branches=branches,
-        candidates=Candidates(
-            chain=np.zeros(count, dtype=np.intp),
-            design=np.zeros(count, dtype=np.intp),
-            linkages=links,
-            joints=joints,
-            driver=np.full(count, DRIVERS.index(driver)),
-            drive=drive,
-            room=room,
-            sides=sides,
-            transmission=least_transmission(links, way, driver, joints),
-            extent=extent_of(links, drive, sides, driver),
-            designs=1,
-        ),
+        drive=drive,
+        room=np.abs(ends - ranges),
         errors=errors,
         missed=missed,
-        combined=np.sqrt((off**2 @ share) / share.sum()),
-        shares=shares,
-        out_of_order=~ordered,
-        at_poses=transmission(joints, driver),
+        combined=np.sqrt((off**2 @ weights) / weights.sum()),
+        shares=used,
+        out_of_order=order.back > np.maximum(REPEATED_POSE_STEP, order.slack),
+        at_poses=least_transmission_angle(linkage.skeleton, joints, branches[0].pivot),
+        transmission=np.array([least for least, _ in ranged]),
+        extent=np.array([extent for _, extent in ranged]),
     )
+
+
+def _over_range(linkage: SixBar, branch: Branch, ends: FloatArray) -> tuple[float, float]:
+    """The least transmission angle between two drives, and the box around all joints."""
+
+    def transmission(joints: ComplexArray) -> FloatArray:
+        return least_transmission_angle(linkage.skeleton, joints, branch.pivot)
+
+    low, high = branch.share(linkage, ends).tolist()
+    extent = box_diagonal(branch.at(linkage, np.linspace(ends[0], ends[1], PLACES)))
+    return least_along(linkage, branch, low, high, transmission), float(extent)
 
 
 def _missed(
@@ -193,51 +213,54 @@ def _missed(
 def _along(
     drives: FloatArray,
     places: Displacement,
-    branches: Branches,
+    turns: NDArray[np.int_],
     slack: FloatArray,
     problem: SynthesisProblem,
 ) -> PoseOrder:
     """The drives (k, N) of the poses without jumps, and how far they go back.
 
     A pose that comes again counts once.
+    turns: (k,), of the driver until all is as it was, 0 between dead points.
     """
     motion = problem.motion
     if problem.is_merged and motion is not None:
         once = _along(
-            drives[:, motion.first], places[:, motion.first], branches, slack, _distinct(problem)
+            drives[:, motion.first], places[:, motion.first], turns, slack, _distinct(problem)
         )
         return once._replace(along=once.along[:, motion.group])
-    ones = np.ones(len(drives))
+    ones, closed = np.ones(len(drives)), turns > 0
+    period = np.maximum(turns, 1)[:, None]  # of a closed branch, in turns
     if problem.given.requirements.any_order:
-        along = np.where(branches.full[:, None], smallest_arc(drives), drives)
-        return PoseOrder(along, 0 * ones, 0 * ones)
+        around = period * smallest_arc(drives / period)
+        return PoseOrder(np.where(closed[:, None], around, drives), 0 * ones, 0 * ones)
     everywhere = np.ones(drives.shape, dtype=bool)
     tolerance = OrderTolerance(slack, problem.length_per_radian)
     step = tolerated_step(places, everywhere, drives, tolerance)
-    lines, rounds = along_interval(drives, ones, step), around_circuit(drives, step)
+    lines = along_interval(drives, ones, step)
+    rounds = around_circuit(drives / period, step / period[:, 0])
     return PoseOrder(
-        *(
-            np.where(branches.full.reshape(-1, *[1] * (one.ndim - 1)), one, other)
-            for one, other in zip(rounds, lines, strict=True)
-        )
+        np.where(closed[:, None], period * rounds.along, lines.along),
+        np.where(closed, rounds.back, lines.back),
+        np.where(closed, rounds.slack, lines.slack),
     )
 
 
-def _verdict(driven: _OneDriver, k: int, problem: SynthesisProblem) -> _Verdict:
+def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProblem) -> _Verdict:
     """What is wrong with one branch."""
-    task, own, branches = problem.given, driven.candidates, driven.branches
+    task, branch = problem.given, driven.branches[k]
     missed = driven.missed > 1
     met = ~missed
-    same = branches.circuit == branches.circuit[k]
+    same = np.array([each.circuit == branch.circuit for each in driven.branches])
     elsewhere = np.zeros(len(missed[k]), dtype=np.intp)
     if met[k].any():
         elsewhere[missed[k] & met.any(axis=0)] = ELSEWHERE["circuit"]
         elsewhere[missed[k] & met[same].any(axis=0)] = ELSEWHERE["branch"]
+    full = branch.turns > 0
     course = Course(
         missed[k],
         elsewhere,
-        own.drive[k],
-        bool(branches.full[k]),
+        driven.drive[k],
+        full,
         bool(driven.out_of_order[k]),
         driven.at_poses[k],
     )
@@ -246,26 +269,25 @@ def _verdict(driven: _OneDriver, k: int, problem: SynthesisProblem) -> _Verdict:
         for number, name in enumerate(task.names or ("",) * len(missed[k]), start=1)
     )
     shares = None if driven.shares is None else driven.shares[k]
-    full = bool(branches.full[k])
+    size, least = problem.motion_size, float(driven.transmission[k])
+    figures = figures_of(linkage, least, True, driven.extent[k])
     return _Verdict(
         far=float(np.log1p(driven.missed[k]).mean()),
         combined=float(driven.combined[k]),
-        merit=float(own.merit(problem.motion_size)[k]),
+        merit=float(merit_of(figures, size)),
         driven=driven,
         branch=k,
         defects=(
             *defects_of(course, driven.errors[k], shares, task, names),
-            *_degenerate(own.linkages[k], problem),
+            *_degenerate(linkage, problem),
         ),
-        violations=violations(
-            own.linkages[k], float(own.transmission[k]), full, task, problem.motion_size
-        ),
+        violations=violations(linkage, least, full, task, size),
     )
 
 
-def _degenerate(linkage: WattLinkage, problem: SynthesisProblem) -> list[Defect]:
+def _degenerate(linkage: SixBar, problem: SynthesisProblem) -> list[Defect]:
     """That two joints of one link are too near to each other."""
-    lengths, least = linkage.lengths(), least_bars(problem)
+    lengths, least = linkage.lengths(), least_bars(problem, linkage.skeleton)
     short = lengths < least
     if not short.any():
         return []
@@ -274,18 +296,16 @@ def _degenerate(linkage: WattLinkage, problem: SynthesisProblem) -> list[Defect]
     return [Defect("degenerate", message, ())]
 
 
-def _found(best: _Verdict, problem: SynthesisProblem) -> FoundSixBar:
+def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundSixBar:
     driven, k, task = best.driven, best.branch, problem.given
-    own = driven.candidates
-    linkage, least, extent = own.linkages[k], float(own.transmission[k]), float(own.extent[k])
-    turns = 2 * np.pi * np.round(own.drive[k, 0] / (2 * np.pi))
+    least, extent = float(driven.transmission[k]), float(driven.extent[k])
+    turns = float(np.round(driven.drive[k, 0] / (2 * np.pi)))
     return FoundSixBar(
         id="S1",
         linkage=linkage,
-        driver=DRIVERS[int(own.driver[k])],
-        drive=own.drive[k] - turns,
-        room=own.room[k],
-        sides=own.sides.at(k),
+        branch=driven.branches[k].moved(-turns),
+        drive=driven.drive[k] - 2 * np.pi * turns,
+        room=driven.room[k],
         transmission=least,
         extent=extent,
         error=driven.errors[k],
@@ -315,23 +335,4 @@ def _distinct(problem: SynthesisProblem) -> SynthesisProblem:
         problem.length,
         problem.options,
         problem.length_per_radian,
-    )
-
-
-def _open(linkage: WattLinkage) -> InputError:
-    """E155 of a six-bar that cannot be assembled."""
-    loop = FirstLoop.of(linkage)
-    bars = {"AB": loop.ground, "AC": loop.crank, "CD": loop.coupler, "BD": loop.follower}
-    lengths = {name: float(length) for name, length in bars.items()}
-    longest = max(lengths, key=lambda name: lengths[name])
-    rest = sum(lengths.values()) - lengths[longest]
-    why = "wherever its first loop (A, C, D, B) closes, E and G are too far apart or too near"
-    if lengths[longest] > rest:
-        others = ", ".join(name for name in lengths if name != longest)
-        why = f"{longest} is {lengths[longest]:.4g} long, and {others} together {rest:.4g}"
-    return InputError(
-        "E155",
-        "the six-bar cannot be assembled at any place",
-        why=why,
-        help="measure its joints again; those of each link are in the frame of the link",
     )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Final
 
 import numpy as np
 
@@ -12,7 +11,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.requirements.table import Violation
 from burmester.requirements.table import violations as violations_of
 from burmester.sixbar.candidates import figures_of
-from burmester.sixbar.watt import WattLinkage
+from burmester.sixbar.kinds import SixBar
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
@@ -20,11 +19,9 @@ from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside
 
 __all__ = ["violations"]
 
-CRANKS: Final = "first crank AC", "second crank BD"
-
 
 def violations(
-    linkage: WattLinkage, transmission: float, turns_fully: bool, task: Task, size: float
+    linkage: SixBar, transmission: float, turns_fully: bool, task: Task, size: float
 ) -> tuple[Violation, ...]:
     """The limits and requirements of a task that a six-bar does not keep.
 
@@ -40,14 +37,13 @@ def violations(
 
 
 def _broken(
-    linkage: WattLinkage, first: Limits, second: Limits, task: Task, slack: float
+    linkage: SixBar, first: Limits, second: Limits, task: Task, slack: float
 ) -> Iterator[str]:
-    """The limits that it does not keep; of two regions each pivot may be in either."""
-    ground = {"A": linkage.fixed_first, "B": linkage.fixed_second}
-    body = {"E": linkage.body_joint, "H": linkage.link_joint}
+    """The limits that it does not keep; any one pivot is in the first of two regions."""
+    skeleton, frames = linkage.skeleton, linkage.frames()
     for name, regions, pivots in (
-        ("fixed", (first.fixed_pivot, second.fixed_pivot), ground),
-        ("moving", (first.moving_pivot, second.moving_pivot), body),
+        ("fixed", (first.fixed_pivot, second.fixed_pivot), frames[skeleton.ground]),
+        ("moving", (first.moving_pivot, second.moving_pivot), frames[linkage.carries]),
     ):
         out = _least_outside(regions, list(pivots.values()))
         for (joint, at), away in zip(pivots.items(), out, strict=True):
@@ -55,9 +51,11 @@ def _broken(
                 x, y = (f"{float(value):.6g}" for value in at)
                 far = length_of(away, task)
                 yield f"the {name} pivot {joint} at ({x}, {y}) is {far} outside its region"
-    cranks = float(linkage.first_crank), float(linkage.second_crank)
-    for crank, length, limits in zip(CRANKS, cranks, (first, second), strict=True):
-        least, most = limits.length
+    lengths = dict(zip(skeleton.bars, linkage.lengths().tolist(), strict=True))
+    for pivot in skeleton.drivers:
+        arm = next(bar for bar in lengths if set(bar) == set(skeleton.arm(pivot)))
+        crank, length = f"{skeleton.crank(pivot)} {arm}", lengths[arm]
+        least, most = (first if pivot == skeleton.drivers[0] else second).length
         if length < least - slack:
             yield f"the {crank} is {length:.4g} long; at least {least:g} is asked for"
         elif length > most + slack:
@@ -66,14 +64,14 @@ def _broken(
 
 def _least_outside(
     regions: tuple[Region | None, Region | None], pivots: list[FloatArray]
-) -> tuple[float, float]:
-    """How far two pivots are outside the regions, in the order of these that is better for them."""
+) -> list[float]:
+    """How far pivots are outside the regions, that one in the first for which this is best."""
     one, other = regions
     if one is other and one is not None and not isinstance(one, Polygon):
         other = None  # two pivots do not share a point or a line: the search keeps it with one
     ways = [
-        (_away(first, pivots[0]), _away(second, pivots[1]))
-        for first, second in ((one, other), (other, one))
+        [_away(one if k == own else other, at) for k, at in enumerate(pivots)]
+        for own in range(len(pivots))
     ]
     return min(ways, key=sum)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Final, final
 
@@ -12,6 +13,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Region, Segment
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.candidates import Conditions
+from burmester.sixbar.kinds import KINDS
 from burmester.sixbar.standard import least_bars
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
@@ -33,7 +35,8 @@ class SearchSpace:
 
     poses: (N,), two to five; free ones are drawn between them where they are fewer.
     fixed, moving: the regions, in F of A and B, and in M of E and H.
-    lengths: least and greatest of both cranks, each; bars: (10,), the least of all.
+    lengths: least and greatest of the first crank, and of the others; bars: (b,), the least of
+    all bars of each class.
     size: of the motion.
     assumed: what the task does not say, in words, each with the option that changes it.
     """
@@ -44,7 +47,7 @@ class SearchSpace:
     lengths: tuple[tuple[float, float], tuple[float, float]]
     size: float
     conditions: Conditions
-    bars: FloatArray
+    bars: Mapping[str, FloatArray]
     assumed: tuple[tuple[str, str], ...] = ()
 
     @classmethod
@@ -79,7 +82,7 @@ class SearchSpace:
             lengths,
             size,
             conditions,
-            least_bars(problem),
+            {name: least_bars(problem, kind.skeleton) for name, kind in KINDS.items()},
             tuple(assumed),
         )
 

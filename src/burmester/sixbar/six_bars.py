@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, final
 
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.fourbar.pose_error import PoseError
-from burmester.sixbar.candidates import DRIVERS
-from burmester.sixbar.chain_search import ChainSearch, search
+from burmester.sixbar.chain_search import SEARCHED, is_sound, search
 from burmester.sixbar.found import FoundSixBar
-from burmester.sixbar.motion import joints_at, poses_of
-from burmester.sixbar.search_space import SearchSpace
-from burmester.sixbar.standard import shortcomings
-from burmester.tasks.motion_task import Task
+from burmester.sixbar.judged import judged_six_bar
+from burmester.sixbar.search_space import POSES, SearchSpace
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
+from burmester.verdicts.quality import best_first
+from burmester.wording import listed
 
-__all__ = ["CHAINS", "RULE", "SixBarOptions", "SixBars", "best_six_bars"]
+__all__ = ["CHAINS", "CHOICES", "RULE", "SixBarOptions", "SixBars", "best_six_bars"]
 
 CHAINS: Final = 20_000  # that are worked out where nobody says otherwise
 MOST_CHAINS: Final = 10_000_000
 SHOWN: Final = 8  # six-bars of an answer, at most
+ALL: Final = "all"
+CHOICES: Final = (ALL, *(name.removesuffix(" six-bar") for name in SEARCHED))
 RULE: Final = (
     "recommended is the six-bar with the greatest least transmission angle of both loops; among "
     "those within half a degree of it, the smallest"
@@ -36,15 +36,30 @@ RULE: Final = (
 class SixBarOptions:
     """How six-bars are looked for.
 
-    chains: how many 3R chains are worked out; seed: of the random numbers, the same one gives the
-    same answer; most: six-bars of the answer, at most.  Raises E197 where one makes no sense.
+    chains: how many 3R chains are worked out for each class; seed: of the random numbers, the same
+    one gives the same answer; most: six-bars of the answer, at most.
+    kind: of one class only, such as "Watt I"; of all that are looked for where it is "all".
+    Raises E197 where one makes no sense.
     """
 
     chains: int = CHAINS
     seed: int = 0
     most: int = SHOWN
+    kind: str = ALL
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The names of the classes that are looked for."""
+        every = tuple(SEARCHED)
+        return every if self.kind == ALL else (every[CHOICES.index(self.kind) - 1],)
 
     def __post_init__(self) -> None:
+        if self.kind not in CHOICES:
+            raise InputError(
+                "E197",
+                f"there is no kind {shown(self.kind)} of six-bars that is looked for",
+                help=f"leave it out, or give {listed(CHOICES, 'or')}",
+            )
         bounds = {"chains": (1, MOST_CHAINS), "seed": (0, 2**63 - 1), "most": (1, 1000)}
         for name, (least, greatest) in bounds.items():
             value = getattr(self, name)
@@ -93,38 +108,31 @@ class SixBars:
 def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
     """The best six-bars of a random search; raises E195 and E196, as `SearchSpace.of`."""
     space = SearchSpace.of(problem)
-    result = search(space, options.chains, options.seed, options.most)
-    order = range(len(result.best.chain))
+    searches = search(space, options.kinds, options.chains, options.seed, options.most)
+    best = [each.best for each in searches]
+    sound = np.concatenate([is_sound(each, problem.motion_size) for each in best])
+    transmission, extent = (
+        np.concatenate([getattr(each, name) for each in best])
+        for name in ("transmission", "extent")
+    )
+    order = best_first(transmission, extent, np.ones(len(extent)), enough=np.pi / 2)
+    order = order[np.argsort(~sound[order], kind="stable")]
+    rows = [(each, k) for each in best for k in range(len(each.chain))]
+    found = list[FoundSixBar]()
+    for each, k in (rows[at] for at in order.tolist()):
+        pivot = each.linkages.skeleton.drivers[int(each.driver[k])]
+        judged = judged_six_bar(each.linkages[k], problem, (pivot,))
+        if judged.usable:  # but for rounding, all are
+            id = f"S{len(found) + 1}"
+            found.append(replace(judged, id=id, chain=int(each.chain[k])))
+        if len(found) == options.most:
+            break
     return SixBars(
-        tuple(_found(result, k, space, problem.given) for k in order),
-        result.chains,
-        result.designs,
-        result.working,
+        tuple(found),
+        sum(each.chains for each in searches),
+        sum(each.designs for each in searches),
+        sum(each.working for each in searches),
         options,
         space.assumed,
-        5 - len(result.task_poses),
-    )
-
-
-def _found(result: ChainSearch, k: int, space: SearchSpace, task: Task) -> FoundSixBar:
-    """The k-th of a search; drives and errors are those at the task's poses."""
-    best, own = result.best, result.task_poses
-    linkage, driver = best.linkages[k], DRIVERS[int(best.driver[k])]
-    sides = best.sides.at(k)
-    drive = best.drive[k, own]
-    places = poses_of(linkage, joints_at(linkage, drive, sides, driver))
-    transmission, extent = float(best.transmission[k]), float(best.extent[k])
-    return FoundSixBar(
-        id=f"S{k + 1}",
-        linkage=linkage,
-        driver=driver,
-        drive=drive,
-        room=best.room[k],
-        sides=sides,
-        transmission=transmission,
-        extent=extent,
-        error=PoseError.at(places, task.poses),
-        shortcomings=shortcomings(linkage, transmission, extent, space.size, task),
-        chain=int(best.chain[k]),
-        task=task,
+        POSES - problem.given.poses.shape[0],
     )

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.table import shortcomings as falls_short
 from burmester.requirements.table import standard
 from burmester.sixbar.candidates import figures_of
-from burmester.sixbar.watt import BARS, WattLinkage
+from burmester.sixbar.kinds import SixBar
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.problem import SynthesisProblem
@@ -18,7 +19,7 @@ __all__ = ["least_bars", "shortcomings"]
 
 
 def shortcomings(
-    linkage: WattLinkage, transmission: float, extent: float, size: float, task: Task
+    linkage: SixBar, transmission: float, extent: float, size: float, task: Task
 ) -> tuple[str, ...]:
     """Where a six-bar falls short of the standard of four-bars, or is large; in words."""
     figures = figures_of(linkage, transmission, True, extent)
@@ -27,11 +28,13 @@ def shortcomings(
     return tuple(each.message for each in below)
 
 
-def least_bars(problem: SynthesisProblem) -> FloatArray:
-    """The least distances (10,) between joints of one link, in the order of `BARS`.
+def least_bars(problem: SynthesisProblem, skeleton: Skeleton) -> FloatArray:
+    """The least distances (b,) between joints of one link, in the order of the skeleton's bars.
 
     A six-bar with a shorter one is degenerate (`verdicts.degeneracy`).
     """
-    least = dict.fromkeys(BARS, least_link(problem))
-    least["AC"], least["BD"] = least_cranks(problem)
+    least = dict.fromkeys(skeleton.bars, least_link(problem))
+    arms = [skeleton.arm(pivot) for pivot in skeleton.drivers]
+    for arm, length in zip(arms, least_cranks(problem), strict=False):
+        least[arm if arm in least else arm[::-1]] = length
     return np.array(list(least.values()))

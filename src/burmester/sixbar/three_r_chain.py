@@ -12,8 +12,8 @@ from typing import Any, final
 import numpy as np
 
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.circles import meeting
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.sixbar.motion import meeting
 
 __all__ = ["ThreeRChain"]
 

@@ -12,12 +12,13 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.sixbar.dead_points import FirstLoop, dead_points, turning_points
-from burmester.sixbar.motion import Sides, drive_of, joints_at, sides_of, transmission
-from burmester.sixbar.watt import Drive, WattLinkage
+from burmester.sixbar.dead_points import dead_points, turning_points
+from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at, sides_of, transmission
+from burmester.sixbar.watt import WattLinkage
 
-__all__ = ["Travel", "first_loop_works", "least_transmission", "travel"]
+__all__ = ["Travel", "along", "first_loop_works", "least_transmission", "travel"]
 
 TURN = 2 * np.pi
 CLOSE = 1e-9  # radians; a pose as near to a dead point is at it
@@ -33,29 +34,22 @@ class Travel(NamedTuple):
     poses are in order it goes one way only.
     room: (n, 2), how far the driver goes on below and above the range of the poses before it
     locks; infinite where it turns fully.
-    sides: (n,), of the branch.
     """
 
     one_branch: NDArray[np.bool_]
     in_order: NDArray[np.bool_]
     drive: FloatArray
     room: FloatArray
-    sides: Sides
 
     @property
     def works(self) -> NDArray[np.bool_]:
         """Whether linkages go through their poses on one branch and in order: (n,)."""
         return self.one_branch & self.in_order
 
-    def take(self, index: NDArray[np.intp]) -> Travel:
-        """The ways of some linkages."""
-        return Travel(
-            self.one_branch[index],
-            self.in_order[index],
-            self.drive[index],
-            self.room[index],
-            self.sides.at(index),
-        )
+    @property
+    def turns_fully(self) -> NDArray[np.bool_]:
+        """Whether their drivers do, and nothing locks: (n,)."""
+        return np.asarray(np.isinf(self.room).all(axis=-1))
 
 
 def travel(
@@ -70,9 +64,8 @@ def travel(
     same = (at_poses.first == sides.first[:, None]).all(axis=-1)
     same &= (at_poses.second == sides.second[:, None]).all(axis=-1)
     same &= (sides.first != 0) & (sides.second != 0)
-    return _along(
-        drive_of(joints, driver), dead_points(linkage, sides, driver), same, sides, any_order
-    )
+    dead = dead_points(linkage, sides, driver)
+    return along(drive_of(joints, driver), dead, same, any_order=any_order)
 
 
 def first_loop_works(
@@ -81,36 +74,42 @@ def first_loop_works(
     """Whether first loops go through poses at which joints A to E are (n, N, 5), as `travel`."""
     whole = np.concatenate([joints, joints[..., :2]], axis=-1)  # the second loop is not asked
     at_poses = sides_of(whole, driver)
-    sides = Sides(at_poses.first[:, 0], at_poses.first[:, 0])
-    same = (at_poses.first == sides.first[:, None]).all(axis=-1) & (sides.first != 0)
+    first = at_poses.first[:, 0]
+    same = (at_poses.first == first[:, None]).all(axis=-1) & (first != 0)
     a, b, c, d = joints[:, 0, :4].T
-    locked = FirstLoop.with_lengths(a, b, abs(c - a), abs(d - c), abs(d - b)).locked(driver)
-    return _along(drive_of(whole, driver), locked, same, sides, any_order).works
+    loop = FourBarLoop.of(a, b, abs(c - a), abs(d - c), abs(d - b))
+    locked = loop.locked(first=driver == "first")
+    return along(drive_of(whole, driver), locked, same, any_order=any_order).works
 
 
 def least_transmission(
-    linkage: WattLinkage, way: Travel, driver: Drive, joints: ComplexArray
+    linkage: WattLinkage, drive: FloatArray, driver: Drive, joints: ComplexArray
 ) -> FloatArray:
     """The least transmission angle of both loops over the range of the poses: (n,), radians.
 
     Exact: inside the range it is least where a diagonal of a loop turns back, and all these places
-    are known in closed form.  joints: (n, N, 7), at the poses.
+    are known in closed form.  drive: (n, N), joints: (n, N, 7), at the poses.
     """
-    low, high = way.drive.min(axis=-1)[:, None], way.drive.max(axis=-1)[:, None]
-    turning = turning_points(linkage, way.sides, driver)
+    low, high = drive.min(axis=-1)[:, None], drive.max(axis=-1)[:, None]
+    at_poses = sides_of(joints, driver)
+    sides = Sides(at_poses.first[:, 0], at_poses.second[:, 0])
+    turning = turning_points(linkage, sides, driver)
     with np.errstate(invalid="ignore"):
         turning = low + np.mod(turning - low, TURN)
         inside = turning < high
     turning = np.where(inside, turning, low)
-    there = joints_at(linkage[:, None], turning, way.sides.at((slice(None), None)), driver)
+    there = joints_at(linkage[:, None], turning, sides.at((slice(None), None)), driver)
     least = np.fmin.reduce(transmission(there, driver), axis=-1)
     return np.asarray(np.minimum(least, transmission(joints, driver).min(axis=-1)))
 
 
-def _along(
-    drive: FloatArray, dead: FloatArray, same: NDArray[np.bool_], sides: Sides, any_order: bool
+def along(
+    drive: FloatArray, dead: FloatArray, same: NDArray[np.bool_], *, any_order: bool = False
 ) -> Travel:
-    """Poses at drives (n, N) on branches whose dead points are (n, k), where the sides are one."""
+    """The way through poses at drives (n, N) on branches whose dead points are (n, k).
+
+    same: (n,), whether the loops are closed on the same sides at all poses.
+    """
     start = drive[:, :1]
     with np.errstate(invalid="ignore"):
         ahead, behind = np.mod(dead - start, TURN), np.mod(start - dead, TURN)
@@ -139,7 +138,6 @@ def _along(
         in_order,
         np.where(one[:, None], start + offset, np.nan),
         np.where(full[:, None], np.inf, room),
-        sides,
     )
 
 

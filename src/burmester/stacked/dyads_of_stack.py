@@ -22,18 +22,24 @@ from burmester.dyads.selection import (
 )
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.dyad import RR, Dyad
+from burmester.fourbar.dyad import RR
 from burmester.numerics.bundles import take
 from burmester.stacked.answers import Depth, DyadRows, Outcome, StackedAnswers, Status
-from burmester.stacked.plain_tasks import computable, plain_tasks
 from burmester.stacked.task_stack import TaskStack
-from burmester.synthesis.dyad_search import Searched, dyads_of_tasks, exact_dyads, search_dyads
+from burmester.synthesis.dyad_search import (
+    Searched,
+    dyads_of_motion,
+    dyads_of_tasks,
+    exact_dyads,
+    search_dyads,
+)
 from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import NEAR_DIGITS, dyad_advice
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import Undetermined
-from burmester.tasks.motion_task import CONDITIONS, Task
+from burmester.tasks.motion_task import CONDITIONS
 from burmester.tasks.options import Method, SynthesisOptions
+from burmester.tasks.plain_motions import plain_motions
 from burmester.tasks.problem import SynthesisProblem
 
 __all__ = ["Group", "groups_of"]
@@ -70,7 +76,7 @@ def groups_of(stack: TaskStack, depth: Depth) -> list[Group]:
     count = stack.poses.shape[1]
     method: Method = "exact" if count == CONDITIONS else "complete"
     method = "pencil" if depth == "pencil" else method
-    sound, fit, values = np.flatnonzero(computable(stack)), None, None
+    sound, fit, values = np.flatnonzero(stack.computable), None, None
     if count < (MIN_POSES if method == "pencil" else CONDITIONS):
         sound = sound[:0]
     some = stack[sound]
@@ -79,7 +85,7 @@ def groups_of(stack: TaskStack, depth: Depth) -> list[Group]:
         values = fit.singular_values if some.weights is None else None
     nullity, groups = np.full(len(stack), -1, dtype=np.intp), []
     if len(sound):
-        plain, known = plain_tasks(some, values)
+        plain, known = plain_motions(some.displacements, stack.resolution, values)
         nullity[sound[plain]] = known[plain]
     for index in np.flatnonzero(nullity < 0).tolist():
         problem = _looked_at(stack, index, method)
@@ -169,10 +175,10 @@ def _looked_at(stack: TaskStack, index: int, method: Method) -> SynthesisProblem
 def _special(index: int, problem: SynthesisProblem) -> Group:
     """A task whose motion itself says which dyads there are."""
     assert problem.motion is not None
-    kind, task = problem.motion.kind, problem.given
+    kind = problem.motion.kind
     if isinstance(kind, Undetermined):
         return _of_one(index, ("not determined", kind.code))
-    dyads = [FoundDyad("", each, *_miss(each, task)) for each in kind.dyads]
+    dyads = dyads_of_motion(kind, problem.given)
     given = GivenPoses.of(problem.merged().task, problem.length) if len(dyads) > 1 else None
     status: Status = "of the motion"
     told: tuple[Outcome, str] = ("special motion", kind.code)
@@ -215,9 +221,3 @@ def _of_one(
         np.array([told[1]]),
         [(index, each) for each in warnings],
     )
-
-
-def _miss(dyad: Dyad, task: Task) -> tuple[float, float]:
-    """The root mean square and the greatest distance of a dyad from the poses of a task."""
-    distance = np.abs(dyad.residual(task.poses))
-    return float(np.sqrt((distance**2).mean())), float(distance.max())

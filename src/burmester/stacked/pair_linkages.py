@@ -17,14 +17,13 @@ from burmester.fourbar.defects import Driven, Verdict, judge
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage import TYPES, grashof_numbers
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch, pin_distances
-from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.fourbar.pivot_box import extent
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
-from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
+from burmester.linkages.judged_places import NearestPlaces
+from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import shares
-from burmester.refinement.target import ONE_CIRCUIT_RATIO
 from burmester.stacked.answers import LinkageRows
 from burmester.tasks.length_per_radian import lengths_per_radian
 from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE
@@ -131,7 +130,12 @@ def _judged(
     share = shares(None if weights is None else weights[pairs.task], wanted.shape)
     here = _Here(pairs, wanted, share, unit, size)
     # On the nearer circuit first; where a linkage does not work there, elsewhere too.
-    index, rows, first = _ways(pairs.batch, wanted, share)
+    target = rows_of(wanted, RADIAN)[:, None]
+
+    def cost(rows: FloatArray) -> FloatArray:
+        return np.asarray((share[:, None] * ((rows - target) ** 2).sum(axis=-1)).sum(axis=-1))
+
+    index, rows, first = NearestPlaces.to(pairs.batch, wanted, RADIAN, cost).ways()
     told = _at_places(take(here, index[first]), rows[first], scales)
     failed = np.zeros(len(size), dtype=bool)
     failed[index[first][told.verdict != USABLE]] = True
@@ -199,30 +203,6 @@ def _at_places(here: _Here, rows: FloatArray, scales: Scales) -> LinkageRows:
     # As `FoundLinkage` has them: after assembly and circuit, before what depends on the driver.
     out.verdict[degenerate & ~np.isin(out.verdict, OF_ANY_DRIVER)] = DEGENERATE
     return out
-
-
-def _ways(
-    batch: LinkageBatch, wanted: Displacement, share: FloatArray
-) -> tuple[Indices, FloatArray, Mask]:
-    """The ways (n,) to judge linkages (k,) at poses (k, N): whose, and their places (n, N, 3).
-
-    As `linkages.judged_places` has them, and which of them is the first of each linkage: on the
-    nearer circuit.
-    """
-    rows, target = rows_of(on_circuits(batch, wanted, RADIAN), RADIAN), rows_of(wanted, RADIAN)
-    gap = np.nan_to_num(((rows - target[:, None]) ** 2).sum(axis=-1), nan=np.inf)
-    every = np.arange(len(batch))
-    near = (share[:, None] * gap).sum(axis=-1).argmin(axis=1)
-    one, best = rows[every, near], rows_of(nearest(places_of(rows, RADIAN), wanted, RADIAN), RADIAN)
-    away = np.sqrt(gap[every, near].max(axis=1))
-    least = np.sqrt(gap.min(axis=1).max(axis=1))
-    apart = (away > np.maximum(ONE_CIRCUIT_RATIO * least, ROUNDING)) & np.isfinite(least)
-    exists = np.asarray(np.isfinite(rows).all(axis=(-1, -2)))
-    none = ~exists.any(axis=1)
-    mixed = np.where(np.isfinite(least)[:, None, None], best, one)
-    index, way = np.nonzero(np.column_stack([exists, apart | none]))
-    first = way == np.where(none, 2, near)[index]
-    return index, np.concatenate([rows, mixed[:, None]], axis=1)[index, way], first
 
 
 def _better_side(verdict: Verdict) -> int:

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.motion_task import Task
+from burmester.tasks.motion_task import MOST, MOST_RATIO, MOST_TURN, Task
 from burmester.values import real_numbers
 
 __all__ = ["TaskStack"]
+
+SAFE = 1.001  # by which a task has to keep off the border of what can be computed with
 
 
 @final
@@ -87,6 +89,19 @@ class TaskStack:
     def displacements(self) -> Displacement:
         """The poses as displacements (T, N)."""
         return Displacement.from_poses(self.poses)
+
+    @property
+    def computable(self) -> NDArray[np.bool_]:
+        """Which tasks (T,) `Task` accepts, no number near the border of that, and no pose exact."""
+        reach = np.abs(self.poses[..., :2]).max(axis=(1, 2))
+        turn = np.abs(self.poses[..., 2]).max(axis=1)
+        sound = (reach <= MOST / SAFE) & (reach >= SAFE / MOST) & (turn <= MOST_TURN / SAFE)
+        if self.weights is not None:
+            least, most = self.weights.min(axis=1), self.weights.max(axis=1)
+            sound &= (least > 0) & (most * SAFE <= MOST_RATIO * least)
+        if self.exact is not None:
+            sound &= ~self.exact.any(axis=1)
+        return np.asarray(sound)
 
     def task(self, index: int) -> Task:
         """The task at an index; raises what `Task` raises."""

@@ -14,6 +14,7 @@ import time
 from collections.abc import Iterable
 from typing import Any, Final, TypeAlias
 
+from burmester.errors import BurmesterError
 from burmester.studio.parcel import as_json
 
 __all__ = ["MOST_BYTES", "PROTOCOL", "TOKEN_S", "Access", "is_loopback", "refusal"]
@@ -149,8 +150,7 @@ def is_loopback(host: str) -> bool:
 
 def refusal(status: int, why: str, help: str | None = None) -> bytes:
     """Why something is refused, as messages are told."""
-    message = {"code": str(status), "message": why, "where": None, "why": None, "help": help}
-    return as_json({"messages": [message]})
+    return as_json({"messages": [BurmesterError(str(status), why, help=help).to_dict()]})
 
 
 def _require_json(headers: Headers) -> None:

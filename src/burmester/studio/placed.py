@@ -51,8 +51,7 @@ def placed(task: Task, pivots: Any, options: SynthesisOptions, frames: int) -> d
     try:
         judged = judge_linkage(task, Linkage(*dyads), options)
     except InputError as error:
-        said = {"code": error.code, "message": error.message, "where": None}
-        return {**answer, "messages": [{**said, "why": error.why, "help": error.help}]}
+        return {**answer, "messages": [error.to_dict()]}
     first = judged.linkages[0]
     return {
         **answer,

@@ -12,7 +12,7 @@ import json
 from collections.abc import Callable
 from typing import Any, Final, Protocol, TypeAlias
 
-from burmester.errors import BurmesterError
+from burmester.errors import BurmesterError, InputError
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.result import json_line, message_data, synthesis_data
 from burmester.io.saved import read_result
@@ -247,7 +247,7 @@ def _json(data: object) -> Answer:
 
 
 def _not_followed(why: str) -> Answer:
-    message = {"code": "E157", "message": why, "where": None, "why": None, "help": None}
+    message = InputError("E157", why).to_dict()
     whole = why.startswith(NEVER)  # not only now: nothing of this synthesis can be followed
     return {"kind": "refused"}, as_json({"messages": [message], "solve": True, "whole": whole})
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from burmester.errors import InputError
 from burmester.studio.access import PROTOCOL
 from burmester.studio.parcel import as_json, from_json
 from burmester.studio.workers import Parcel, Worker, WorkerEndedError
@@ -192,8 +193,7 @@ class Session:
         return lambda text: self._house.later(self._tell(n, "progress", text=text))
 
     async def _refuse(self, n: int, why: str) -> None:
-        message = {"code": "400", "message": why, "where": None, "why": None, "help": None}
-        await self._send(n, "refused", as_json({"messages": [message]}))
+        await self._send(n, "refused", as_json({"messages": [InputError("400", why).to_dict()]}))
 
     async def _tell(self, n: int, kind: str, **more: Any) -> None:
         with _if_open():
@@ -215,5 +215,4 @@ def _if_open() -> AbstractContextManager[None]:
 
 
 def _solve_first(why: str) -> bytes:
-    message = {"code": "E157", "message": why, "where": None, "why": None, "help": None}
-    return as_json({"messages": [message], "solve": True})
+    return as_json({"messages": [InputError("E157", why).to_dict()], "solve": True})

@@ -16,6 +16,7 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from typing import Any, TypeAlias
 
+from burmester.errors import BurmesterError
 from burmester.studio.parcel import LENGTHS, lengths, packed
 
 __all__ = ["Parcel", "Turns", "Worker", "WorkerEndedError", "Workers"]
@@ -42,7 +43,7 @@ class WorkerEndedError(Exception):
         if self.code is not None and self.code < 0:  # as POSIX has it
             why = f"signal {-self.code} ended it; a system that is short of memory does that"
         help = "try it once more; another process takes its place"
-        return {"code": "503", "message": str(self), "where": None, "why": why, "help": help}
+        return BurmesterError("503", str(self), why=why, help=help).to_dict()
 
 
 class Worker:

@@ -30,6 +30,8 @@ from burmester.dyads.selection import (
 )
 from burmester.numerics.bundles import take
 from burmester.tasks.limits import Limits
+from burmester.tasks.motion_kinds import MotionKind
+from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Method
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import Pair
@@ -38,6 +40,7 @@ __all__ = [
     "LINKAGE_QUADRICS",
     "DyadSearch",
     "Searched",
+    "dyads_of_motion",
     "dyads_of_tasks",
     "exact_dyads",
     "search_dyads",
@@ -149,6 +152,16 @@ def _under_conditions(problem: SynthesisProblem) -> DyadSearch:
         dyads += [replace(each, limits=number if len(fits) > 1 else 0) for each in found]
     numbered = tuple(replace(each, id=f"D{i}") for i, each in enumerate(dyads, start=1))
     return DyadSearch(fits, numbered, len(numbered), left_out)
+
+
+def dyads_of_motion(kind: MotionKind, task: Task) -> tuple[FoundDyad, ...]:
+    """The dyads that a special motion itself tells, with their distances from the poses."""
+    out = []
+    for number, dyad in enumerate(kind.dyads, start=1):
+        distance = np.abs(dyad.residual(task.poses))
+        rms, worst = float(np.sqrt((distance**2).mean())), float(distance.max())
+        out.append(FoundDyad(f"D{number}", dyad, rms, worst))
+    return tuple(out)
 
 
 def exact_dyads(nullity: int | NDArray[np.int_], count: int) -> NDArray[np.int_]:

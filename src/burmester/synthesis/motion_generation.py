@@ -14,13 +14,13 @@ from burmester.diagnosis.checks import diagnose, disagreement
 from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads, best_dyads
-from burmester.dyads.selection import FoundDyad, found_dyads
+from burmester.dyads.selection import found_dyads
 from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import Dyad
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import limited, step, time_for
-from burmester.synthesis.dyad_search import DyadSearch, search_dyads
+from burmester.synthesis.dyad_search import DyadSearch, dyads_of_motion, search_dyads
 from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import (
     dyad_advice,
@@ -240,7 +240,12 @@ def _no_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     """Too few conditions, and no linkage that meets them within the limits."""
     from burmester.synthesis.family_outcome import none_within_limits  # noqa: PLC0415  seldom
 
-    return Synthesis(problem, none_within_limits(problem), warnings=tuple(findings))
+    outcome = none_within_limits(problem)
+    if problem.task.timing is not None:
+        from burmester.synthesis.timed_poses import of_timed_drivers  # noqa: PLC0415  the same
+
+        outcome = of_timed_drivers(problem, outcome)
+    return Synthesis(problem, outcome, warnings=tuple(findings))
 
 
 def _within_digits(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
@@ -263,12 +268,6 @@ def _within_digits(problem: SynthesisProblem, findings: Sequence[Advice]) -> Syn
     return Synthesis(problem, outcome, search.dyads, linkages, warnings, search.fits)
 
 
-def _miss(dyad: Dyad, task: Task) -> tuple[float, float]:
-    """The root mean square and the greatest distance of a dyad from the poses of a task."""
-    residual = np.abs(dyad.residual(task.poses))
-    return float(np.sqrt((residual**2).mean())), float(residual.max())
-
-
 def _dyad_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis:
     """Infinitely many dyads, and no pair of them that meets the poses: those of one limit."""
     task, missing, dyads = problem.task, problem.missing_conditions, []
@@ -286,9 +285,7 @@ def _special_motion(problem: SynthesisProblem, findings: Sequence[Advice]) -> Sy
     """A special motion: what is certain of it is the whole answer."""
     assert problem.motion is not None
     kind, task = problem.motion.kind, problem.given
-    dyads = []
-    for number, dyad in enumerate(kind.dyads, start=1):
-        dyads.append(FoundDyad(f"D{number}", dyad, *_miss(dyad, task)))
+    dyads = dyads_of_motion(kind, task)
     pairs = list(combinations(dyads, 2))
     if task.timing is not None:  # either may be the driver
         pairs += [pair[::-1] for pair in pairs]
@@ -297,7 +294,7 @@ def _special_motion(problem: SynthesisProblem, findings: Sequence[Advice]) -> Sy
     if isinstance(kind, Rest | FewPoses):  # these outcomes name the repeated poses themselves
         findings = [each for each in findings if each.code != "W208"]
     warnings = (*findings, *linkage_advice(task, linkages, outcome.code))
-    return Synthesis(problem, outcome, tuple(dyads), linkages, warnings)
+    return Synthesis(problem, outcome, dyads, linkages, warnings)
 
 
 def _linkages(

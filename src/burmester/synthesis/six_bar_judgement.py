@@ -11,9 +11,9 @@ from burmester.requirements.table import cured
 from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
+from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.sixbar.search_space import FEWEST, POSES, require_kept
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
-from burmester.sixbar.watt import BARS, LINKS, Drive, WattLinkage
 from burmester.synthesis.judgement import exact_note
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.synthesis.time_limit import with_time_limit
@@ -24,7 +24,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import error_bounds, nearness
 from burmester.wording import figure, listed
 
-__all__ = ["judge_six_bar", "judged_at_poses"]
+__all__ = ["KINDS", "SixBar", "judge_six_bar", "judged_at_poses"]
 
 SAME_JOINT = 1e-6  # sizes of the motion; joints of a link that are nearer to each other are one
 FARTHEST = 1e6  # sizes of the motion; of what is longer rounding takes too many digits
@@ -32,7 +32,7 @@ FARTHEST = 1e6  # sizes of the motion; of what is longer rounding takes too many
 
 def judge_six_bar(
     task: Task,
-    linkage: WattLinkage,
+    linkage: SixBar,
     options: SynthesisOptions = SynthesisOptions(),  # noqa: B008  frozen
 ) -> Synthesis:
     """One six-bar at the poses of a task, with errors, verdict, defects and violations.
@@ -62,23 +62,26 @@ def judge_six_bar(
 
 
 def judged_at_poses(
-    linkage: WattLinkage, problem: SynthesisProblem, driver: Drive | None = None
+    linkage: SixBar, problem: SynthesisProblem, driver: object = None
 ) -> FoundSixBar:
     """A six-bar where it works, else where it is nearest; raises E112, E154 and E155.
 
-    driver: the crank that is to drive, where it works so.
+    driver: the crank that is to drive, where it works so; what is none is as nothing.
     """
     _require_links(linkage, problem)
-    if driver is not None and (found := judged_six_bar(linkage, problem, (driver,))).usable:
-        return found
+    for pivot in linkage.skeleton.drivers:
+        if linkage.driver_name(pivot) == driver:
+            found = judged_six_bar(linkage, problem, (pivot,))
+            if found.usable:
+                return found
     return judged_six_bar(linkage, problem)
 
 
-def _require_links(linkage: WattLinkage, problem: SynthesisProblem) -> None:
+def _require_links(linkage: SixBar, problem: SynthesisProblem) -> None:
     """Refuse numbers that cannot be computed with, E112, and links without length, E154."""
     task, size = problem.given, problem.motion_size
-    numbers = [np.asarray(getattr(linkage, name)) for name in linkage.__match_args__]
-    for name, value in zip(linkage.__match_args__, numbers, strict=True):
+    for name, given in linkage.numbers().items():
+        value = np.asarray(given)
         if not np.isfinite(value).all() or np.abs(value).max() > MOST:
             raise InputError(
                 "E112",
@@ -86,9 +89,10 @@ def _require_links(linkage: WattLinkage, problem: SynthesisProblem) -> None:
                 why=f"its {name.replace('_', ' ')} is {value.tolist()}",
                 help="write the lengths in another unit",
             )
-    lengths = dict(zip(BARS, linkage.lengths().tolist(), strict=True))
+    skeleton = linkage.skeleton
+    lengths = dict(zip(skeleton.bars, linkage.lengths().tolist(), strict=True))
     for bar, length in lengths.items():
-        link = next(name for name, joints in LINKS.items() if set(bar) <= set(joints))
+        link = next(name for name, own in skeleton.links.items() if set(bar) <= set(own))
         if length <= SAME_JOINT * size:
             raise InputError(
                 "E154",

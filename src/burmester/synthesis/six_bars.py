@@ -26,7 +26,7 @@ def synthesize_six_bars(
     six_bars: SixBarOptions = SixBarOptions(),  # noqa: B008  frozen
     options: SynthesisOptions = SynthesisOptions(),  # noqa: B008  frozen
 ) -> Synthesis:
-    """The best six-bars of Watt's first kind that a random search finds for a task.
+    """The best six-bars (Watt I, Stephenson I and III) that a random search finds for a task.
 
     Of `options` the time limit counts.  Where it ends the search, a warning W221 says so.
     Raises InputError E195 (poses that do not fit), E196 (what six-bars are not looked for with).

@@ -18,7 +18,7 @@ from burmester.dyads.five_poses import dyads_of_five
 from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.selection import Fit, Found, FoundDyad, found_dyads, same_dyads
 from burmester.dyads.timed_dyads import nearest_timed, timed_dyads
-from burmester.errors import Advice
+from burmester.errors import Advice, InputError
 from burmester.families.dyad_samples import drawn_dyads
 from burmester.families.open_task import OpenTask
 from burmester.fourbar.dyad import RP, RR, Dyad
@@ -31,6 +31,7 @@ from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import length_of
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem, driving_side
 from burmester.verdicts.assumptions import WIDE, Assumptions
 from burmester.verdicts.explanation import hints, in_short, meets_exactly
@@ -47,7 +48,11 @@ LINES = (1, 2)  # kinds of dyads with a line
 
 
 def near_timed_poses(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis:
-    """The linkages whose driver is at the angles of the crank, as near to the poses as can be."""
+    """The linkages whose driver is at the angles of the crank, as near to the poses as can be.
+
+    Raises InputError E123 for methods and proofs that know nothing of them.
+    """
+    _require_method(problem.options)
     problem = replace(problem, options=replace(problem.options, method="complete"))
     fits, dyads = _dyads(problem)
     sides = [[each for each in dyads if each.limits == number] for number in (1, 2)]
@@ -68,6 +73,20 @@ def near_timed_poses(problem: SynthesisProblem, findings: Sequence[Advice]) -> S
     return Synthesis(problem, outcome, listed, linkages, warnings, fits)
 
 
+def _require_method(options: SynthesisOptions) -> None:
+    """Refuse methods and proofs that know nothing of crank angles: E123."""
+    if options.method not in ("auto", "complete") or options.certify or not options.normalise:
+        option = (
+            "--certify" if options.certify else "--raw" if not options.normalise else "--method"
+        )
+        raise InputError(
+            "E123",
+            f"{option} knows nothing of the angles of the crank",
+            why="poses that are timed more than fully are met as nearly as possible, by a search",
+            help=f"leave {option} out, or the crank angles",
+        )
+
+
 def of_timed_drivers(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
     """The outcome of few poses, with the number of drivers that have the angles of the crank."""
     task = problem.task
@@ -75,10 +94,11 @@ def of_timed_drivers(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
     found = timed_dyads(task.poses, task.timing)
     if found is None:
         return outcome
-    what = f"{count(len(found), 'link')} from the ground {'has' if len(found) == 1 else 'have'}"
-    text = f"{what} these crank angles at the poses, and no other"
     if not found:
-        return Outcome("R306", f"no linkage: {text.removesuffix(', and no other')}", None)
+        help = "move a pose, or give another crank angle, or leave one blank"
+        return Outcome("R306", "no linkage: no driving link turns by these crank angles", help)
+    turns = f"{count(len(found), 'driving link')} {'turns' if len(found) == 1 else 'turn'}"
+    text = f"{turns} by these crank angles, and no other"
     return replace(outcome, message=f"{outcome.message}; {text}")
 
 

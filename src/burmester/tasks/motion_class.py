@@ -18,14 +18,12 @@ has no travel to compare errors with, so errors are compared with residuals alon
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, final
+from typing import final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.geometry import constraint_manifold
-from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray, complex_of
+from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray
 from burmester.tasks.motion_kinds import (
     FewPoses,
     General,
@@ -34,7 +32,7 @@ from burmester.tasks.motion_kinds import (
     TwoOrientations,
     Undetermined,
 )
-from burmester.tasks.motion_task import COARSE, Task
+from burmester.tasks.motion_task import Task
 from burmester.tasks.repeated_poses import (
     COORDINATE_ROUNDING,
     distinguishable,
@@ -43,11 +41,16 @@ from burmester.tasks.repeated_poses import (
     rotation_range,
     spanning,
 )
+from burmester.tasks.rotation_fit import (
+    LARGE_ROTATION,
+    RotationFit,
+    pairs_of,
+    residual_of_turn,
+    rms,
+)
 from burmester.tasks.scatter import (
-    MAX_RESIDUAL_ERRORS,
     SLIDERS,
     is_scatter,
-    max_residual_errors,
     max_scatter,
     odd_one,
 )
@@ -59,7 +62,7 @@ from burmester.tasks.special_motions import (
     TwoSliders,
 )
 
-__all__ = ["LARGE_ROTATION", "MotionClass", "classify_motion"]
+__all__ = ["MAX_COUNTED_POSES", "MotionClass", "classify_motion"]
 
 MIN_NEXT_TERM_ERRORS = 100.0  # pose errors that one more term of a model makes, where it is sure
 # Pose errors, the same where it is claimed within the digits, and the rms residual of such a model.
@@ -67,7 +70,6 @@ MIN_NEXT_TERM_ERRORS = 100.0  # pose errors that one more term of a model makes,
 LIKELY_NEXT_TERM_ERRORS, LIKELY_RMS_ERRORS = 20.0, 1.0
 # Scatter over the travel of M's origin: at most so much far from the pin, at least so much at it.
 FAR_SHARE, PIN_SHARE = 0.02, 0.4
-LARGE_ROTATION = 0.1  # radians, rms; as large a one shows by itself whether it is about a point
 MAX_COUNTED_POSES = 6  # that can be told apart; the class does not depend on more
 
 
@@ -116,18 +118,12 @@ def classify_motion(task: Task) -> MotionClass:
     Formula `rotation-and-sliders` of the theory.
     """
     first, group = repeats_in_sequence(task.poses, task.free_angles)
-    motion = _RotationFit.of(task.poses[first], task.resolution)
-    canonical = Displacement(
-        _pairs_of(motion.residual / (motion.length or 1.0)), np.angle(motion.turn)
-    )
-    design = (
-        constraint_manifold.monomials(canonical.as_image_point()) * constraint_manifold.INVARIANT
-    )
-    padding = np.zeros((max(0, 8 - len(first)), 8))
+    motion = RotationFit.of(task.poses[first], task.resolution)
+    design, padding = motion.design, np.zeros((max(0, 8 - len(first)), 8))
     values = np.linalg.svd(np.concatenate([design, padding]), compute_uv=False)[::-1]
-    tolerance = _tolerance(motion)
+    tolerance = float(motion.tolerance())
     nullity = int((values <= tolerance).sum())
-    as_given = int((values <= _tolerance(motion.as_given())).sum())
+    as_given = int((values <= motion.tolerance(as_given=True)).sum())
     kind = _kind(task, first, motion, nullity, as_given)
     by_five = nullity == as_given == 3 and isinstance(kind, General | TwoOrientations)
     five = spanning(design, 5) if by_five else None
@@ -135,97 +131,12 @@ def classify_motion(task: Task) -> MotionClass:
     return MotionClass(kind, first, group, values, tolerance, nullity, five, rotation)
 
 
-# --- the poses in complex numbers, and how exactly they are known
-
-
-@final
-class _RotationFit(NamedTuple):
-    """Distinct poses as d = c + minus_m turn + residual, by least squares; bounds on their errors.
-
-    constant_angle: whether all angles are the same within their errors; then m is zero.
-    about_point: whether errors explain the residual.
-    length: the rms of the residual, which is the unit of the canonical frames; where errors explain
-        it, the spread of the poses; zero where they do not spread either.
-    """
-
-    d: ComplexArray
-    turn: ComplexArray
-    constant_angle: bool
-    about_point: bool
-    c: complex
-    minus_m: complex
-    residual: ComplexArray
-    length: float
-    position_error: float
-    turn_error: float
-    rounding: float
-    turn_rounding: float
-
-    @classmethod
-    def of(cls, poses: Displacement, resolution: tuple[float, float]) -> _RotationFit:
-        d, turn = complex_of(poses.translation), np.exp(1j * poses.angle)
-        # The travel depends on the origin of M, so errors of a large rotation count as stated.
-        large = _rms(turn - turn.mean()) >= LARGE_ROTATION
-        turns = max(1.0, float(np.abs(poses.angle).max()))
-        spread = _rms(d - d.mean())
-        position, angle = resolution
-        if spread > 0 and not large:
-            position = min(position, COARSE * spread)
-        motion = cls(
-            *(d, turn, True, False, complex(d.mean()), 0j, d - d.mean(), spread),
-            *(
-                position,
-                angle if large else min(angle, COARSE),
-                COORDINATE_ROUNDING * float(np.abs(d).max()),
-                COORDINATE_ROUNDING * turns,
-            ),
-        )
-        if np.ptp(motion.angle_offsets) <= 2 * MAX_RESIDUAL_ERRORS * motion.angle_error:
-            return motion
-        residual, c, minus_m = _rotation_residual(d, turn)
-        moving = motion._replace(
-            constant_angle=False, c=c, minus_m=minus_m, residual=residual, length=0.0
-        )
-        length = _rms(residual)
-        if length <= ROUNDING * spread or moving.explains(residual, abs(minus_m)):
-            return moving._replace(about_point=True, length=spread)
-        return moving._replace(length=length)
-
-    def as_given(self) -> _RotationFit:
-        """The same numbers taken as exact."""
-        return self._replace(position_error=0.0, turn_error=0.0)
-
-    @property
-    def angle_offsets(self) -> FloatArray:
-        """The angles from that of the first pose, in (-pi, pi]."""
-        return np.asarray(np.angle(self.turn * self.turn[0].conj()))
-
-    @property
-    def angle_error(self) -> float:
-        return max(min(self.turn_error, COARSE), ROUNDING, self.turn_rounding)
-
-    def error(self, lever: float) -> float:
-        """The error of the place of a point of M at the distance `lever` from its origin."""
-        printed = self.position_error + lever * self.turn_error
-        return max(printed, ROUNDING * self.length, self.rounding + lever * self.turn_rounding)
-
-    def explains(self, miss: ComplexArray | FloatArray, lever: float) -> bool:
-        """Whether errors alone explain the residuals (N,) of a model."""
-        return bool(np.abs(miss).max() <= max_residual_errors(len(self.d)) * self.error(lever))
-
-
-def _tolerance(motion: _RotationFit) -> float:
-    """The most that errors of the poses make of a singular value of zero."""
-    error = motion.error(abs(motion.minus_m)) / (motion.length or 1.0) + motion.angle_error
-    return float(3 * min(error, COARSE) * np.sqrt(len(motion.d) / 3))
-
-
 def _kind(
-    task: Task, first: NDArray[np.int_], motion: _RotationFit, nullity: int, as_given: int
+    task: Task, first: NDArray[np.int_], motion: RotationFit, nullity: int, as_given: int
 ) -> MotionKind:
     count, unit, distinct = task.poses.shape[0], task.length_unit, len(first)
     apart = distinguishable(
-        task.poses[first], motion.error(0.0), motion.angle_error, MAX_COUNTED_POSES
+        task.poses[first], float(motion.error(0.0)), float(motion.angle_error), MAX_COUNTED_POSES
     )
     representatives = tuple(int(i) for i in first[apart])
     kind: MotionKind = General(nullity)
@@ -246,34 +157,35 @@ def _kind(
         kind = FewPoses(count, representatives, len(representatives) == distinct)
     elif nullity > max(3, 8 - distinct):
         turned = rotation_range(task.poses.angle)
-        kind = Undetermined(nullity, as_given, count, turned, motion.length, unit)
-    elif (angles := _two_angles(motion)) is not None:
-        kind = TwoOrientations(angles, nullity)
+        kind = Undetermined(nullity, as_given, count, turned, float(motion.length), unit)
+    elif motion.two_angles[1]:
+        low, high = sorted(np.angle([motion.turn[0], motion.two_angles[0]]).tolist())
+        kind = TwoOrientations((low, high), nullity)
     return kind
 
 
 # --- the models
 
 
-def _translation(motion: _RotationFit, unit: str | None) -> MotionKind:
+def _translation(motion: RotationFit, unit: str | None) -> MotionKind:
     angle_offsets = motion.angle_offsets
     angle = np.angle(motion.turn[0] * np.exp(0.5j * (angle_offsets.max() + angle_offsets.min())))
-    points, spread = motion.residual / motion.length, motion.length
-    _, _, (along, across) = np.linalg.svd(_pairs_of(points), full_matrices=False)
-    if motion.explains(_pairs_of(points) @ across * spread, 0.0):
+    points, spread = motion.residual / motion.length, float(motion.length)
+    _, _, (along, across) = np.linalg.svd(pairs_of(points), full_matrices=False)
+    if motion.explains(pairs_of(points) @ across * spread, 0.0):
         return StraightTranslation(float(angle), float(np.arctan2(along[1], along[0]) % np.pi))
     centre, radius = _circle(points)
     arm = points - centre
     # A long link rounds off more than its place does.
     rounding = motion.rounding + COORDINATE_ROUNDING * radius * spread
     if motion._replace(rounding=rounding).explains((np.abs(arm) - radius) * spread, 0.0):
-        at, size = motion.c + centre * spread, radius * spread
+        at, size = complex(motion.c) + centre * spread, radius * spread
         toward = float(np.angle(arm.mean()))
-        return CircularTranslation(float(angle), _pairs_of(at), size, 2 * spread, toward, unit)
+        return CircularTranslation(float(angle), pairs_of(at), size, 2 * spread, toward, unit)
     return FreeTranslation(float(angle))
 
 
-def _rotation(motion: _RotationFit, unit: str | None) -> Rotation | None:
+def _rotation(motion: RotationFit, unit: str | None) -> Rotation | None:
     """The rotation about one point, if the poses are one.
 
     Any small motion nearly is one; a small rotation is claimed only where it differs from Cardan
@@ -281,20 +193,19 @@ def _rotation(motion: _RotationFit, unit: str | None) -> Rotation | None:
     """
     if not motion.about_point:
         return None
-    lever, turned = abs(motion.minus_m), _rms(motion.turn - motion.turn.mean())
-    more, _, _ = _rotation_residual(motion.turn.conj(), motion.turn)
+    lever, turned = float(abs(motion.minus_m)), rms(motion.turn - motion.turn.mean())
+    more, _, _ = residual_of_turn(motion.turn.conj(), motion.turn)
     if turned < LARGE_ROTATION and lever * np.abs(more).max() < MIN_NEXT_TERM_ERRORS * motion.error(
         lever
     ):
         return None
-    free = motion.error(lever) / turned
-    reach = abs(motion.c)
-    size = motion.length if motion.length > ROUNDING * reach else reach
-    return Rotation(_pairs_of(motion.c), _pairs_of(-motion.minus_m), free, size, unit=unit)
+    free, reach = float(motion.error(lever) / turned), float(abs(motion.c))
+    size = float(motion.length) if motion.length > ROUNDING * reach else reach
+    return Rotation(pairs_of(motion.c), pairs_of(-motion.minus_m), free, size, unit=unit)
 
 
 def _scattered_rotation(
-    motion: _RotationFit,
+    motion: RotationFit,
     first: NDArray[np.int_],
     nullity: int,
     most_scatter: float,
@@ -305,26 +216,29 @@ def _scattered_rotation(
     centre, minus_m, odd = motion.c, motion.minus_m, int(odd_one(residual, turn))
     kept = np.arange(len(d)) != odd
     if odd >= 0:
-        residual, centre, minus_m = _rotation_residual(d[kept], turn[kept])
-    turned = _rms(turn[kept] - turn[kept].mean())
+        residual, centre, minus_m = residual_of_turn(d[kept], turn[kept])
+    turned = rms(turn[kept] - turn[kept].mean())
     exact = (
-        _rms(residual) <= motion.error(abs(minus_m)) if odd >= 0 else nullity > max(0, 8 - len(d))
+        rms(residual) <= motion.error(float(abs(minus_m)))
+        if odd >= 0
+        else nullity > max(0, 8 - len(d))
     )
-    if exact or turned < LARGE_ROTATION or _rms(residual) > most_scatter:
+    if exact or turned < LARGE_ROTATION or rms(residual) > most_scatter:
         return None
     # Between the two lie poses that somebody sketched: there a pin would be a guess.
-    share = _rms(residual) / (_rms(d[kept] - d[kept].mean()) or 1.0)
+    size = float(rms(d[kept] - d[kept].mean()))
+    share = rms(residual) / (size or 1.0)
     if FAR_SHARE < share < PIN_SHARE or not is_scatter(residual, turn[kept]):
         return None
     off = None
     if odd >= 0:
         off = int(first[odd]), float(abs(d[odd] - centre - minus_m * turn[odd]))
-    centres = _pairs_of(centre), _pairs_of(-minus_m)
-    free, size = _rms(residual) / turned, _rms(d[kept] - d[kept].mean())
+    centres = pairs_of(centre), pairs_of(-minus_m)
+    free = float(rms(residual) / turned)
     return Rotation(*centres, free, size, float(np.abs(residual).max()), off, unit)
 
 
-def _two_sliders(motion: _RotationFit, most_scatter: float, unit: str | None) -> TwoSliders | None:
+def _two_sliders(motion: RotationFit, most_scatter: float, unit: str | None) -> TwoSliders | None:
     """The two-slider motion or its inverse, if the poses are one.
 
     Fitted to the residual, where far origins of F and M cost no digits; neither motion has a part
@@ -333,57 +247,30 @@ def _two_sliders(motion: _RotationFit, most_scatter: float, unit: str | None) ->
     for inverse in (False, True):
         turn = motion.turn.conj() if inverse else motion.turn
         residual = -motion.residual * turn if inverse else motion.residual
-        term, term_c, term_turn = _rotation_residual(turn.conj(), turn)
-        more, _, _ = _rotation_residual(turn**2, turn)
-        power = np.vdot(term, term).real
+        term, term_c, term_turn = residual_of_turn(turn.conj(), turn)
+        more, _, _ = residual_of_turn(turn**2, turn)
+        power = float(np.vdot(term, term).real)
         if not power > 0:
             continue
         b = complex(np.vdot(term, residual) / power)
         fixed, moving = (b * term_turn, -b * term_c) if inverse else (-b * term_c, b * term_turn)
         fixed, moving = motion.c + fixed, moving - motion.minus_m
-        lever = abs(moving) + abs(b)
+        lever = float(abs(moving) + abs(b))
         shows = abs(b) * np.abs(more - term * (np.vdot(term, more) / power)).max()
-        miss, error = residual - b * term, motion.error(lever)
-        explained, scatter = motion.explains(miss, lever), 0.0
-        if not explained and _rms(miss) <= most_scatter and is_scatter(miss, turn, SLIDERS):
+        miss, error = residual - b * term, float(motion.error(lever))
+        explained, scatter = bool(motion.explains(miss, lever)), 0.0
+        if not explained and rms(miss) <= most_scatter and is_scatter(miss, turn, SLIDERS):
             explained, scatter = True, float(np.abs(miss).max())
-            error = max(error, _rms(miss))
+            error = max(error, float(rms(miss)))
         sure = shows > MIN_NEXT_TERM_ERRORS * error
-        likely = shows > LIKELY_NEXT_TERM_ERRORS * error and _rms(miss) <= LIKELY_RMS_ERRORS * error
+        likely = shows > LIKELY_NEXT_TERM_ERRORS * error and rms(miss) <= LIKELY_RMS_ERRORS * error
         if explained and (sure or likely):
             middle, rotation = orientation_arc(np.angle(motion.turn))
-            centres = _pairs_of(fixed), _pairs_of(moving)
+            centres = pairs_of(fixed), pairs_of(moving)
             phase = float(np.angle(b))
             swing = abs(b), phase, middle, rotation
             return TwoSliders(inverse, *centres, *swing, not sure, scatter, unit)
     return None
-
-
-def _two_angles(motion: _RotationFit) -> tuple[float, float] | None:
-    """The two angles of the poses, if there are no more."""
-    angle_offsets = motion.angle_offsets
-    second = motion.turn[np.abs(angle_offsets).argmax()]
-    other = np.angle(motion.turn * second.conj())
-    if (
-        np.minimum(np.abs(angle_offsets), np.abs(other)).max()
-        > 2 * MAX_RESIDUAL_ERRORS * motion.angle_error
-    ):
-        return None
-    low, high = sorted((float(np.angle(motion.turn[0])), float(np.angle(second))))
-    return low, high
-
-
-# --- kernels
-
-
-def _rotation_residual(
-    values: ComplexArray, turn: ComplexArray
-) -> tuple[ComplexArray, complex, complex]:
-    """The residual (N,) of values - (c + a turn) by least squares, with c and a."""
-    mean, mean_turn = values.mean(), turn.mean()
-    spread = turn - mean_turn
-    a = np.vdot(spread, values - mean) / np.vdot(spread, spread)
-    return values - mean - a * spread, complex(mean - a * mean_turn), complex(a)
 
 
 def _circle(points: ComplexArray) -> tuple[complex, float]:
@@ -394,12 +281,3 @@ def _circle(points: ComplexArray) -> tuple[complex, float]:
     rows = np.column_stack([2 * points.real, 2 * points.imag, np.ones(len(points))])
     x, y, s = np.linalg.lstsq(rows, np.abs(points) ** 2, rcond=None)[0]
     return complex(x, y), float(np.sqrt(s + x * x + y * y))
-
-
-def _pairs_of(values: ComplexArray | complex) -> FloatArray:
-    z = np.asarray(values)
-    return np.stack([z.real, z.imag], axis=-1)
-
-
-def _rms(values: ComplexArray) -> float:
-    return float(np.sqrt((np.abs(values) ** 2).mean()))

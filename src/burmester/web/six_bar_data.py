@@ -1,20 +1,20 @@
 """Six-bars as plain JSON data for a page: their dimensions, what they do, and the words for it.
 
-Where joints and body are follows from the dimensions and the driver's angle in closed form, and the
-page works it out itself (`widget/six_bar.mjs`).  Angles are in degrees, lengths in the task's unit.
+The page has the joints of each link in the frame of that link, and the angles of all links at some
+places along the branch; in between it turns the links until all joints meet (`widget/six_bar.mjs`).
+Angles of the driver are in degrees, others in radians, lengths in the task's unit.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from burmester.describe import six_bar_words
 from burmester.io.result import message_data
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import RULE, SixBars
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.notation import least_angle, length_of
@@ -22,15 +22,20 @@ from burmester.web.data import poses_report, scene_of
 from burmester.web.image_space import chart_of
 from burmester.wording import figure
 
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
+
 __all__ = ["six_bar_report"]
 
 SCHEMA: Final = "burmester.six-bar-report/1"
 FRAMES: Final = (
-    "The frame of the coupler has its origin at C, and E on its x axis; that of the second crank "
-    "its origin at B, and D on its x axis. F is the ground, M the body. The first loop transmits "
-    "where the coupler meets the crank that is driven, the second one at H, from the floating link "
-    "to the body."
+    "F is the ground, M the body. The frame of another link has its origin at one of its joints, "
+    "and another one on its x axis. Links transmit by the angle between them at a joint that both "
+    "hold."
 )
+DIGITS: Final = 7  # decimals of these angles, from which the page goes on
+STEPS: Final = 60  # for each turn of the driver: places along a branch
+END: Final = 2e-5  # of a branch; nearer to a dead point rounding decides whether loops are closed
 
 
 def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
@@ -70,29 +75,37 @@ def _best(synthesis: Synthesis, best: FoundSixBar) -> list[str]:
 
 
 def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
-    linkage, met = found.linkage, six_bar_words.met(synthesis, found)
+    skeleton, frames, met = found.skeleton, found.frames, six_bar_words.met(synthesis, found)
+    outlines = skeleton.corners(frames, found.carries)
     low, high = (math.degrees(each) for each in found.drive_range)
     below, above = np.degrees(found.room).tolist()
-    middle = (low + high) / 2
-    ends = (middle - 180, middle + 180) if found.turns_fully else (low - below, high + above)
+    middle, turn = (low + high) / 2, 180 * found.turns
+    ends = (middle - turn, middle + turn) if found.turns else (low - below, high + above)
     return {
         "id": found.id,
-        "type": found.type,
+        "type": skeleton.name,
         "usable": found.usable,
         "sound": not found.shortcomings,
-        "driver": found.driver,
         "crank": six_bar_words.driver_name(found),
-        "ground": {"A": _pair(linkage.fixed_first), "B": _pair(linkage.fixed_second)},
-        "first_crank": float(linkage.first_crank),
-        "coupler": {"D": _pair(linkage.coupler_joint), "E": [float(linkage.coupler_arm), 0.0]},
-        "second_crank": float(linkage.second_crank),
-        "crank_joint": _pair(linkage.crank_joint),
-        "floating_link": float(linkage.floating_link),
-        "body": {"E": _pair(linkage.body_joint), "H": _pair(linkage.link_joint)},
-        "sides": [float(found.sides.first), float(found.sides.second)],
+        "driver": skeleton.crank(found.driver_pivot),
+        "carries": found.carries,
+        "ground": {name: _pair(at) for name, at in frames[skeleton.ground].items()},
+        "links": [
+            {
+                "name": link,
+                "on": on,
+                "pin": pin,
+                "joints": {name: _pair(at) for name, at in frames[link].items()},
+                "outline": outlines[link],
+            }
+            for link, on, pin in skeleton.tree
+        ],
+        "closures": skeleton.closures,
+        "legs": skeleton.legs(found.driver_pivot),
+        "angles": _angles(found, *ends),
         "drive_deg": np.degrees(found.drive).tolist(),
         "ends_deg": list(ends),
-        "turns_fully": found.turns_fully,
+        "turns_fully": found.turns > 0,
         "said": {
             "story": " ".join(six_bar_words.sentences(synthesis, found)[::2]),
             "shortcomings": list(found.shortcomings),
@@ -110,6 +123,25 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
             "distances": six_bar_words.distances(found),
         },
     }
+
+
+def _angles(found: FoundSixBar, low: float, high: float) -> dict[str, list[float]]:
+    """The angles of links at places between two angles of the driver, without jumps.
+
+    Evenly, where the driver turns fully; else closer towards both ends, at which it comes to rest.
+    """
+    count = 1 + STEPS * max(1, math.ceil((high - low) / 360))
+    share = np.linspace(0, 1, count)
+    if not found.turns:
+        share = (1 - np.cos(np.pi * np.clip(share, END, 1 - END))) / 2
+    places = found.links(np.radians(low + (high - low) * share))
+    out = {}
+    for link in found.skeleton.moving:
+        angle = places[link].angle
+        known = np.flatnonzero(np.isfinite(angle))
+        near = known[np.abs(known - np.arange(count)[:, None]).argmin(axis=1)]
+        out[link] = np.round(np.unwrap(angle[near]), DIGITS).tolist()
+    return out
 
 
 def _pair(point: FloatArray) -> list[float]:

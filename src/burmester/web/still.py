@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from html import escape
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,8 +18,10 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.found import FoundSixBar
 from burmester.tasks.motion_task import Task
+
+if TYPE_CHECKING:
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = ["own_circuit", "six_bar_still", "still"]
 
@@ -73,22 +76,32 @@ def six_bar_still(found: FoundSixBar, task: Task, title: str) -> str:
     joints, place = found.joints(drive), found.body(drive)
     path = found.body(found.along(SAMPLES)).translation
     filled = 'fill="{0}" fill-opacity=".15" stroke="{0}" stroke-width="2"'
-    plates = {"CDE": LINK, "BDG": LINK, "EHM": COUPLER}
     corners = {**joints, "M": place.translation}
+    skeleton = found.skeleton
+    outlines = skeleton.corners(found.frames, found.carries)
+    plates = {each: own for each, own in outlines.items() if len(own) > 2}
     shapes = [
         *_body(task, found.body(found.drive), place),
         (f'fill="none" stroke="{CURVE}" stroke-width="1.5" stroke-dasharray="2 4"', path),
         *(
-            (filled.format(colour), np.stack([corners[name] for name in plate]))
-            for plate, colour in plates.items()
+            (
+                filled.format(COUPLER if link == found.carries else LINK),
+                np.stack([corners[name] for name in own]),
+            )
+            for link, own in plates.items()
         ),
         *(_frame(task.poses[k], task.poses) for k in range(len(found.drive))),
         *(
-            (f'fill="none" stroke="{LINK}" stroke-width="4"', np.stack([joints[p], joints[q]]))
-            for p, q in ("AC", "GH")
+            (f'fill="none" stroke="{LINK}" stroke-width="4"', np.stack([joints[at] for at in own]))
+            for link, own in outlines.items()
+            if link not in plates
         ),
     ]
-    return _svg(shapes, [(at, name in "AB") for name, at in joints.items()], title)
+    return _svg(
+        shapes,
+        [(at, name in skeleton.links[skeleton.ground]) for name, at in joints.items()],
+        title,
+    )
 
 
 def _body(

@@ -33,6 +33,7 @@ from burmester.export.escaping import dxf_text
 from burmester.export.numbers import error_within
 from burmester.export.options import MILLIMETRES, Options
 from burmester.export.parts.holes import joints_of
+from burmester.export.parts.links import GROUND
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import Assembly, Plate, assembly_of, slot_outline
 from burmester.export.parts.stock import stock_for
@@ -47,16 +48,7 @@ ezdxf: Any = import_module("ezdxf")
 
 DIGITS = 15  # of each number, those that survive arithmetic; the file has them all
 CODES = {"mm": 4, "in": 1}  # of units of length in DXF
-LINK_COLOURS = {  # by the index of AutoCAD
-    "ground": 8,
-    "driver": 1,
-    "coupler": 5,
-    "follower": 3,
-    "first-crank": 1,
-    "second-crank": 3,
-    "floating-link": 40,
-    "body-link": 150,
-}
+GROUND_COLOUR, LINK_COLOURS = 8, (1, 5, 3, 40, 150)  # by the index of AutoCAD
 LAYERS = {  # and their colours, beside those of links
     "HOLES": 7,
     "SLOTS": 7,
@@ -98,7 +90,8 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         corners = ((*each.tolist(), 0.0) for each in (low, high))
         document.modelspace().reset_extents(*corners)
         owners = dict.fromkeys(each.owner for each in assembly.plates)
-        links = {_layer(each): LINK_COLOURS[each] for each in owners}
+        colours = {GROUND: GROUND_COLOUR, **dict(zip(assembly.moving, LINK_COLOURS, strict=False))}
+        links = {_layer(each): colours[each] for each in owners}
         for name, colour in (links | LAYERS).items():
             document.layers.add(name, color=colour)
         add_style(document, sheet, size)

@@ -31,7 +31,7 @@ from burmester.export.numbers import error_within
 from burmester.export.options import Options
 from burmester.export.parts.holes import joints_of
 from burmester.export.parts.plate import moved
-from burmester.export.parts.plates import Plate, assembly_of, slot_outline
+from burmester.export.parts.plates import Assembly, Plate, assembly_of, slot_outline
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -45,6 +45,7 @@ OF_WIDTH = 0.02
 FONT_MIDDLE = 0.36  # of a font's size: middle of its capitals above the base line
 INKSCAPE = 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
 MAX_BULGE = 0.57  # bulge above which an arc is drawn as two
+COLOURS = ("#c1272d", "#0057b8", "#1b7f3b", "#b36b00", "#6b3fa0")  # of moving links
 STYLE = """
   path, circle, line { fill: none; stroke: #000; stroke-width: %s; stroke-linejoin: round }
   .driver { stroke: #c1272d } .coupler { stroke: #0057b8 } .follower { stroke: #1b7f3b }
@@ -78,7 +79,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         f'height="{_n(size[1])}mm" viewBox="{box}" role="img">',
         f"<title>{xml_text(notes[0])}</title>",
         f"<desc>{' '.join(map(xml_text, notes[1:]))}</desc>",
-        f"<style>{STYLE % (_n(hair), _n(sheet.letters))}</style>",
+        f"<style>{STYLE % (_n(hair), _n(sheet.letters))}{_colours(assembly)}</style>",
         '<g id="parts">',
     ]
     for part in sheet.parts:
@@ -115,6 +116,15 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         lines.append(_text(note, sheet.notes - [0, 1.6 * k * sheet.letters]))
     lines += ["</g>", "</svg>", ""]
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
+
+
+def _colours(assembly: Assembly) -> str:
+    """Those of links that the style does not name."""
+    return "".join(
+        f"  .{name} {{ stroke: {colour} }}\n"
+        for name, colour in zip(assembly.moving, COLOURS, strict=False)
+        if f" .{name} " not in STYLE
+    )
 
 
 def _plate(

@@ -6,22 +6,23 @@ E162 a film that cannot be drawn, or not in the memory there is
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Final, Protocol
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
-from burmester.export.coupler_motion import CouplerMotion
 from burmester.export.options import Options
-from burmester.fourbar.dyad import PR, RR
-from burmester.fourbar.linkage import Linkage
+from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.plot.style import with_unit
-from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.tasks.motion_task import Task
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
 
 __all__ = [
     "DPI",
@@ -30,7 +31,6 @@ __all__ = [
     "TALLEST",
     "Film",
     "Picture",
-    "Scene",
     "blob",
     "looks_of",
     "require_film",
@@ -38,24 +38,6 @@ __all__ = [
 ]
 
 Picture = NDArray[np.uint8]
-
-
-class Scene(Protocol):
-    """What a film shows, picture by picture.
-
-    count: the number of pictures.
-    """
-
-    count: int
-
-    def pictures(self) -> Iterator[Picture]:
-        """The pictures (rows, columns, 3), all of one size."""
-
-    def marks(self, numbers: NDArray[np.intp]) -> tuple[tuple[int, int], FloatArray]:
-        """The width and height of pictures, and where the mark is in pictures of these numbers.
-
-        (n, 2), pixels to the right and upwards from the lower left corner.
-        """
 
 
 MARK_COLOUR: Final = "#F0E442"  # of the followed pivot; nothing else comes near this colour
@@ -123,57 +105,69 @@ def looks_of(count: int) -> NDArray[np.intp]:
 
 
 @dataclass(frozen=True)
-class Film:
-    """A film that is to be drawn: its motion, picture by picture, and the size of the pictures."""
+class Film(ABC):
+    """A film that is to be drawn: what moves, picture by picture, and the size of the pictures.
 
-    chosen: FoundLinkage
+    id, type, task: of what moves.
+    """
+
+    id: str
+    type: str
+    task: Task
     width: int
     count: int
 
-    @cached_property
-    def motion(self) -> CouplerMotion:
-        """The place of the coupler in each picture."""
-        share, whole = (
-            np.arange(self.count) / self.count,
-            CouplerMotion.of(self.chosen, 2).turns_fully,
-        )
-        if not whole:
-            share = there_and_back(self.count)
-        return CouplerMotion.of(self.chosen, share, whole)
+    @property
+    @abstractmethod
+    def places(self) -> Displacement:
+        """The place (count,) of the body in each picture."""
 
     @property
-    def linkage(self) -> Linkage:
-        """The driver first."""
-        return self.chosen.driver_first
+    @abstractmethod
+    def at_poses(self) -> Displacement:
+        """The place (N,) of the body for each pose; nan where it reaches none."""
+
+    @property
+    @abstractmethod
+    def parameter(self) -> FloatArray:
+        """How far the motion is in each picture (count,)."""
+
+    @property
+    @abstractmethod
+    def full_turn(self) -> bool:
+        """Whether the motion is one whole turn, the last place the first one again."""
+
+    @property
+    @abstractmethod
+    def reached(self) -> NDArray[np.bool_]:
+        """Whether the motion goes through each pose (N,)."""
+
+    @abstractmethod
+    def followed(self, number: NDArray[np.intp]) -> FloatArray:
+        """The driver's moving pivot (n, 2) in F, which is marked, in pictures."""
+
+    @abstractmethod
+    def drive_text(self, number: int) -> str:
+        """Where the driver is in a picture."""
+
+    @abstractmethod
+    def drawn(self, ax: Axes, number: int) -> list[Artist]:
+        """Draw the linkage as it is in a picture."""
+
+    @abstractmethod
+    def curve(self, ax: Axes) -> list[Line2D]:
+        """Draw the path of the body's origin."""
 
     @property
     def outline(self) -> FloatArray | None:
         """The corners (n, 2) of the body, in M, where the task has them."""
-        body = self.chosen.task.body
-        return None if body is None else body.vertices
+        return None if self.task.body is None else self.task.body.vertices
 
-    @cached_property
+    @property
     def grown(self) -> NDArray[np.intp]:
         """How many pictures' points (count,) the path has."""
-        s, many = self.motion.parameter, np.arange(1, self.count + 1)
-        return np.minimum(
-            many, self.count if self.motion.full_turn else np.abs(s - s[0]).argmax() + 1
-        )
-
-    def followed(self, number: NDArray[np.intp]) -> FloatArray:
-        """The driver's moving pivot (n, 2) in F, or the body's origin after an RP, in pictures."""
-        places, first = self.motion.places[number], self.linkage.first
-        return places.act(first.moving_pivot) if isinstance(first, RR | PR) else places.translation
-
-    def drive_text(self, number: int) -> str:
-        """Where the driver is in a picture."""
-        motion = self.motion
-        value = float(motion.driver_coordinate[number])
-        if not motion.circuit.loop.turns:
-            return with_unit(f"driver {value:.4g}".replace("-", "−"), self.chosen.unit)
-        return (
-            f"driver {math.degrees(value) % 360 if motion.full_turn else math.degrees(value):5.1f}°"
-        )
+        s, many = self.parameter, np.arange(1, self.count + 1)
+        return np.minimum(many, self.count if self.full_turn else np.abs(s - s[0]).argmax() + 1)
 
 
 def blob(picture: Picture) -> tuple[float, float]:

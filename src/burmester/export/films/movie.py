@@ -24,9 +24,10 @@ from PIL import Image
 
 from burmester import plot
 from burmester.errors import BurmesterError, InputError
-from burmester.export.films.film import Film, Picture, Scene, blob, looks_of, require_film
-from burmester.export.films.linkage_scene import LinkageScene
-from burmester.export.films.six_bar_scene import SixBarScene
+from burmester.export.films.film import Film, Picture, blob, looks_of, require_film
+from burmester.export.films.four_bar_film import FourBarFilm
+from burmester.export.films.scene import marks, pictures
+from burmester.export.films.six_bar_film import SixBarFilm
 from burmester.synthesis.result import Candidate
 from burmester.verdicts.found_linkage import FoundLinkage
 
@@ -42,15 +43,15 @@ MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
 
 def write_gif(chosen: Candidate, path: Path, options: Options) -> None:
     """Write a film as an endless GIF of 25 pictures a second or fewer."""
-    scene, rate = _gif(chosen, options)
-    plot.write_gif(path, scene.pictures(), seconds=1 / rate, force=True)
+    film, rate = _gif(chosen, options)
+    plot.write_gif(path, pictures(film), seconds=1 / rate, force=True)
 
 
 def write_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     """Write a film as an MP4 that every player shows: H.264, yuv420p, made to begin at once."""
     ffmpeg = _ffmpeg()
-    pictures = _mp4(chosen, options).pictures()
-    first = next(pictures)
+    drawn = pictures(_mp4(chosen, options))
+    first = next(drawn)
     writer = ffmpeg.write_frames(
         str(path),
         (first.shape[1], first.shape[0]),
@@ -82,7 +83,7 @@ def write_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     writer.send(None)
     try:
         writer.send(np.ascontiguousarray(first))
-        for picture in pictures:
+        for picture in drawn:
             writer.send(np.ascontiguousarray(picture))
     finally:
         writer.close()
@@ -90,27 +91,27 @@ def write_mp4(chosen: Candidate, path: Path, options: Options) -> None:
 
 def check_gif(chosen: Candidate, path: Path, options: Options) -> None:
     """Read a GIF back with Pillow; raises E160 unless it shows this linkage's motion."""
-    scene, rate = _gif(chosen, options)
+    film, rate = _gif(chosen, options)
     with Image.open(path) as image:
-        times, pictures = [], []
+        times, shown = [], []
         for number in range(getattr(image, "n_frames", 1)):
             image.seek(number)
             times.append(image.info.get("duration", 0) / 1000)
-            pictures.append(np.asarray(image.convert("RGB")))
+            shown.append(np.asarray(image.convert("RGB")))
         endless = image.info.get("loop") == 0
     ends = np.cumsum(times)
     if not endless:
         raise _off("it is shown once, not again and again")
-    if abs(ends[-1] - scene.count / rate) > 1e-6:
-        raise _off(f"it lasts {ends[-1]:g} s, not {scene.count / rate:g} s")
-    looks = looks_of(scene.count)
+    if abs(ends[-1] - film.count / rate) > 1e-6:
+        raise _off(f"it lasts {ends[-1]:g} s, not {film.count / rate:g} s")
+    looks = looks_of(film.count)
     at = np.searchsorted(ends, (looks + 0.5) / rate)
-    _compare(scene, looks, [pictures[k] for k in at])
+    _compare(film, looks, [shown[k] for k in at])
 
 
 def check_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     """Read an MP4 back with ffmpeg; raises E160 unless it shows this linkage's motion."""
-    scene, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
+    film, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
     report = subprocess.run(
         [program, "-hide_banner", "-i", str(path)], capture_output=True, check=False
     ).stderr.decode(errors="replace")
@@ -120,7 +121,7 @@ def check_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     if size is None or rate is None or "h264" not in video or "yuv420p" not in video:
         raise _off(f"it is no film that every player shows: {video.strip() or 'no picture'}")
     width, height = int(size[1]), int(size[2])
-    looks, kept, count = looks_of(scene.count), list[Picture](), 0
+    looks, kept, count = looks_of(film.count), list[Picture](), 0
     arguments = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-fps_mode", "passthrough", "-"]
     with subprocess.Popen(
         [program, "-v", "error", "-i", str(path), *arguments], stdout=subprocess.PIPE
@@ -130,33 +131,33 @@ def check_mp4(chosen: Candidate, path: Path, options: Options) -> None:
             if count in looks:
                 kept.append(np.frombuffer(data, dtype=np.uint8).reshape(height, width, 3))
             count += 1
-    if count != scene.count or abs(float(rate[1]) - options.frames_per_second) > 0.01:
-        raise _off(f"it has {count} pictures at {rate[1]} a second, not {scene.count}")
-    _compare(scene, looks, kept)
+    if count != film.count or abs(float(rate[1]) - options.frames_per_second) > 0.01:
+        raise _off(f"it has {count} pictures at {rate[1]} a second, not {film.count}")
+    _compare(film, looks, kept)
 
 
-def _gif(chosen: Candidate, options: Options) -> tuple[Scene, float]:
+def _gif(chosen: Candidate, options: Options) -> tuple[Film, float]:
     """What is drawn, and its rate: a GIF counts in hundredths of a second."""
     most = min(MAX_GIF_RATE, options.frames_per_second)
     rate = 100 / math.ceil(100 / most - 1e-9) if most > 0 else most
-    return _scene(chosen, options, require_film(options, rate, kept=True)), rate
+    return _film(chosen, options, require_film(options, rate, kept=True)), rate
 
 
-def _mp4(chosen: Candidate, options: Options) -> Scene:
+def _mp4(chosen: Candidate, options: Options) -> Film:
     rate = options.frames_per_second
-    return _scene(chosen, options, require_film(options, rate, kept=False))
+    return _film(chosen, options, require_film(options, rate, kept=False))
 
 
-def _scene(chosen: Candidate, options: Options, count: int) -> Scene:
+def _film(chosen: Candidate, options: Options, count: int) -> Film:
     if not isinstance(chosen, FoundLinkage):
-        return SixBarScene(chosen, options.width_px, count)
-    return LinkageScene(Film(chosen, options.width_px, count))
+        return SixBarFilm.of(chosen, options.width_px, count)
+    return FourBarFilm.of(chosen, options.width_px, count)
 
 
-def _compare(scene: Scene, looks: NDArray[np.intp], pictures: list[Picture]) -> None:
+def _compare(film: Film, looks: NDArray[np.intp], shown: list[Picture]) -> None:
     """Raise E160 unless the followed pivot is in the pictures where the linkage has it."""
-    (width, height), wanted = scene.marks(looks)
-    for number, picture, at in zip(looks.tolist(), pictures, wanted, strict=True):
+    (width, height), wanted = marks(film, looks)
+    for number, picture, at in zip(looks.tolist(), shown, wanted, strict=True):
         if picture.shape != (height, width, 3):
             raise _off(f"its pictures are {picture.shape[1]} x {picture.shape[0]} pixels")
         seen = blob(picture)

@@ -9,7 +9,7 @@ import numpy as np
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.export.models.joints import directions
 from burmester.export.reference import Reference
-from burmester.export.six_bar_reference import SixBarReference
+from burmester.export.six_bar_reference import SixBarReference, plates_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
@@ -68,37 +68,35 @@ def tree_of(model: DynamicModel, pose: int) -> Tree:
 
 
 def _six_bar(reference: SixBarReference, start: dict[str, float]) -> Tree:
-    """Two cranks on the ground, with coupler and body on the first, open at D and H."""
-    own = reference.found.linkage
-    turn = start["body-link"]
-    body = Body(
-        "body-link",
-        np.array([float(own.coupler_arm), 0.0]) - _turned(own.body_joint, turn),
-        turn,
-        own.body_joint,
-        None,
-        (Site("body", ORIGIN), Site("loop_H_a", own.link_joint)),
-    )
-    end = np.array([float(own.first_crank), 0.0])
-    site = Site("loop_D_a", own.coupler_joint)
-    coupler = Body("coupler", end, start["coupler"], ORIGIN, None, (site,), (body,))
-    end = np.array([float(own.floating_link), 0.0])
-    site, turn = Site("loop_H_b", end), start["floating-link"]
-    floating = Body("floating-link", own.crank_joint, turn, ORIGIN, None, (site,))
-    end = np.array([float(own.second_crank), 0.0])
-    site = Site("loop_D_b", end)
-    first, second = start["first-crank"], start["second-crank"]
-    return Tree(
-        (Site("", own.fixed_first), Site("", own.fixed_second)),
-        (
-            Body("first-crank", own.fixed_first, first, ORIGIN, None, (), (coupler,)),
-            Body("second-crank", own.fixed_second, second, ORIGIN, None, (site,), (floating,)),
-        ),
-        (
-            Loop("loop_D", ("coupler", "second-crank")),
-            Loop("loop_H", ("body-link", "floating-link")),
-        ),
-    )
+    """The links on those nearer to the ground, open at the joints that close its loops."""
+    found, plates = reference.found, plates_of(reference.found.skeleton)
+    skeleton, frames = found.skeleton, found.frames
+    marks: dict[str, list[Site]] = {plates[link]: [] for link in skeleton.links}
+    marks[plates[found.carries]].append(Site("body", ORIGIN))
+    loops = []
+    for joint, *pair in skeleton.closures:
+        name = f"loop_{joint}"
+        for link, end in zip(pair, "ab", strict=True):
+            marks[plates[link]].append(Site(f"{name}_{end}", frames[link][joint]))
+        loops.append(Loop(name, (plates[pair[0]], plates[pair[1]])))
+
+    def on(parent: str) -> tuple[Body, ...]:
+        return tuple(
+            Body(
+                plates[link],
+                frames[parent][joint] - _turned(frames[link][joint], start[plates[link]]),
+                start[plates[link]],
+                frames[link][joint],
+                None,
+                tuple(marks[plates[link]]),
+                on(link),
+            )
+            for link, under, joint in skeleton.tree
+            if under == parent
+        )
+
+    ground = frames[skeleton.ground].values()
+    return Tree(tuple(Site("", at) for at in ground), on(skeleton.ground), tuple(loops))
 
 
 def _four_bar(reference: Reference, place: Displacement, start: FloatArray) -> Tree:

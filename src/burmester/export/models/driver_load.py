@@ -13,13 +13,12 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.export.models.mass_properties import MassProperties
-from burmester.export.parts.six_bar_links import frames_of
+from burmester.export.six_bar_reference import plates_of
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.instantaneous import velocity
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.sixbar.watt import JOINTS
 
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
@@ -27,6 +26,7 @@ if TYPE_CHECKING:
 __all__ = ["DIRECTIONS", "STANDARD_GRAVITY", "DriverLoad", "require_up"]
 
 STANDARD_GRAVITY: Final = 9.80665  # m/s²
+LOCKED: Final = 1e14  # condition of the equations of motion from which on a linkage is locked
 DIRECTIONS: Final[Mapping[str, FloatArray]] = {
     f"{sign}{axis}": (-1.0 if sign else 1.0) * np.eye(3)[number]
     for sign in ("", "-")
@@ -68,32 +68,38 @@ class DriverLoad(NamedTuple):
         cls, found: FoundSixBar, bodies: Mapping[str, MassProperties], up: FloatArray
     ) -> DriverLoad:
         """The load of a six-bar (metres) at its poses; up: (3,), a direction of F."""
-        frames, at = frames_of(found, found.drive), found.joints(found.drive)
-        a, b, c, d, e, g, h = (complex_of(at[name]) for name in JOINTS)
-        # The first loop turns as its bars say, then the second.
-        if found.driver == "first":
-            first = np.ones_like(found.drive)
-            coupler, second = _closing(first * (c - a), c - d, d - b)
-        else:
-            second = np.ones_like(found.drive)
-            coupler, first = _closing(second * (d - b), d - c, c - a)
-        end = first * (c - a) + coupler * (e - c)
-        body, floating = _closing(end - second * (g - b), e - h, h - g)
-        still = np.zeros_like(a)
-        rates = {
-            "first-crank": (still, first),
-            "coupler": (1j * first * (c - a), coupler),
-            "second-crank": (still, second),
-            "floating-link": (1j * second * (g - b), floating),
-            "body-link": (
-                1j * (end - body * (e - complex_of(frames["body-link"].translation))),
-                body,
-            ),
-        }
-        moving = [
-            (name, speed, turning, frames[name].rotate(bodies[name].centre[:2]))
-            for name, (speed, turning) in rates.items()
-        ]
+        skeleton, frames = found.skeleton, found.links(found.drive)
+        at = {name: complex_of(there) for name, there in found.joints(found.drive).items()}
+        plates, numbers = (
+            plates_of(skeleton),
+            {link: k for k, (link, *_) in enumerate(skeleton.tree)},
+        )
+        pins = {link: joint for link, _, joint in skeleton.tree}
+        # The velocity of a link's pin, a row for how fast each of the links turns: (n, 5).
+        rows = {skeleton.ground: np.zeros((len(found.drive), len(numbers)), dtype=complex)}
+
+        def velocity_of(link: str, point: ComplexArray) -> ComplexArray:
+            out = rows[link].copy()
+            if link != skeleton.ground:
+                out[:, numbers[link]] += 1j * (point - at[pins[link]])
+            return out
+
+        for link, on, joint in skeleton.tree:
+            rows[link] = velocity_of(on, at[joint])
+        driver = np.eye(len(numbers))[numbers[skeleton.crank(found.driver_pivot)]]
+        equations = [np.broadcast_to(driver, (len(found.drive), 1, len(numbers)))]
+        for joint, one, other in skeleton.closures:
+            apart = velocity_of(one, at[joint]) - velocity_of(other, at[joint])
+            equations.append(np.stack([apart.real, apart.imag], axis=1))
+        matrix = np.concatenate(equations, axis=1)
+        matrix[np.linalg.cond(matrix) > LOCKED] = np.nan
+        turning = np.linalg.solve(matrix, np.eye(len(numbers))[:, :1])[..., 0]
+        moving = []
+        for link, number in numbers.items():
+            rate = velocity_of(link, complex_of(frames[link].translation))
+            speed = (rate * turning).sum(axis=-1)
+            centre = frames[link].rotate(bodies[plates[link]].centre[:2])
+            moving.append((plates[link], speed, turning[:, number], centre))
         return cls._of(moving, bodies, up)
 
     @classmethod
@@ -132,15 +138,6 @@ def _side(
             return pin, 0 * places.angle, 0 * places.angle
         arm = complex_of(places.act(dyad.moving_pivot) - dyad.fixed_pivot)
         return np.zeros_like(v), (pin / arm).imag, np.angle(arm)
-
-
-def _closing(
-    end: ComplexArray, one: ComplexArray, other: ComplexArray
-) -> tuple[FloatArray, FloatArray]:
-    """The real x and y (n,) with which x one + y other is the end: how fast two bars turn."""
-    cross = (one * other.conj()).imag
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return (end * other.conj()).imag / cross, (one * end.conj()).imag / cross
 
 
 def require_up(up: str) -> FloatArray:

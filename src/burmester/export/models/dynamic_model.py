@@ -15,21 +15,15 @@ from numpy.typing import ArrayLike
 
 from burmester.export.models.bodies import INSET, METRES, Shape, parts_of_bodies, rim, shapes
 from burmester.export.models.driver_load import STANDARD_GRAVITY, DriverLoad, require_up
-from burmester.export.models.joints import (
-    FOUR_BAR_JOINTS,
-    SIX_BAR_JOINTS,
-    JointMotion,
-    require_bodies,
-    six_bar_driver,
-)
+from burmester.export.models.joints import JointMotion, require_bodies
 from burmester.export.models.mass_properties import MassProperties, require_density
 from burmester.export.options import Options
-from burmester.export.parts.four_bar_links import scaled
+from burmester.export.parts.four_bar_links import FOUR_BAR_LINKS, scaled
 from burmester.export.parts.links import GROUND
 from burmester.export.parts.plate import SLOT_RUN_OUT
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference, require_equal
-from burmester.export.six_bar_reference import SixBarReference
+from burmester.export.six_bar_reference import SixBarReference, plates_of
 from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
@@ -71,14 +65,17 @@ class DynamicModel:
     def of(cls, chosen: Candidate, options: Options) -> Self:
         """The model of a linkage made of plates; raises E162 and E163."""
         reference: Reference | SixBarReference
-        names, driver = FOUR_BAR_JOINTS, "driver"
+        names: tuple[str, ...] = FOUR_BAR_LINKS
+        driver = "driver"
         axes = np.zeros((len(names), 2))
         if not isinstance(chosen, FoundLinkage):
             reference = SixBarReference.of(chosen, options, "m")
-            names, driver = tuple(SIX_BAR_JOINTS), six_bar_driver(chosen)
-            joints = JointMotion.of_six_bar(reference.found)
-            axes = np.zeros((len(names), 2))
-            axes[names.index("body-link")] = reference.found.linkage.body_joint
+            found = reference.found
+            skeleton, plates = found.skeleton, plates_of(found.skeleton)
+            names = tuple(plates[link] for link, _, _ in skeleton.tree)
+            driver = plates[skeleton.crank(found.driver_pivot)]
+            joints = JointMotion.of_six_bar(found)
+            axes = np.array([found.frames[link][joint] for link, _, joint in skeleton.tree])
         else:
             reference = Reference.of(chosen, options, "m")
             require_bodies(chosen, reference)

@@ -18,8 +18,6 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.export.coupler_motion import CouplerMotion
-from burmester.export.parts.links import GROUND
-from burmester.export.parts.six_bar_links import frames_of
 from burmester.export.reference import Reference
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -29,25 +27,13 @@ if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
 __all__ = [
-    "FOUR_BAR_JOINTS",
-    "SIX_BAR_JOINTS",
     "JointMotion",
     "along_slot",
     "directions",
     "ground_joint",
     "require_bodies",
-    "six_bar_driver",
 ]
 
-FOUR_BAR_JOINTS: Final[tuple[str, ...]] = ("driver", "coupler", "follower")
-# The moving links of a six-bar, each with the one that it turns on.
-SIX_BAR_JOINTS: Final = {
-    "first-crank": GROUND,
-    "coupler": "first-crank",
-    "body-link": "coupler",
-    "second-crank": GROUND,
-    "floating-link": "second-crank",
-}
 LOOKS: Final = 721  # places along the motion at which the joints' range is found
 TURN: Final = 2 * np.pi
 
@@ -138,26 +124,17 @@ class JointMotion(NamedTuple):
 
     @classmethod
     def of_six_bar(cls, found: FoundSixBar) -> Self:
-        """The joints of `SIX_BAR_JOINTS`, without jumps from place to place."""
+        """The joints of a six-bar's links with those that they turn on, without jumps."""
         drive = np.union1d(np.linspace(*found.drive_range, LOOKS), found.drive)
-        frames = frames_of(found, drive)
-        rows = np.unwrap(
-            np.column_stack(
-                [frames[link].angle - frames[on].angle for link, on in SIX_BAR_JOINTS.items()]
-            ),
-            axis=0,
-        )
-        driver = list(SIX_BAR_JOINTS).index(six_bar_driver(found))
+        places, tree = found.links(drive), found.skeleton.tree
+        turned = [places[link].angle - places[on].angle for link, on, _ in tree]
+        rows = np.unwrap(np.column_stack(turned), axis=0)
+        driver = [link for link, _, _ in tree].index(found.skeleton.crank(found.driver_pivot))
         rows[:, driver] += TURN * np.round((drive[0] - rows[0, driver]) / TURN)
-        turning = np.full(len(SIX_BAR_JOINTS), fill_value=True)
+        turning = np.full(len(tree), fill_value=True)
         poses = np.searchsorted(drive, found.drive)
         low, high = rows.min(axis=0), rows.max(axis=0)
         return cls(rows[poses], low, high, turning, True, found.turns_fully)
-
-
-def six_bar_driver(found: FoundSixBar) -> str:
-    """The link of a six-bar that a motor drives."""
-    return f"{found.driver}-crank"
 
 
 def _coordinates(reference: Reference, places: Displacement) -> FloatArray:

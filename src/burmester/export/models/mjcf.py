@@ -35,17 +35,8 @@ __all__ = ["check", "write"]
 
 LEAST = 1e-14  # kg and kg m²: smaller ones of a body are raised to it, for MuJoCo needs 1e-15
 SITE_SIZE = 0.02  # of the span: marks of pivots
-COLOURS = {
-    "driver": ".76 .15 .18 1",
-    "coupler": "0 .34 .72 1",
-    "follower": ".11 .5 .25 1",
-    "first-crank": ".76 .15 .18 1",
-    "second-crank": ".11 .5 .25 1",
-    "floating-link": ".75 .42 0 1",
-    "body-link": ".45 .25 .65 1",
-    "ground": ".4 .4 .4 1",
-    "body": "0 .47 .35 1",
-}
+GROUND_COLOUR, OUTLINE_COLOUR = ".4 .4 .4 1", "0 .47 .35 1"
+COLOURS = (".76 .15 .18 1", "0 .34 .72 1", ".11 .5 .25 1", ".75 .42 0 1", ".45 .25 .65 1")
 SEEN_ONLY = ' contype="0" conaffinity="0" group="1"'
 
 
@@ -160,7 +151,7 @@ def _small(model: DynamicModel) -> list[str]:
 
 def _ground(model: DynamicModel, marks: Iterable[Site]) -> list[str]:
     """The ground's plates and pins, and marks of its pivots."""
-    return [f"    {each}" for each in _geoms(model.shapes["ground"], "ground")] + [
+    return [f"    {each}" for each in _geoms(model.shapes["ground"], GROUND_COLOUR)] + [
         f"    {_site(each)}" for each in marks
     ]
 
@@ -207,12 +198,12 @@ def _solid(model: DynamicModel, name: str) -> list[str]:
     inertia = " ".join(number(mass.inertia[each]) for each in order)
     return [
         f'<inertial pos="{centre}" mass="{number(mass.mass)}" fullinertia="{inertia}"/>',
-        *_geoms(model.shapes[name], name),
-        *(_geoms(model.outline, "body", SEEN_ONLY) if name == model.made.body else []),
+        *_geoms(model.shapes[name], COLOURS[model.made.moving.index(name)]),
+        *(_geoms(model.outline, OUTLINE_COLOUR, SEEN_ONLY) if name == model.made.body else []),
     ]
 
 
-def _geoms(shapes: list[Shape], owner: str, more: str = "") -> list[str]:
+def _geoms(shapes: list[Shape], colour: str, more: str = "") -> list[str]:
     lines = []
     for shape in shapes:
         half = [number(each / 2) for each in shape.size]
@@ -221,7 +212,7 @@ def _geoms(shapes: list[Shape], owner: str, more: str = "") -> list[str]:
         x, y, z = map(number, shape.centre)
         lines.append(
             f'<geom type="{shape.kind}" pos="{x} {y} {z}"{turn} size="{size}" '
-            f'rgba="{COLOURS[owner]}"{more}/>'
+            f'rgba="{colour}"{more}/>'
         )
     return lines
 

@@ -19,10 +19,11 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["four_bar_links", "scaled"]
+__all__ = ["FOUR_BAR_LINKS", "four_bar_links", "scaled"]
 
 MOTION_SAMPLES = 721  # places along the motion at which plates are compared
 SIDES = ("driver", "follower")
+FOUR_BAR_LINKS = ("driver", "coupler", "follower")
 
 
 def four_bar_links(linkage: Linkage, places: Displacement) -> Links:
@@ -75,6 +76,7 @@ def four_bar_links(linkage: Linkage, places: Displacement) -> Links:
         _frames(places, arms),
         _frames(motion, arms),
         "coupler",
+        FOUR_BAR_LINKS,
         arms,
         tuple(lengths),
         tuple(spacings),

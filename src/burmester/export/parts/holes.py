@@ -12,9 +12,8 @@ import numpy as np
 from burmester.export.parts.links import GROUND
 from burmester.export.parts.plates import Assembly
 from burmester.export.reference import Reference
-from burmester.export.six_bar_reference import SIX_BAR_PLATES, SixBarReference
+from burmester.export.six_bar_reference import SixBarReference
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.watt import JOINTS
 
 __all__ = ["Joint", "axes_of", "axis_away", "joints_of", "rim_away"]
 
@@ -40,10 +39,9 @@ def joints_of(reference: Reference | SixBarReference, made: Assembly, pose: int)
     names = [plate.name for plate in made.plates]
     ground = tuple(plate.name for plate in made.plates if plate.owner == GROUND)
     if isinstance(reference, SixBarReference):
-        at = dict(zip(JOINTS, reference.joints[pose - 1], strict=True))
         return [
-            Joint(ground if name == GROUND else (name,), at[each])
-            for name, own in SIX_BAR_PLATES.items()
+            Joint(ground if name == GROUND else (name,), reference.at[each][pose - 1])
+            for name, own in reference.plates.items()
             for each in own
         ]
     joints = list[Joint]()

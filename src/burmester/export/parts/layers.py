@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
@@ -30,10 +31,19 @@ CLEARANCE = 0.05  # of the width: least distance between plates of one layer
 
 def arranged(links: Links, made: Dimensions) -> tuple[tuple[Plate, ...], tuple[Pin, ...]]:
     """The plates in the first arrangement in which nothing meets; raises E163."""
-    apart = distance(*links.features[GROUND]) >= made.hole * (1 + WALL)
+    ground, least = links.features[GROUND], made.hole * (1 + WALL)
     workshop = _Workshop(links, made)
     meetings = _Meetings(links.motion, made)
-    arrangements = [each for each in links.arrangements if len(set(each.grounds)) == 2 or apart]
+    near = [
+        (one, two)
+        for one, two in combinations(range(len(ground)), 2)
+        if distance(ground[one], ground[two]) < least
+    ]
+    arrangements = [
+        each
+        for each in links.arrangements
+        if all(each.grounds[one] != each.grounds[two] for one, two in near)
+    ]
     for bent in workshop.bends():
         for each in arrangements:
             plates, pins = workshop.plates(each, bent), workshop.pins(each)

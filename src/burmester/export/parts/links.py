@@ -80,7 +80,7 @@ class Links:
     features: of each link, the ground first: centres (1, 2) of holes, ends (2, 2) of slots, in its
     frame.  hinges: the pins.  poses, motion: the frames of links at the poses (N,), and along the
     stretch of the motion (n,) that holds them.
-    body: the link whose frame is M.
+    body: the link whose frame is M.  moving: all links that move, as their colours are chosen.
     arms: of links that turn about the ground and end at the coupler, both pivots, in F and in M.
     lengths: whose median says how large the linkage is.  spacings: of holes on moving links.
     arrangements: which layers are tried, one after the other.
@@ -91,6 +91,7 @@ class Links:
     poses: LinkPlaces
     motion: LinkPlaces
     body: str
+    moving: tuple[str, ...]
     arms: Mapping[str, tuple[FloatArray, FloatArray]]
     lengths: tuple[float, ...]
     spacings: tuple[Spacing, ...]

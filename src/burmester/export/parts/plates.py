@@ -21,7 +21,6 @@ from burmester.export.parts.plate import Pin, Plate, outline_points
 from burmester.export.parts.six_bar_links import six_bar_links
 from burmester.export.parts.stock import stock_for
 from burmester.export.reference import require_places
-from burmester.export.six_bar_reference import six_bar_scaled
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.result import Candidate
@@ -46,7 +45,7 @@ class Assembly:
     scale: millimetres per unit of the task's lengths; unit: of those.
     assumed: whether the task names no unit, nor the options, so that mm was taken.
     poses, motion: the frames of links at the poses (N,), and along the stretch of the motion (n,)
-    that holds them.  body: the link whose frame is M.
+    that holds them.  body: the link whose frame is M.  moving: all links that move.
     pose: index of the place at which the assembly is drawn.
     """
 
@@ -59,6 +58,7 @@ class Assembly:
     poses: LinkPlaces
     motion: LinkPlaces
     body: str
+    moving: tuple[str, ...]
     pose: int
 
     def plate(self, name: str) -> Plate | None:
@@ -100,6 +100,7 @@ def assembly_of(chosen: Candidate, options: Options) -> Assembly:
         links.poses,
         links.motion,
         links.body,
+        links.moving,
         options.pose - 1,
     )
 
@@ -107,7 +108,7 @@ def assembly_of(chosen: Candidate, options: Options) -> Assembly:
 def _links(chosen: Candidate, scale: float) -> Links:
     """The links of a linkage, in millimetres; raises E163."""
     if not isinstance(chosen, FoundLinkage):
-        return six_bar_links(six_bar_scaled(chosen, scale))
+        return six_bar_links(chosen.scaled(scale))
     both = chosen.driver_first
     first, second = scaled(both.first, scale), scaled(both.second, scale)
     places = chosen.error.places

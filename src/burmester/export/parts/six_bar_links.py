@@ -1,100 +1,84 @@
 """The links of a six-bar: plates with two or three holes; millimetres.
 
 Layers: 0 is the ground, and the others lie on it in the lowest stack in which nothing meets.  Where
-there is none, a second ground above holds the second crank.
+there is none, a second ground above holds some of the cranks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from itertools import combinations, product
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from burmester.export.parts.links import GROUND, Arrangement, Hinge, LinkPlaces, Links, Spacing
-from burmester.export.six_bar_reference import SIX_BAR_PLATES
-from burmester.geometry.displacement import Displacement
+from burmester.export.parts.links import Arrangement, Hinge, LinkPlaces, Links, Spacing
+from burmester.export.six_bar_reference import plates_of
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.watt import JOINTS
 
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
-__all__ = ["frames_of", "six_bar_links"]
+__all__ = ["six_bar_links"]
 
 MOTION_SAMPLES = 721  # places along the motion at which plates are compared
-AXES = {"first-crank": "AC", "coupler": "CE", "second-crank": "BD", "floating-link": "GH"}
-MOVING = tuple(name for name in SIX_BAR_PLATES if name != GROUND)
 
 
 def six_bar_links(found: FoundSixBar) -> Links:
     """The links of a six-bar, millimetres."""
     motion = np.union1d(found.along(MOTION_SAMPLES), found.drive)
-    own, origin = found.linkage, np.zeros(2)
-    ends = np.stack([own.first_crank, own.coupler_arm, own.second_crank, own.floating_link])
-    crank, arm, second, floating = np.column_stack([ends, np.zeros(4)])
-    holes = {
-        GROUND: {"A": own.fixed_first, "B": own.fixed_second},
-        "first-crank": {"A": origin, "C": crank},
-        "coupler": {"C": origin, "D": own.coupler_joint, "E": arm},
-        "second-crank": {"B": origin, "D": second, "G": own.crank_joint},
-        "floating-link": {"G": origin, "H": floating},
-        "body-link": {"E": own.body_joint, "H": own.link_joint},
-    }
-    hinges = []
-    for joint in JOINTS:
-        one, two = (name for name, joints in SIX_BAR_PLATES.items() if joint in joints)
-        on_ground = SIX_BAR_PLATES[GROUND].index(joint) if one == GROUND else None
-        hinges.append(Hinge(one, holes[one][joint], (one, two), on_ground, joint))
-    lengths = found.lengths
+    skeleton, frames, lengths = found.skeleton, found.frames, found.lengths
+    plates, ground = plates_of(skeleton), skeleton.links[skeleton.ground]
+    hinges, joined = [], []
+    for joint in skeleton.joints:
+        one, two = skeleton.links_of(joint)
+        on_ground = ground.index(joint) if joint in ground else None
+        names = plates[one], plates[two]
+        hinges.append(Hinge(names[0], frames[one][joint], names, on_ground, joint))
+        joined.append((names, on_ground))
     spacings = [
-        Spacing(f"joints {a} and {b}", f"joints {a} and {b} are at one point", lengths[a + b])
-        for name in MOVING
-        for a, b in combinations(SIX_BAR_PLATES[name], 2)
+        Spacing(f"joints {a} and {b}", f"joints {a} and {b} are at one point", lengths[bar])
+        for name in skeleton.moving
+        for a, b in combinations(skeleton.links[name], 2)
+        for bar in (a + b, b + a)
+        if bar in lengths
     ]
+
+    def places(drive: FloatArray) -> LinkPlaces:
+        return LinkPlaces({plates[link]: at for link, at in found.links(drive).items()})
+
     return Links(
-        {name: [each[None] for each in of.values()] for name, of in holes.items()},
+        {plates[link]: [at[None] for at in joints.values()] for link, joints in frames.items()},
         tuple(hinges),
-        frames_of(found, found.drive),
-        frames_of(found, motion),
-        "body-link",
+        places(found.drive),
+        places(motion),
+        plates[found.carries],
+        tuple(plates.values())[1:],
         {},
         tuple(lengths.values()),
         tuple(spacings),
-        _arrangements(),
+        _arrangements(tuple(plates.values())[1:], len(ground), tuple(joined)),
     )
 
 
-def frames_of(found: FoundSixBar, drive: FloatArray) -> LinkPlaces:
-    """The frames of the links where the driver is at angles (*,): M, and x from joint to joint."""
-    at = found.joints(drive)
-    frames = {GROUND: Displacement.identity(drive.shape), "body-link": found.body(drive)}
-    for name, joints in AXES.items():
-        start, end = tuple(joints)
-        way = at[end] - at[start]
-        frames[name] = Displacement(at[start], np.arctan2(way[..., 1], way[..., 0]))
-    return LinkPlaces(frames)
-
-
 @cache
-def _arrangements() -> tuple[Arrangement, ...]:
-    """One ground before two, then the fewest layers, then the shortest pins."""
-    joined = [
-        tuple(name for name, joints in SIX_BAR_PLATES.items() if joint in joints)
-        for joint in JOINTS
-    ]
+def _arrangements(
+    moving: tuple[str, ...], pivots: int, joined: Sequence[tuple[tuple[str, str], int | None]]
+) -> tuple[Arrangement, ...]:
+    """One ground before two, then the fewest layers, then the shortest pins.
+
+    joined: the two links of each joint, and its number among the pivots if one is the ground.
+    """
     ranked = []
-    for layers in _stacks(len(MOVING)):
-        own = dict(zip(MOVING, layers, strict=True))
-        for grounds in ((0, 0), (0, max(layers) + 1)):
-            of_joint = dict(zip(SIX_BAR_PLATES[GROUND], grounds, strict=True))
+    for layers in _stacks(len(moving)):
+        own = dict(zip(moving, layers, strict=True))
+        for grounds in product((0,), *[(0, max(layers) + 1)] * (pivots - 1)):
             pins = sum(
-                abs((of_joint[joint] if one == GROUND else own[one]) - own[two])
-                for joint, (one, two) in zip(JOINTS, joined, strict=True)
+                abs((own[one] if pivot is None else grounds[pivot]) - own[two])
+                for (one, two), pivot in joined
             )
-            rank = (grounds[1] > 0, max(layers), pins, layers)
+            rank = (max(grounds) > 0, max(layers), pins, layers)
             ranked.append((rank, Arrangement(own, grounds)))
     return tuple(each for _, each in sorted(ranked, key=lambda pair: pair[0]))
 

@@ -24,27 +24,17 @@ from burmester.export.options import Options
 from burmester.export.parts.links import GROUND
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, require_equal
-from burmester.export.six_bar_reference import SIX_BAR_PLATES, SixBarReference
+from burmester.export.six_bar_reference import SixBarReference, plates_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.sixbar.watt import JOINTS
 from burmester.synthesis.result import Candidate
 
 __all__ = ["check", "write"]
 
 NUMBERS = re.compile(r"^(\w+) = ([-+.\d\[][^;a-z]*(?:e[-+]?\d[^;a-z]*)*);", re.MULTILINE)
 MOTION_ROWS = 121  # rows of the motion
-COLOURS = {
-    "ground": "DimGray",
-    "ground_2": "DarkGray",
-    "driver": "FireBrick",
-    "coupler": "SteelBlue",
-    "follower": "SeaGreen",
-    "first_crank": "FireBrick",
-    "second_crank": "SeaGreen",
-    "floating_link": "Chocolate",
-    "body_link": "MediumPurple",
-}
+GROUNDS = {"ground": "DimGray", "ground_2": "DarkGray"}
+COLOURS = ("FireBrick", "SteelBlue", "SeaGreen", "Chocolate", "MediumPurple")  # of moving links
 MODULES = """
 // A plate around pieces of points, with round holes and slots [x1, y1, x2, y2].
 module plate(pieces, holes, slots) {
@@ -119,7 +109,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
             place = f"towards({name}_fixed, on_coupler(place, {name}_moving)) "
         else:
             place = _at(assembly, plate.owner)
-        colour = COLOURS[name]
+        colour = GROUNDS.get(name) or COLOURS[assembly.moving.index(plate.owner)]
         shown.append(f'layer({name}_layer) {place}color("{colour}") {name}();')
     for pin in assembly.pins:
         where = f"translate([{number(pin.x)}, {number(pin.y)}, 0]) pin({pin.low}, {pin.high});"
@@ -213,11 +203,15 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
 def _check_six_bar(reference: SixBarReference, values: Mapping[str, Any], tolerance: float) -> None:
     """Raise E160 where links do not meet at their joints, or joints at poses are elsewhere."""
     where: dict[str, dict[str, list[FloatArray]]] = {}
-    for link, joints in SIX_BAR_PLATES.items():
+    at, body = reference.at, plates_of(reference.found.skeleton)[reference.found.carries]
+    for link, joints in reference.plates.items():
         name = link.replace("-", "_")
         holes = np.array(values[f"{name}_holes"] + values.get(f"{name}_2_holes", []))
         require_equal(f"the number of holes of the {link}", len(holes), len(joints), 0)
-        own = "" if link == "body-link" else f"{name}_"
+        if link == GROUND:  # a second ground may hold any of them
+            pivots = np.array([at[joint][0] for joint in joints])
+            holes = holes[np.linalg.norm(holes - pivots[:, None], axis=-1).argmin(axis=-1)]
+        own = "" if link == body else f"{name}_"
         for table in ("poses", "motion"):
             rows = np.array(values[f"{table if link == GROUND else own + table}"])
             places = Displacement(rows[:, :2], np.radians(rows[:, 2]))
@@ -228,8 +222,7 @@ def _check_six_bar(reference: SixBarReference, values: Mapping[str, Any], tolera
     for joint, tables in where.items():
         for one, two in tables.values():
             require_equal(f"joint {joint} of two links", one, two, tolerance)
-        wanted = reference.joints[:, JOINTS.index(joint)]
-        require_equal(f"joint {joint} at the poses", tables["poses"][0], wanted, tolerance)
+        require_equal(f"joint {joint} at the poses", tables["poses"][0], at[joint], tolerance)
     rows = np.array(values["poses"])
     require_equal("the places", rows[:, :2], reference.places.translation, tolerance)
     turned = np.exp(1j * (np.radians(rows[:, 2]) - reference.places.angle))

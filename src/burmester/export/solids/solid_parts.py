@@ -12,6 +12,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
+from burmester.export.parts.links import GROUND
 from burmester.export.parts.plates import Assembly, Plate, slot_outline
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -20,17 +21,14 @@ __all__ = ["Part", "area_of", "laid", "parts_of", "placed"]
 
 MIN_EDGE: Final = 1e-4  # of a plate: shorter pieces of its outline are left out
 FLAT_SPACING: Final = 2.0  # widths of a link between parts that are laid flat
-COLOURS: Final = {
-    "ground": (0.48, 0.53, 0.58),
-    "driver": (0.90, 0.62, 0.0),
-    "coupler": (0.0, 0.45, 0.70),
-    "follower": (0.0, 0.62, 0.45),
-    "first-crank": (0.90, 0.62, 0.0),
-    "second-crank": (0.0, 0.62, 0.45),
-    "floating-link": (0.84, 0.37, 0.0),
-    "body-link": (0.80, 0.47, 0.65),
-    "pin": (0.20, 0.24, 0.28),
-}
+GROUND_COLOUR, PIN_COLOUR = (0.48, 0.53, 0.58), (0.20, 0.24, 0.28)
+COLOURS: Final = (  # of moving links
+    (0.90, 0.62, 0.0),
+    (0.0, 0.45, 0.70),
+    (0.0, 0.62, 0.45),
+    (0.84, 0.37, 0.0),
+    (0.80, 0.47, 0.65),
+)
 
 
 class Part(NamedTuple):
@@ -41,6 +39,7 @@ class Part(NamedTuple):
 
     name: str
     kind: str
+    colour: tuple[float, float, float]
     solid: Any
     place: Displacement
     z: float
@@ -52,10 +51,12 @@ def parts_of(cad: Any, made: Assembly) -> list[Part]:
     """The plates and pins of an assembly."""
     size = made.dimensions
     step = size.thickness + size.gap
+    colours = {GROUND: GROUND_COLOUR, **dict(zip(made.moving, COLOURS, strict=False))}
     parts = [
         Part(
             plate.name,
             plate.owner,
+            colours[plate.owner],
             cad.Solid.extrude(_face(cad, plate), (0, 0, size.thickness)),
             plate.at(made.drawn),
             plate.layer * step,
@@ -72,6 +73,7 @@ def parts_of(cad: Any, made: Assembly) -> list[Part]:
             Part(
                 f"pin-{number}",
                 "pin",
+                PIN_COLOUR,
                 cad.Solid.make_cylinder(radius, height),
                 Displacement(places[pin.plate].act(np.array([pin.x, pin.y])), np.zeros(())),
                 pin.low * step,
@@ -87,7 +89,7 @@ def placed(cad: Any, part: Part) -> Any:
     x, y = part.place.translation.tolist()
     there = part.solid.moved(cad.Location((x, y, part.z), (0, 0, math.degrees(part.place.angle))))
     there.label = part.name
-    there.color = cad.Color(*COLOURS[part.kind])
+    there.color = cad.Color(*part.colour)
     return there
 
 

@@ -206,8 +206,8 @@ function dimensionTable(data, linkage) {
   );
 }
 function poseTable(data, linkage) {
-  const digits = decimalsOf(data), unit2 = unitOf(data), noun = nounOf(data), turned = noun !== "point";
-  const ifTurned = (value) => turned ? [value] : [];
+  const digits = decimalsOf(data), unit2 = unitOf(data), noun = nounOf(data), turned2 = noun !== "point";
+  const ifTurned = (value) => turned2 ? [value] : [];
   const heads = [noun, `wanted x`, `y${unit2}`, ...ifTurned("angle")];
   if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", ...ifTurned("turned by"), "transm.", { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
@@ -231,7 +231,7 @@ function poseTable(data, linkage) {
     }
     return h("tr", { "data-pose": k + 1 }, cells(values, [heads.length - 1]));
   });
-  const what = turned ? "Poses" : "Points";
+  const what = turned2 ? "Poses" : "Points";
   return table(linkage ? `${what}, and where ${linkage.id} takes the body` : what, heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
 }
 function imageTables(data, linkage) {
@@ -281,54 +281,38 @@ var CardList = class {
 var Cards = class extends CardList {
   constructor(data, linkages, choose) {
     const unit2 = data.unit ? ` ${data.unit}` : "";
-    super(linkages.map((each, k) => card(each, unit2, () => choose(k))));
+    super(linkages.map((each, k) => fourBarCard(each, unit2, () => choose(k))));
   }
 };
-function card(linkage, unit2, onclick) {
-  const { said } = linkage;
-  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-  const links = said.links ? Object.values(said.links) : [];
+function card(linkage, onclick, facts, ...below) {
   return h(
     "button",
     { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
     h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
     h("span", { class: "bm-verdict" }, verdictOf(linkage)),
-    h(
-      "dl",
-      {},
-      fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
-      fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
-      said.quality.extent ? fact("extent, sensitivity", [h("span", { class: "bm-whole-word" }, said.quality.extent), ", ", h("span", { class: "bm-whole-word" }, said.quality.sensitivity)], "bm-detail") : null,
-      fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? fact("links", links.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
-    ),
-    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
-    said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
+    h("dl", {}, facts),
+    below
   );
 }
-
-// src/burmester/web/widget/function_cards.mjs
-var Cards2 = class extends CardList {
-  constructor(generators, choose) {
-    super(generators.map((each, k) => card2(each, () => choose(k))));
-  }
-};
-function card2(generator, onclick) {
-  const { said } = generator;
-  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-  return h(
-    "button",
-    { type: "button", class: `bm-choice ${generator.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": generator.id, onclick },
-    h("span", { class: "bm-choice-head" }, h("b", {}, generator.id), " ", h("span", { class: "bm-type" }, generator.type)),
-    h("span", { class: "bm-verdict" }, verdictOf(generator)),
-    h(
-      "dl",
-      {},
-      fact("greatest error", said.max_error),
-      fact("transmission", said.transmission === "–" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
-      fact("links", said.links.map(([, value], k) => [k ? " " : "", h("span", {}, value)]), "bm-detail bm-links")
-    ),
-    generator.defects.length || generator.shortcomings.length ? h("span", { class: "bm-reason" }, `It ${[...generator.defects, ...generator.shortcomings].join("; ")}`) : null
+var fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+var transmissionFact = (text) => fact("transmission", text === "–" ? text : text === "0°" ? "down to 0°" : `${text} or more`);
+var linksFact = (lengths) => fact("links", lengths.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links");
+function fourBarCard(linkage, unit2, onclick) {
+  const { said } = linkage;
+  const links = said.links ? Object.values(said.links) : [];
+  const whole = (text) => h("span", { class: "bm-whole-word" }, text);
+  return card(
+    linkage,
+    onclick,
+    [
+      fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", whole(part)])),
+      transmissionFact(said.transmission === "-" ? "–" : said.transmission),
+      said.quality.extent ? fact("extent, sensitivity", [whole(said.quality.extent), ", ", whole(said.quality.sensitivity)], "bm-detail") : null,
+      fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
+      links.length ? linksFact(links) : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
+    ],
+    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
+    said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
   );
 }
 
@@ -521,6 +505,15 @@ var ErrorCurves = class {
 };
 
 // src/burmester/web/widget/function_tables.mjs
+function generatorCard(generator, onclick) {
+  const { said, defects, shortcomings } = generator;
+  return card(
+    generator,
+    onclick,
+    [fact("greatest error", said.max_error), transmissionFact(said.transmission), linksFact(said.links.map(([, value]) => value))],
+    defects.length || shortcomings.length ? h("span", { class: "bm-reason" }, `It ${[...defects, ...shortcomings].join("; ")}`) : null
+  );
+}
 function generatorTable(data) {
   const heads = [
     "",
@@ -589,8 +582,8 @@ function constraint(dyad, place) {
   let nx, ny, residual;
   if (dyad.kind === "RR") {
     const ax = x - dyad.fixed_pivot[0], ay = y - dyad.fixed_pivot[1];
-    const size3 = Math.hypot(ax, ay) || 1;
-    [nx, ny, residual] = [ax / size3, ay / size3, size3 - dyad.radius];
+    const size2 = Math.hypot(ax, ay) || 1;
+    [nx, ny, residual] = [ax / size2, ay / size2, size2 - dyad.radius];
   } else {
     [nx, ny] = normalOf(dyad);
     residual = nx * x + ny * y - dyad.line.offset;
@@ -933,10 +926,10 @@ var Player = class {
 function laidOut(texts, width, count) {
   const ends = Array(count).fill(-99);
   return texts.map(({ x, text }) => {
-    const size3 = 6.4 * text.length, left = clamp(x - size3 / 2, 0, Math.max(0, width - size3));
+    const size2 = 6.4 * text.length, left = clamp(x - size2 / 2, 0, Math.max(0, width - size2));
     const at = ends.findIndex((end) => left > end + 4);
-    if (at >= 0) ends[at] = left + size3;
-    return { text, at, middle: left + size3 / 2 };
+    if (at >= 0) ends[at] = left + size2;
+    return { text, at, middle: left + size2 / 2 };
   });
 }
 var around = (u, turn) => (u % turn + turn) % turn;
@@ -1397,11 +1390,11 @@ function railOf(dyad, places, view) {
   const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
   const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
   const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
-  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
+  const turned2 = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
   const drawn = Math.min(half, LONGEST);
   let hatch = "";
   for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
-  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
+  return { x, y, half, drawn, turned: turned2, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
 }
 
 // src/burmester/web/widget/plane.mjs
@@ -1543,11 +1536,11 @@ var Plane = class {
   /** A rail as long as the travel of its block. */
   rail(group, labels, dyad, side) {
     if (!this.places.length) return;
-    const { x, y, drawn, turned, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
+    const { x, y, drawn, turned: turned2, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
     group.append(
       s(
         "g",
-        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
+        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned2) },
         s("path", { class: "bm-ground", d: paths[0] }),
         s("path", { class: "bm-ground bm-thin", d: paths[1] })
       )
@@ -1571,8 +1564,8 @@ var Plane = class {
       const at = standing(dyad, this.places);
       if (!at || !isFar(at)) return;
       const [x, y] = [view.X(at[0]), view.Y(at[1])];
-      const cx = view.width / 2, cy = view.height / 2, size3 = Math.hypot(x - cx, y - cy);
-      const u = (x - cx) / size3, v = (y - cy) / size3;
+      const cx = view.width / 2, cy = view.height / 2, size2 = Math.hypot(x - cx, y - cy);
+      const u = (x - cx) / size2, v = (y - cy) / size2;
       const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
       const ex = cx + reach * u, ey = cy + reach * v;
       const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
@@ -1632,9 +1625,9 @@ var Plane = class {
       if (row.x === null) return;
       const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
       const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
-      const size3 = Math.hypot(dx, dy);
-      if (size3 < 1.5) return;
-      const head = Math.min(7, 0.5 * size3), ux = dx / size3, uy = dy / size3;
+      const size2 = Math.hypot(dx, dy);
+      if (size2 < 1.5) return;
+      const head = Math.min(7, 0.5 * size2), ux = dx / size2, uy = dy / size2;
       const tip = `${px(x + dx)} ${px(y + dy)}`;
       const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
       arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
@@ -1744,7 +1737,7 @@ var FamilyPairs = class {
     this.columns = this.isCurve ? this.map.fixed.length : this.map.columns;
     this.rows = this.isCurve ? this.columns : this.map.rows;
     this.starts = [];
-    (this.map.loops ?? []).reduce((start, size3) => (this.starts.push(start), start + size3), 0);
+    (this.map.loops ?? []).reduce((start, size2) => (this.starts.push(start), start + size2), 0);
   }
   /** The letter of a loop, where there are several. */
   letter(loop) {
@@ -1774,8 +1767,8 @@ var FamilyPairs = class {
   }
   /** The name of a place along the curve: its share of its loop, after the loop's letter. */
   placeName(k) {
-    const loop = this.starts.findLastIndex((start) => start <= k), size3 = this.map.loops[loop];
-    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size3).toFixed(2)}`;
+    const loop = this.starts.findLastIndex((start) => start <= k), size2 = this.map.loops[loop];
+    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size2).toFixed(2)}`;
   }
   /** The cell of a fixed pivot in the plane of three poses. */
   cellOf(pivot) {
@@ -1812,8 +1805,8 @@ function dyadOfThree(poses, pivot) {
     return [Math.cos(turn) * x - Math.sin(turn) * y, Math.sin(turn) * x + Math.cos(turn) * y];
   });
   const u = [b[0] - a[0], b[1] - a[1]], v = [c[0] - a[0], c[1] - a[1]];
-  const cross2 = 2 * (u[0] * v[1] - u[1] * v[0]), uu = u[0] ** 2 + u[1] ** 2, vv = v[0] ** 2 + v[1] ** 2;
-  const arm = [(uu * v[1] - vv * u[1]) / cross2, (vv * u[0] - uu * v[0]) / cross2];
+  const cross3 = 2 * (u[0] * v[1] - u[1] * v[0]), uu = u[0] ** 2 + u[1] ** 2, vv = v[0] ** 2 + v[1] ** 2;
+  const arm = [(uu * v[1] - vv * u[1]) / cross3, (vv * u[0] - uu * v[0]) / cross3];
   return { fixed: pivot, moving: [a[0] + arm[0], a[1] + arm[1]], length: Math.hypot(...arm) };
 }
 
@@ -1843,17 +1836,17 @@ var PartnerCurve = class {
     const inside2 = ([x, y]) => x > 0 && y > 0 && x < width && y < height;
     const beyond = (p, q) => !inside2(p) && !inside2(q) && (p[0] - width / 2) * (q[0] - width / 2) + (p[1] - height / 2) * (q[1] - height / 2) < 0;
     pairs.starts.forEach((start, loop) => {
-      const size3 = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size3) % size3]);
-      const between = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-      for (let k = 0; k < size3; k += 1) {
-        const piece = [between(at(k - 1), at(k)), at(k), between(at(k), at(k + 1))];
+      const size2 = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size2) % size2]);
+      const between2 = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+      for (let k = 0; k < size2; k += 1) {
+        const piece = [between2(at(k - 1), at(k)), at(k), between2(at(k), at(k + 1))];
         if (beyond(at(k - 1), at(k)) || beyond(at(k), at(k + 1))) continue;
         const d = `M${piece.map((p) => p.map(px).join(" ")).join("L")}`;
         under.append(s("path", { d }));
         curve.append(s("path", { d, stroke: `rgb(${colour(best[start + k]).join()})` }));
       }
       for (const share of SHARES) {
-        const [x, y] = at(Math.min(size3 - 1, Math.round(share * size3)));
+        const [x, y] = at(Math.min(size2 - 1, Math.round(share * size2)));
         if (!inside2([x, y])) continue;
         marks.append(s("circle", { class: "bm-pairs-mark", cx: px(x), cy: px(y), r: 2.2 }));
         marks.append(labels.put(x, y, `${pairs.letter(loop)}${share}`, 12, {}));
@@ -1995,10 +1988,10 @@ var FamilyMap = class {
     const { margin, across, down } = this.view, out = s("g", { class: "bm-pairs-axes" });
     const { pairs } = this, left = margin.left, foot2 = margin.top + down;
     pairs.starts.forEach((start, loop) => {
-      const size3 = this.map.loops[loop], letter = pairs.letter(loop);
-      const shares = size3 / this.columns * across < 150 ? [0, 0.5] : SHARES;
+      const size2 = this.map.loops[loop], letter = pairs.letter(loop);
+      const shares = size2 / this.columns * across < 150 ? [0, 0.5] : SHARES;
       for (const share of shares) {
-        const along = (start + share * size3) / this.columns * across, text = `${letter}${share}`;
+        const along = (start + share * size2) / this.columns * across, text = `${letter}${share}`;
         out.append(
           s("path", { d: `M${px(left + along)} ${foot2}v4M${left} ${px(foot2 - along)}h-4` }),
           s("text", { x: px(left + along), y: foot2 + 17, "text-anchor": "middle" }, text),
@@ -2131,9 +2124,9 @@ function intersections(c, o, d) {
 // src/burmester/web/widget/ray_casting.mjs
 var WIDTH = 440;
 var TURNING_SHARE = 0.35;
-function drawStill(canvas, scene, size3, turning) {
-  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size3.width);
-  const width = Math.round(size3.width * share), height = Math.round(size3.height * share);
+function drawStill(canvas, scene, size2, turning) {
+  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size2.width);
+  const width = Math.round(size2.width * share), height = Math.round(size2.height * share);
   canvas.width = width;
   canvas.height = height;
   if (!scene.quadrics.length) return;
@@ -2152,10 +2145,10 @@ function cast(image, { eye, ahead, right, up, reach, quadrics, paint, angles }) 
       let dx = ahead[0] + u * right[0] + v * up[0];
       let dy = ahead[1] + u * right[1] + v * up[1];
       let dz = ahead[2] + u * right[2] + v * up[2];
-      const size3 = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
-      dx *= size3;
-      dy *= size3;
-      dz *= size3;
+      const size2 = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
+      dx *= size2;
+      dy *= size2;
+      dz *= size2;
       const x1 = (-1 - ex) / dx, x2 = (1 - ex) / dx, y1 = (-1 - ey) / dy, y2 = (1 - ey) / dy;
       const z1 = (-1 - ez) / dz, z2 = (1 - ez) / dz;
       const enter = Math.max(Math.min(x1, x2), Math.min(y1, y2), Math.min(z1, z2));
@@ -2343,7 +2336,7 @@ var Shader = class _Shader {
     gl.vertexAttribPointer(corner, 2, gl.FLOAT, false, 0, 0);
     this.places = Object.fromEntries(UNIFORMS.map((name) => [name, gl.getUniformLocation(program, name)]));
   }
-  draw(scene, size3, turning) {
+  draw(scene, size2, turning) {
     const { gl, places } = this;
     gl.clearColor(0, 0, 0, 0);
     if (!scene.quadrics.length) {
@@ -2355,26 +2348,26 @@ var Shader = class _Shader {
     for (const name of ["eye", "right", "up", "ahead"]) gl.uniform3fv(places[name], scene[name]);
     gl.uniform2fv(places.reach, scene.reach);
     gl.uniform4fv(places.angles, scene.angles);
-    this.pace ??= this.measure(size3);
+    this.pace ??= this.measure(size2);
     const full = Math.min(2, window.devicePixelRatio || 1), most = turning ? TURNING_MILLISECONDS : STILL_MILLISECONDS;
     const ways = turning ? [[1, 1], [0.7, 1], [0.45, 1]] : [[full, 4], [1, 4], [full, 1], [1, 1], [0.7, 1]];
-    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size3.width * size3.height < most);
-    this.once(size3, ...fits ?? ways[ways.length - 1]);
+    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size2.width * size2.height < most);
+    this.once(size2, ...fits ?? ways[ways.length - 1]);
   }
   /** Milliseconds a ray takes: where graphics are slow, the picture gets fewer of them. */
-  measure(size3) {
+  measure(size2) {
     const { gl } = this;
-    this.once(size3, 0.12, 1);
+    this.once(size2, 0.12, 1);
     gl.finish();
     const start = performance.now();
-    this.once(size3, 0.3, 1);
+    this.once(size2, 0.3, 1);
     gl.finish();
-    return (performance.now() - start) / (0.09 * size3.width * size3.height);
+    return (performance.now() - start) / (0.09 * size2.width * size2.height);
   }
   /** One picture: pixels of the canvas per pixel of the page along a side, rays per pixel. */
-  once(size3, dense, samples) {
+  once(size2, dense, samples) {
     const { gl, canvas, places } = this;
-    const width = Math.round(size3.width * dense), height = Math.round(size3.height * dense);
+    const width = Math.round(size2.width * dense), height = Math.round(size2.height * dense);
     if (canvas.width !== width || canvas.height !== height) {
       canvas.width = width;
       canvas.height = height;
@@ -2577,8 +2570,8 @@ var ImageSpace = class {
   axisNames(back2) {
     const name = (point, text) => {
       const [x, y] = this.project(point), [cx, cy] = [x - this.width / 2, y - this.height / 2];
-      const size3 = Math.hypot(cx, cy) || 1;
-      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size3), y: px(y + 14 * cy / size3 + 4), "text-anchor": "middle" }, text);
+      const size2 = Math.hypot(cx, cy) || 1;
+      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size2), y: px(y + 14 * cy / size2 + 4), "text-anchor": "middle" }, text);
     };
     const base = this.turn.above >= 0 ? -1 : 1;
     return [name([0, -back2[1], base], "Z1"), name([-back2[0], 0, base], "Z2")];
@@ -3344,12 +3337,12 @@ var GeneratorView = class extends Report {
 };
 function closed2({ ground, input_link: a, coupler: r, output_link: b, side, input_phase, output_phase, curve }, input) {
   const theta = radians(input_phase + input), x = ground - a * Math.cos(theta), y = -a * Math.sin(theta);
-  const size3 = Math.hypot(x, y), opening = Math.acos((r * r - b * b - size3 * size3) / (2 * b * size3));
-  const between = degrees(Math.acos((r * r + b * b - size3 * size3) / (2 * r * b)));
+  const size2 = Math.hypot(x, y), opening = Math.acos((r * r - b * b - size2 * size2) / (2 * b * size2));
+  const between2 = degrees(Math.acos((r * r + b * b - size2 * size2) / (2 * r * b)));
   if (Number.isNaN(opening)) return { output: null, transmission: null };
   const output = degrees(Math.atan2(y, x) + side * opening) - output_phase;
   const k = curve.input.reduce((best, each, i) => Math.abs(each - input) < Math.abs(curve.input[best] - input) ? i : best, 0);
-  return { output: output - 360 * Math.round((output - curve.wanted[k]) / 360), transmission: Math.min(between, 180 - between) };
+  return { output: output - 360 * Math.round((output - curve.wanted[k]) / 360), transmission: Math.min(between2, 180 - between2) };
 }
 function wantedAt({ input, wanted, whole }, at) {
   for (let k2 = 0; k2 < input.length; k2 += 1) if (Math.abs(input[k2] - at) < 1e-6) return wanted[k2];
@@ -3377,7 +3370,7 @@ var FunctionReport = class {
     this.root = root;
     const main = h("div", { class: "bm-main" });
     if (data.generators.length) {
-      this.cards = new Cards2(data.generators, (index) => this.choose(index));
+      this.cards = new CardList(data.generators.map((each, k) => generatorCard(each, () => this.choose(k))));
       this.stand = h("div", { class: "bm-stand" });
       main.append(this.stand);
       body.append(this.cards.element);
@@ -3401,79 +3394,118 @@ var FunctionReport = class {
 };
 
 // src/burmester/web/widget/six_bar.mjs
-var FRAMES = 361;
+var FRAMES = 360;
+var STEPS2 = 4;
+var LOCKED = 1e-7;
 var plus2 = (p, q) => [p[0] + q[0], p[1] + q[1]];
 var minus = (p, q) => [p[0] - q[0], p[1] - q[1]];
 var times2 = (p, q) => [p[0] * q[0] - p[1] * q[1], p[0] * q[1] + p[1] * q[0]];
-var scaled2 = (p, k) => [k * p[0], k * p[1]];
-var size2 = (p) => Math.hypot(p[0], p[1]);
-var over = (p, q) => scaled2(times2(p, [q[0], -q[1]]), 1 / (q[0] * q[0] + q[1] * q[1]));
-function meeting(centre, radius, other, otherRadius, side) {
-  const way = minus(other, centre), squared = size2(way) ** 2;
-  const along = (squared + radius ** 2 - otherRadius ** 2) / (2 * squared);
-  return plus2(centre, times2(way, [along, side * Math.sqrt(Math.max(0, radius ** 2 / squared - along ** 2))]));
-}
-function acute(p, q) {
-  const [across, around2] = times2(p, [q[0], -q[1]]);
-  return degrees(Math.atan2(Math.abs(around2), Math.abs(across)));
-}
-function sixBarAt(sixBar, drive) {
-  const { ground, coupler, body } = sixBar, { A, B } = ground, isFirst = sixBar.driver === "first";
-  const arm = (length) => [length * Math.cos(radians(drive)), length * Math.sin(radians(drive))];
-  const bar = size2(coupler.D);
-  let C, D;
-  if (isFirst) {
-    C = plus2(A, arm(sixBar.first_crank));
-    D = meeting(C, bar, B, sixBar.second_crank, sixBar.sides[0]);
-  } else {
-    D = plus2(B, arm(sixBar.second_crank));
-    C = meeting(D, bar, A, sixBar.first_crank, sixBar.sides[0]);
+var cross2 = (p, q) => p[0] * q[1] - p[1] * q[0];
+var turned = (angle) => [Math.cos(angle), Math.sin(angle)];
+var NOWHERE = [0, 0];
+var acute = (p, q) => degrees(Math.atan2(Math.abs(cross2(p, q)), Math.abs(p[0] * q[0] + p[1] * q[1])));
+function placed({ ground, links, closures }, angles) {
+  const joints = { ...ground }, at = {}, rates = {}, pins = {};
+  const rateOf = (name, point) => links.map((link, k) => link.name === name ? times2([0, 1], minus(point, pins[name])) : rates[name]?.[k] ?? NOWHERE);
+  links.forEach(({ name, on, pin, joints: own }, k) => {
+    const turn = turned(angles[k]);
+    pins[name] = at[on]?.[pin] ?? ground[pin];
+    at[name] = {};
+    for (const joint of Object.keys(own)) {
+      at[name][joint] = plus2(pins[name], times2(turn, minus(own[joint], own[pin])));
+      joints[joint] ??= at[name][joint];
+    }
+    rates[name] = at[on] ? rateOf(on, pins[name]) : links.map(() => NOWHERE);
+  });
+  const off = [], change = [];
+  for (const [joint, one, other] of closures) {
+    const [p, q] = [one, other].map((name) => at[name][joint]), [a, b] = [rateOf(one, p), rateOf(other, q)];
+    for (const axis of [0, 1]) {
+      off.push(p[axis] - q[axis]);
+      change.push(a.map((rate, k) => rate[axis] - b[k][axis]));
+    }
   }
-  const E = plus2(C, times2(over(minus(D, C), coupler.D), coupler.E));
-  const G = plus2(B, times2(scaled2(minus(D, B), 1 / sixBar.second_crank), sixBar.crank_joint));
-  const held = minus(body.H, body.E);
-  const H = meeting(G, sixBar.floating_link, E, size2(held), sixBar.sides[1]);
-  const turn = over(minus(H, E), held), [x, y] = minus(E, times2(turn, body.E));
-  const first = isFirst ? acute(minus(C, D), minus(B, D)) : acute(minus(D, C), minus(A, C));
-  const loops = [first, acute(minus(G, H), minus(E, H))];
-  return { x, y, a: Math.atan2(turn[1], turn[0]), joints: { A, B, C, D, E, G, H }, loops, transmission: Math.min(...loops) };
+  return { joints, off, change };
+}
+function solved(rows, right) {
+  const size2 = rows.length, all = rows.map((row, k) => [...row, right[k]]), most = Math.max(...rows.flat().map(Math.abs));
+  for (let k = 0; k < size2; k += 1) {
+    const best = all.reduce((i, row, j) => j > k && Math.abs(row[k]) > Math.abs(all[i][k]) ? j : i, k);
+    [all[k], all[best]] = [all[best], all[k]];
+    if (!(Math.abs(all[k][k]) > LOCKED * most)) return null;
+    for (let j = k + 1; j < size2; j += 1) {
+      const share = all[j][k] / all[k][k];
+      for (let i = k; i <= size2; i += 1) all[j][i] -= share * all[k][i];
+    }
+  }
+  const out = Array(size2).fill(0);
+  for (let k = size2 - 1; k >= 0; k -= 1) out[k] = (all[k][size2] - all[k].reduce((sum, each, i) => i > k && i < size2 ? sum + each * out[i] : sum, 0)) / all[k][k];
+  return out;
+}
+function transmitted(legs, joints) {
+  const ways = legs.map(([from, to]) => minus(joints[to], joints[from])), tips = legs.map(([, to]) => joints[to]);
+  if (legs.length === 2) return acute(...ways);
+  return Math.min(
+    ...ways.map((way, k) => {
+      const [i, j] = [0, 1, 2].filter((each) => each !== k);
+      const off = cross2(minus(tips[j], tips[i]), ways[j]), across = cross2(ways[i], ways[j]), from = minus(tips[i], tips[k]);
+      return acute(way, [0, 1].map((axis) => across * from[axis] + off * ways[i][axis]));
+    })
+  );
+}
+function sixBarAt(sixBar, { drive, angles, round }, u) {
+  const { links, driver, carries, legs } = sixBar, last = angles[0].length - 1;
+  const along = u / (drive.length - 1) * last, i = Math.min(last - 1, Math.max(0, Math.floor(along)));
+  const crank = links.findIndex(({ name }) => name === driver), now = angles.map((values) => catmullRom(values, i, along - i, round));
+  now[crank] = angles[crank][0] + radians(linear(drive, u) - drive[0]);
+  let at = placed(sixBar, now);
+  const free = now.map((_, k) => k).filter((k) => k !== crank);
+  for (let step = 0; step < STEPS2; step += 1) {
+    const by = solved(at.change.map((row) => free.map((k) => row[k])), at.off);
+    if (!by) break;
+    free.forEach((k, n) => now[k] -= by[n]);
+    at = placed(sixBar, now);
+  }
+  const body = links.findIndex(({ name }) => name === carries), { pin, joints: own } = links[body];
+  const [x, y] = minus(at.joints[pin], times2(turned(now[body]), own[pin])), loops = legs.map((each) => transmitted(each, at.joints));
+  return { x, y, a: now[body], joints: at.joints, loops, transmission: Math.min(...loops) };
 }
 function wayOf(sixBar) {
-  const [low, high] = sixBar.ends_deg, round = sixBar.turns_fully;
-  const share = (k) => round ? k / (FRAMES - 1) : (1 - Math.cos(Math.PI * k / (FRAMES - 1))) / 2;
-  const drive = Array.from({ length: FRAMES }, (_, k) => low + (high - low) * share(k));
-  const places = drive.map((each) => sixBarAt(sixBar, each));
+  const [low, high] = sixBar.ends_deg, round = sixBar.turns_fully, frames = FRAMES * Math.max(1, Math.ceil((high - low) / 360 - 1e-9));
+  const share = (k) => round ? k / frames : (1 - Math.cos(Math.PI * k / frames)) / 2;
+  const drive = Array.from({ length: frames + 1 }, (_, k) => low + (high - low) * share(k));
+  const way = { drive, angles: sixBar.links.map(({ name }) => sixBar.angles[name]), round };
+  const places = drive.map((_, k) => sixBarAt(sixBar, way, k));
   const column = (value) => places.map(value);
   return {
+    ...way,
     circuit: 1,
     branch: 1,
     branches: 1,
-    round,
     dead: [!round, !round],
     poses: sixBar.drive_deg.map((_, k) => k + 1),
-    drive,
     x: column((at) => at.x),
     y: column((at) => at.y),
     angle: column((at) => at.a),
     transmission: column((at) => at.transmission),
-    loops: [0, 1].map((k) => column((at) => at.loops[k]))
+    loops: sixBar.legs.map((_, k) => column((at) => at.loops[k]))
   };
 }
 function moving(sixBar, poses) {
-  const way = wayOf(sixBar), { A, B } = sixBar.ground;
-  const cranks = [{ id: "AC", kind: "crank", fixed_pivot: A }, { id: "BD", kind: "crank", fixed_pivot: B }];
+  const way = wayOf(sixBar), grounded = sixBar.links.filter(({ pin }) => pin in sixBar.ground);
+  const cranks = grounded.map(({ name, pin, joints }) => ({ id: pin + Object.keys(joints).find((joint) => joint !== pin), name, kind: "crank", fixed_pivot: sixBar.ground[pin] }));
   return {
     ...sixBar,
     ways: [way],
-    led: sixBar.driver === "first" ? cranks : cranks.reverse(),
+    led: cranks.sort((a, b) => (b.name === sixBar.driver) - (a.name === sixBar.driver)),
     pose_errors: sixBar.drive_deg.map((drive, k) => {
-      const at = sixBarAt(sixBar, drive);
+      const frame = frameAt(way.drive, drive), at = sixBarAt(sixBar, way, frame);
       return {
         x: at.x,
         y: at.y,
         angle_deg: degrees(at.a),
         way: 0,
-        frame: frameAt(way.drive, drive),
+        frame,
         drive_deg: drive,
         joints: at.joints,
         loops: at.loops,
@@ -3488,24 +3520,30 @@ function moving(sixBar, poses) {
 // src/burmester/web/widget/six_bar_mechanism.mjs
 var NAME = 15;
 var BODY_AXIS2 = AXIS + 10;
-var LINKS = ["CDE", "BDG", "AC", "GH", "EHM"];
-var NAMED_ON = { C: "CDE", D: "CDE", E: "CDE", G: "BDG", H: "GH" };
-var kindOf = (link, driver) => link === "EHM" ? "bm-carried" : link === "AC" || link === "BDG" ? `bm-side${link === "AC" === (driver === "first") ? 0 : 1}` : "bm-inner";
+function kindOf({ name, pin }, { driver, carries, ground }) {
+  if (name === carries) return "bm-carried";
+  return pin in ground ? `bm-side${name === driver ? 0 : 1}` : "bm-inner";
+}
+function namedOn(joint, { links, carries }) {
+  const own = links.filter(({ joints }) => joint in joints), others = own.filter(({ name }) => name !== carries);
+  return others.find(({ joints }) => Object.keys(joints).length > 2) ?? others[0] ?? own[0];
+}
 var SixBarMechanism = class {
   constructor(data, linkage, view) {
     this.view = view;
-    this.links = LINKS.map((joints) => {
+    const height = ({ name, outline }) => name === linkage.carries ? 2 : outline.length > 2 ? 0 : 1;
+    this.links = [...linkage.links].sort((a, b) => height(a) - height(b)).map((link) => {
       const strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
-      const group = s("g", { class: `bm-link ${kindOf(joints, linkage.driver)}${joints.length > 2 ? " bm-ternary" : ""}`, "data-link": joints.replace("M", "") }, strokes);
-      return { joints, strokes, group };
+      const group = s("g", { class: `bm-link ${kindOf(link, linkage)}${link.outline.length > 2 ? " bm-ternary" : ""}`, "data-link": link.outline.replace("M", "") }, strokes);
+      return { joints: link.outline, strokes, group };
     });
     this.outline = data.body ? s("path", { class: "bm-body-outline", d: bodyOutline(data, view) }) : null;
     this.frame = s("g", { class: "bm-coupler" }, s("path", { class: "bm-body-frame", d: axes(BODY_AXIS2) }), s("circle", { class: "bm-origin", r: 4 }));
-    this.pins = [..."ABCDEGH"].map((joint) => ({
-      joint,
-      pin: s("circle", { class: `bm-pin${joint < "C" ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint }),
-      name: NAMED_ON[joint] ? s("text", { class: "bm-name", "text-anchor": "middle" }, joint) : null
-    }));
+    this.pins = Object.keys(linkage.pose_errors[0].joints).map((joint) => {
+      const fixed2 = joint in linkage.ground, on = fixed2 ? null : Object.keys(namedOn(joint, linkage).joints);
+      const pin = s("circle", { class: `bm-pin${fixed2 ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint });
+      return { joint, on, pin, name: fixed2 ? null : s("text", { class: "bm-name", "text-anchor": "middle" }, joint) };
+    });
     const pivot = linkage.led[0].fixed_pivot;
     this.group = s(
       "g",
@@ -3528,12 +3566,12 @@ var SixBarMechanism = class {
     const seen = transform(...at.M, place.a);
     put(this.frame, "transform", seen);
     if (this.outline) put(this.outline, "transform", seen);
-    for (const { joint, pin, name } of this.pins) {
+    for (const { joint, on, pin, name } of this.pins) {
       const [x, y] = at[joint];
       put(pin, "cx", px(x));
       put(pin, "cy", px(y));
       if (!name) continue;
-      const [u, v] = outwards([...NAMED_ON[joint]].map((each) => at[each]), at[joint]);
+      const [u, v] = outwards(on.map((each) => at[each]), at[joint]);
       put(name, "x", px(x + NAME * u));
       put(name, "y", px(y + NAME * v + 4));
     }
@@ -3541,8 +3579,8 @@ var SixBarMechanism = class {
 };
 function outwards(corners, [x, y]) {
   const middle = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
-  const u = x - middle[0], v = y - middle[1], size3 = Math.hypot(u, v);
-  return size3 > 1 ? [u / size3, v / size3] : [0, -1];
+  const u = x - middle[0], v = y - middle[1], size2 = Math.hypot(u, v);
+  return size2 > 1 ? [u / size2, v / size2] : [0, -1];
 }
 
 // src/burmester/web/widget/six_bar_plane.mjs
@@ -3552,39 +3590,45 @@ var SixBarPlane = class extends Plane {
     super.build(linkage, way, stretch, { ...how, far: true });
   }
   placesOf(way, stretch) {
-    return placesAlong(this.data, stretch, (u) => sixBarAt(this.linkage, linear(way.drive, u)));
+    return placesAlong(this.data, stretch, (u) => sixBarAt(this.linkage, way, u));
   }
   bounds(far) {
     return including(super.bounds(far), this.places.flatMap((place) => Object.values(place.joints)));
   }
-  /** The body at every pose; where it has no outline, its two joints and its origin. */
+  /** The link that is the body. */
+  get body() {
+    return this.linkage.links.find(({ name }) => name === this.linkage.carries);
+  }
+  /** The body at every pose; where it has no outline, its joints and its origin. */
   ghosts() {
     const { data, linkage, view } = this;
     if (data.body || !linkage) return super.ghosts();
-    const plates = linkage.pose_errors.map(({ x, y, joints }) => s("path", { class: "bm-ghost", d: `${polyline([[x, y], joints.E, joints.H], view)}Z` }));
+    const plates = linkage.pose_errors.map(({ x, y, joints }) => s("path", { class: "bm-ghost", d: `${polyline([...this.body.outline].map((joint) => joints[joint] ?? [x, y]), view)}Z` }));
     return s("g", { class: "bm-ghosts" }, plates);
   }
   mechanism() {
     return new SixBarMechanism(this.data, this.linkage, this.view);
   }
-  /** The paths of the two pins that carry the body. */
+  /** The paths of the pins that carry the body. */
   pivotPaths() {
-    return ["E", "H"].map((joint) => ({ side: "-inner", points: this.places.map((place) => place.joints[joint]) }));
+    return Object.keys(this.body.joints).filter((joint) => !(joint in this.linkage.ground)).map((joint) => ({ side: "-inner", points: this.places.map((place) => place.joints[joint]) }));
   }
   ground(labels) {
     const group = s("g", { class: "bm-grounds" });
     this.keepCranksFree(labels);
-    this.linkage.led.forEach(({ id, fixed_pivot }, side) => this.fixedPivot(group, labels, { id: id[0], fixed_pivot }, side));
+    this.linkage.led.forEach(({ id, fixed_pivot }, side) => this.fixedPivot(group, labels, { id: id[0], fixed_pivot }, Math.min(side, 1)));
     return group;
   }
   /** Where cranks are on their way no name is to stand. */
   keepCranksFree(labels) {
-    const { view, places } = this, every = Math.ceil(places.length / 9);
+    const { view, places, linkage } = this, every = Math.ceil(places.length / 9);
+    const cranks = linkage.links.filter(({ pin }) => pin in linkage.ground);
+    const arms = cranks.flatMap(({ pin, joints }) => Object.keys(joints).filter((joint) => joint !== pin).map((joint) => pin + joint));
     for (const { joints } of places.filter((_, k) => k % every === 0)) {
-      for (const [pivot, end] of ["AC", "BD", "BG"]) {
+      for (const [pivot, end] of arms) {
         const [[x, y], [u, v]] = [joints[pivot], joints[end]].map((at) => [view.X(at[0]), view.Y(at[1])]);
-        const size3 = Math.hypot(u - x, v - y) || 1;
-        for (const along of BESIDE_PIVOT) labels.block(x + along * (u - x) / size3, y + along * (v - y) / size3, 12, 12);
+        const size2 = Math.hypot(u - x, v - y) || 1;
+        for (const along of BESIDE_PIVOT) labels.block(x + along * (u - x) / size2, y + along * (v - y) / size2, 12, 12);
       }
     }
   }
@@ -3593,7 +3637,7 @@ var SixBarPlane = class extends Plane {
 // src/burmester/web/widget/six_bar_player.mjs
 var SixBarPlayer = class extends Player {
   placeAt(u) {
-    return sixBarAt(this.linkage, linear(this.path.drive, u));
+    return sixBarAt(this.linkage, this.path, u);
   }
   driverText(drive) {
     return `${this.linkage.crank} ${fixed(drive, 1)}°`;
@@ -3605,7 +3649,7 @@ var PANEL2 = 150;
 var SOUND = 30;
 var SixBarPlots = class extends Plots {
   static HEIGHT = PANEL2;
-  static TITLE = "Transmission angles of both loops";
+  static TITLE = "Transmission angles";
   panels(rows) {
     const { svg, way, width, top } = this, base = top + PANEL2;
     this.Y = (v) => base - v / 90 * PANEL2;
@@ -3625,26 +3669,26 @@ var SixBarPlots = class extends Plots {
   build(linkage, index, stretch) {
     super.build(linkage, index, stretch);
     if (!this.cursor) return;
-    this.other = s("circle", { r: 4.5 });
-    this.cursor.append(this.other);
+    this.others = linkage.legs.slice(1).map(() => s("circle", { r: 4.5 }));
+    this.cursor.append(...this.others);
   }
   show(drive, transmission, place) {
     if (!this.cursor) return;
     super.show(drive, place.loops[0]);
-    this.other.setAttribute("cy", px(this.Y(place.loops[1])));
+    this.others.forEach((mark, k) => mark.setAttribute("cy", px(this.Y(place.loops[k + 1]))));
   }
 };
 
 // src/burmester/web/widget/six_bar_tables.mjs
 var SixBarCards = class extends CardList {
   constructor(linkages, choose) {
-    super(linkages.map((each, k) => card3(each, () => choose(k))));
+    super(linkages.map((each, k) => card2(each, () => choose(k))));
   }
 };
 var verdictOf2 = (linkage) => !linkage.usable ? "✕ does not work" : linkage.sound ? "✓ works, sound" : "✓ works";
-function card3(linkage, onclick) {
+function card2(linkage, onclick) {
   const { said } = linkage, [, driver, turn] = said.row, lacks = said.shortcomings.length ? `It ${said.shortcomings.join("; ")}` : null;
-  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+  const fact2 = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
   return h(
     "button",
     { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
@@ -3653,10 +3697,10 @@ function card3(linkage, onclick) {
     h(
       "dl",
       {},
-      fact("driver", `${driver}${linkage.turns_fully ? ", turns fully" : `, by ${turn}`}`),
-      fact("transmission", `${said.transmission} or more`),
-      fact("extent", said.extent),
-      fact("link ratio", said.link_ratio, "bm-detail")
+      fact2("driver", `${driver}${linkage.turns_fully ? ", turns fully" : `, by ${turn}`}`),
+      fact2("transmission", `${said.transmission} or more`),
+      fact2("extent", said.extent),
+      fact2("link ratio", said.link_ratio, "bm-detail")
     ),
     said.why_not || lacks ? h("span", { class: "bm-reason" }, said.why_not ?? lacks) : null
   );
@@ -3683,7 +3727,7 @@ function sixBarFacts(data, { said }) {
 function sixBarPoses(data, linkage) {
   const digits = decimalsOf(data), unit2 = data.unit ? ` (${data.unit})` : "";
   const missed = linkage?.said.errors;
-  const heads = ["pose", "x", `y${unit2}`, "angle", ...missed ? ["off by", "turned by"] : [], ...linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : []];
+  const heads = ["pose", "x", `y${unit2}`, "angle", ...missed ? ["off by", "turned by"] : [], ...linkage ? [`driver ${linkage.crank}`, ...loopTips(linkage).map((tip, k) => `${k ? "" : "transm. "}at ${tip}`)] : []];
   const rows = data.poses.map((pose, k) => {
     const values = [poseName(pose), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`];
     if (missed) values.push(...missed[k]);
@@ -3696,16 +3740,22 @@ function sixBarPoses(data, linkage) {
   const named = data.poses.some((pose) => pose.label !== pose.name);
   return table(linkage ? `Poses, and how ${linkage.id} stands there` : "Poses", heads, rows, { class: named ? "bm-pose-table bm-named" : "bm-pose-table" });
 }
-var loopTips = (linkage) => [linkage.driver === "first" ? "D" : "C", "H"];
-function sixBarKey(data, hasLinkages) {
+var loopTips = (linkage) => linkage.legs.map((legs) => [...new Set(legs.map(([, tip]) => tip))].join(", "));
+function between(linkages) {
+  const inner = linkages[0].links.filter(({ name, pin }) => !(pin in linkages[0].ground) && name !== linkages[0].carries);
+  const same = linkages.every(({ type, carries }) => type === linkages[0].type && carries === linkages[0].carries);
+  return same ? inner.map(({ name, joints }) => [.../* @__PURE__ */ new Set([name, Object.keys(joints).join("")])].join(" ")).join(" and ") : "links between";
+}
+function sixBarKey(data) {
+  const hasLinkages = data.linkages.length > 0;
   const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
   const link = (kind) => s("g", { class: `bm-link ${kind}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
   const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
   if (hasLinkages) {
     items.push(
       one(link("bm-side0"), "driver (filled)"),
-      one(link("bm-side1"), "other crank (hollow)"),
-      one(link("bm-inner"), "coupler CDE and floating link GH"),
+      one(link("bm-side1"), data.linkages[0].led.length > 2 ? "other cranks (hollow)" : "other crank (hollow)"),
+      one(link("bm-inner"), between(data.linkages)),
       one(link("bm-carried"), "body, with its frame M"),
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M")
     );
@@ -3715,8 +3765,8 @@ function sixBarKey(data, hasLinkages) {
 }
 function loopKey(linkage) {
   const one = (k, text) => h("li", {}, s("svg", { width: 34, height: 12, viewBox: "0 -6 34 12", "aria-hidden": "true", class: "bm-key" }, s("path", { class: `bm-line bm-loop${k}`, d: "M0 0H32" })), text);
-  const [first, second] = loopTips(linkage);
-  return h("ul", { class: "bm-keys" }, one(0, `first loop, at ${first}`), one(1, `second loop, at ${second}`));
+  const tips = loopTips(linkage), of = tips.length > 1 ? ["first loop, ", "second loop, "] : ["the least, "];
+  return h("ul", { class: "bm-keys" }, tips.map((tip, k) => one(k, `${of[k]}at ${tip}`)));
 }
 
 // src/burmester/web/widget/six_bar_report.mjs
@@ -3753,7 +3803,7 @@ var SixBarReport = class extends Report {
       this.story,
       drawing,
       this.player?.element,
-      h("div", { class: "bm-under" }, sixBarKey(this.data, Boolean(this.player)))
+      h("div", { class: "bm-under" }, sixBarKey(this.data))
     );
   }
   numbersAndPlots() {

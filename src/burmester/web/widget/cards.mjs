@@ -32,28 +32,45 @@ export class CardList {
 export class Cards extends CardList {
   constructor(data, linkages, choose) {
     const unit = data.unit ? ` ${data.unit}` : "";
-    super(linkages.map((each, k) => card(each, unit, () => choose(k))));
+    super(linkages.map((each, k) => fourBarCard(each, unit, () => choose(k))));
   }
 }
 
-function card(linkage, unit, onclick) {
-  const { said } = linkage;
-  const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-  const links = said.links ? Object.values(said.links) : [];
+/** A card: the linkage with its verdict, facts in rows of a list, and what is said below them. */
+export function card(linkage, onclick, facts, ...below) {
   return h(
     "button",
     { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
     h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
     h("span", { class: "bm-verdict" }, verdictOf(linkage)),
-    h(
-      "dl",
-      {},
-      fact("worst miss", missOf(said.worst, said.angle, unit).split(" and ").map((part, k) => [k ? ", " : "", h("span", { class: "bm-whole-word" }, part)])),
-      fact("transmission", said.transmission === "-" ? "–" : said.transmission === "0°" ? "down to 0°" : `${said.transmission} or more`),
-      said.quality.extent ? fact("extent, sensitivity", [h("span", { class: "bm-whole-word" }, said.quality.extent), ", ", h("span", { class: "bm-whole-word" }, said.quality.sensitivity)], "bm-detail") : null,
+    h("dl", {}, facts),
+    below,
+  );
+}
+
+/** A row of the list on a card. */
+export const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
+
+/** The least transmission angle on a card. */
+export const transmissionFact = (text) => fact("transmission", text === "–" ? text : text === "0°" ? "down to 0°" : `${text} or more`);
+
+/** The lengths of links on a card. */
+export const linksFact = (lengths) => fact("links", lengths.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links");
+
+function fourBarCard(linkage, unit, onclick) {
+  const { said } = linkage;
+  const links = said.links ? Object.values(said.links) : [];
+  const whole = (text) => h("span", { class: "bm-whole-word" }, text);
+  return card(
+    linkage,
+    onclick,
+    [
+      fact("worst miss", missOf(said.worst, said.angle, unit).split(" and ").map((part, k) => [k ? ", " : "", whole(part)])),
+      transmissionFact(said.transmission === "-" ? "–" : said.transmission),
+      said.quality.extent ? fact("extent, sensitivity", [whole(said.quality.extent), ", ", whole(said.quality.sensitivity)], "bm-detail") : null,
       fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? fact("links", links.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links") : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail"),
-    ),
+      links.length ? linksFact(links) : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail"),
+    ],
     said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
     said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null,
   );

@@ -1,10 +1,10 @@
 // The report of a function task: its generators, the chosen one moving, and its structural error.
 
-import { Cards } from "./function_cards.mjs";
+import { CardList } from "./cards.mjs";
 import { h } from "./dom.mjs";
 import { header } from "./header.mjs";
 import { GeneratorView } from "./generator_view.mjs";
-import { generatorTable } from "./function_tables.mjs";
+import { generatorCard, generatorTable } from "./function_tables.mjs";
 
 export class FunctionReport {
   constructor(data, el, options) {
@@ -18,7 +18,7 @@ export class FunctionReport {
     this.root = root;
     const main = h("div", { class: "bm-main" });
     if (data.generators.length) {
-      this.cards = new Cards(data.generators, (index) => this.choose(index));
+      this.cards = new CardList(data.generators.map((each, k) => generatorCard(each, () => this.choose(k))));
       this.stand = h("div", { class: "bm-stand" });
       main.append(this.stand);
       body.append(this.cards.element);

@@ -1,7 +1,19 @@
-// Tables and facts of function generators.
+// Cards, tables and facts of function generators.
 
+import { card, fact, linksFact, transmissionFact } from "./cards.mjs";
 import { h } from "./dom.mjs";
 import { cells, table, verdictOf } from "./tables.mjs";
+
+/** What a card says of a generator. */
+export function generatorCard(generator, onclick) {
+  const { said, defects, shortcomings } = generator;
+  return card(
+    generator,
+    onclick,
+    [fact("greatest error", said.max_error), transmissionFact(said.transmission), linksFact(said.links.map(([, value]) => value))],
+    defects.length || shortcomings.length ? h("span", { class: "bm-reason" }, `It ${[...defects, ...shortcomings].join("; ")}`) : null,
+  );
+}
 
 /** All generators with their figures. */
 export function generatorTable(data) {

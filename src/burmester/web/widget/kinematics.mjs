@@ -75,7 +75,7 @@ export function project(dyads, place, length) {
 }
 
 /** Values between frames i and i + 1 by Catmull and Rom's cubic; `round`: the last frame is the first. */
-function catmullRom(values, i, share, round) {
+export function catmullRom(values, i, share, round) {
   const last = values.length - 1;
   const at = (k) => {
     if (k >= 0 && k <= last) return values[k];

@@ -1,82 +1,126 @@
-// Where a six-bar of Watt's first kind is: two loops of four links, each closed by two circles that meet.
+// Where a six-bar is: links on links, turned until the joints meet that close its loops.
 //
 // Points are [x, y], and are multiplied as complex numbers: a turned link is a product.  Angles of
-// the driver are in degrees, in F.
+// the driver are in degrees, in F; those of links in radians.
 
-import { frameAt } from "./kinematics.mjs";
+import { catmullRom, frameAt, linear } from "./kinematics.mjs";
 import { degrees, radians } from "./numbers.mjs";
 
-const FRAMES = 361; // along a way
+const FRAMES = 360; // along a way, for each turn of the driver
+const STEPS = 4; // of Newton's method
+const LOCKED = 1e-7; // of the size of a step's equations: what is smaller is a dead point
 
 const plus = (p, q) => [p[0] + q[0], p[1] + q[1]];
 const minus = (p, q) => [p[0] - q[0], p[1] - q[1]];
 const times = (p, q) => [p[0] * q[0] - p[1] * q[1], p[0] * q[1] + p[1] * q[0]];
-const scaled = (p, k) => [k * p[0], k * p[1]];
-const size = (p) => Math.hypot(p[0], p[1]);
-const over = (p, q) => scaled(times(p, [q[0], -q[1]]), 1 / (q[0] * q[0] + q[1] * q[1]));
-
-/** Where two circles meet, to the left (side 1) or right (-1) of the line between their centres; at a dead point they touch. */
-function meeting(centre, radius, other, otherRadius, side) {
-  const way = minus(other, centre), squared = size(way) ** 2;
-  const along = (squared + radius ** 2 - otherRadius ** 2) / (2 * squared);
-  return plus(centre, times(way, [along, side * Math.sqrt(Math.max(0, radius ** 2 / squared - along ** 2))]));
-}
+const cross = (p, q) => p[0] * q[1] - p[1] * q[0];
+const turned = (angle) => [Math.cos(angle), Math.sin(angle)];
+const NOWHERE = [0, 0];
 
 /** The angle between two lines, from 0° to 90°. */
-function acute(p, q) {
-  const [across, around] = times(p, [q[0], -q[1]]);
-  return degrees(Math.atan2(Math.abs(around), Math.abs(across)));
+const acute = (p, q) => degrees(Math.atan2(Math.abs(cross(p, q)), Math.abs(p[0] * q[0] + p[1] * q[1])));
+
+/** All joints where links have angles, how far those that close loops are apart, and how this changes by the angles. */
+function placed({ ground, links, closures }, angles) {
+  const joints = { ...ground }, at = {}, rates = {}, pins = {};
+  const rateOf = (name, point) => links.map((link, k) => (link.name === name ? times([0, 1], minus(point, pins[name])) : rates[name]?.[k] ?? NOWHERE));
+  links.forEach(({ name, on, pin, joints: own }, k) => {
+    const turn = turned(angles[k]);
+    pins[name] = at[on]?.[pin] ?? ground[pin];
+    at[name] = {};
+    for (const joint of Object.keys(own)) {
+      at[name][joint] = plus(pins[name], times(turn, minus(own[joint], own[pin])));
+      joints[joint] ??= at[name][joint];
+    }
+    rates[name] = at[on] ? rateOf(on, pins[name]) : links.map(() => NOWHERE);
+  });
+  const off = [], change = [];
+  for (const [joint, one, other] of closures) {
+    const [p, q] = [one, other].map((name) => at[name][joint]), [a, b] = [rateOf(one, p), rateOf(other, q)];
+    for (const axis of [0, 1]) {
+      off.push(p[axis] - q[axis]);
+      change.push(a.map((rate, k) => rate[axis] - b[k][axis]));
+    }
+  }
+  return { joints, off, change };
 }
 
-/** The place of the body where the driver stands at an angle, with all joints and the transmission angle of each loop. */
-export function sixBarAt(sixBar, drive) {
-  const { ground, coupler, body } = sixBar, { A, B } = ground, isFirst = sixBar.driver === "first";
-  const arm = (length) => [length * Math.cos(radians(drive)), length * Math.sin(radians(drive))];
-  const bar = size(coupler.D);
-  let C, D;
-  if (isFirst) {
-    C = plus(A, arm(sixBar.first_crank));
-    D = meeting(C, bar, B, sixBar.second_crank, sixBar.sides[0]);
-  } else {
-    D = plus(B, arm(sixBar.second_crank));
-    C = meeting(D, bar, A, sixBar.first_crank, sixBar.sides[0]);
+/** What solves a few linear equations; null where they are nearly one. */
+function solved(rows, right) {
+  const size = rows.length, all = rows.map((row, k) => [...row, right[k]]), most = Math.max(...rows.flat().map(Math.abs));
+  for (let k = 0; k < size; k += 1) {
+    const best = all.reduce((i, row, j) => (j > k && Math.abs(row[k]) > Math.abs(all[i][k]) ? j : i), k);
+    [all[k], all[best]] = [all[best], all[k]];
+    if (!(Math.abs(all[k][k]) > LOCKED * most)) return null;
+    for (let j = k + 1; j < size; j += 1) {
+      const share = all[j][k] / all[k][k];
+      for (let i = k; i <= size; i += 1) all[j][i] -= share * all[k][i];
+    }
   }
-  const E = plus(C, times(over(minus(D, C), coupler.D), coupler.E));
-  const G = plus(B, times(scaled(minus(D, B), 1 / sixBar.second_crank), sixBar.crank_joint));
-  const held = minus(body.H, body.E);
-  const H = meeting(G, sixBar.floating_link, E, size(held), sixBar.sides[1]);
-  const turn = over(minus(H, E), held), [x, y] = minus(E, times(turn, body.E));
-  const first = isFirst ? acute(minus(C, D), minus(B, D)) : acute(minus(D, C), minus(A, C));
-  const loops = [first, acute(minus(G, H), minus(E, H))];
-  return { x, y, a: Math.atan2(turn[1], turn[0]), joints: { A, B, C, D, E, G, H }, loops, transmission: Math.min(...loops) };
+  const out = Array(size).fill(0);
+  for (let k = size - 1; k >= 0; k -= 1) out[k] = (all[k][size] - all[k].reduce((sum, each, i) => (i > k && i < size ? sum + each * out[i] : sum), 0)) / all[k][k];
+  return out;
+}
+
+/** The transmission angle where two links meet; where three carry one, the least to the meeting point of the other two. */
+function transmitted(legs, joints) {
+  const ways = legs.map(([from, to]) => minus(joints[to], joints[from])), tips = legs.map(([, to]) => joints[to]);
+  if (legs.length === 2) return acute(...ways);
+  return Math.min(
+    ...ways.map((way, k) => {
+      const [i, j] = [0, 1, 2].filter((each) => each !== k);
+      const off = cross(minus(tips[j], tips[i]), ways[j]), across = cross(ways[i], ways[j]), from = minus(tips[i], tips[k]);
+      return acute(way, [0, 1].map((axis) => across * from[axis] + off * ways[i][axis]));
+    }),
+  );
+}
+
+/** The place of the body at frame u of a way, with all joints and the transmission angles. */
+export function sixBarAt(sixBar, { drive, angles, round }, u) {
+  const { links, driver, carries, legs } = sixBar, last = angles[0].length - 1;
+  const along = (u / (drive.length - 1)) * last, i = Math.min(last - 1, Math.max(0, Math.floor(along)));
+  const crank = links.findIndex(({ name }) => name === driver), now = angles.map((values) => catmullRom(values, i, along - i, round));
+  now[crank] = angles[crank][0] + radians(linear(drive, u) - drive[0]);
+  let at = placed(sixBar, now);
+  const free = now.map((_, k) => k).filter((k) => k !== crank);
+  for (let step = 0; step < STEPS; step += 1) {
+    const by = solved(at.change.map((row) => free.map((k) => row[k])), at.off);
+    if (!by) break; // at a dead point: as it is
+    free.forEach((k, n) => (now[k] -= by[n]));
+    at = placed(sixBar, now);
+  }
+  const body = links.findIndex(({ name }) => name === carries), { pin, joints: own } = links[body];
+  const [x, y] = minus(at.joints[pin], times(turned(now[body]), own[pin])), loops = legs.map((each) => transmitted(each, at.joints));
+  return { x, y, a: now[body], joints: at.joints, loops, transmission: Math.min(...loops) };
 }
 
 /** All that the driver reaches, as frames; they lie closer where it comes to rest at a dead point. */
 function wayOf(sixBar) {
-  const [low, high] = sixBar.ends_deg, round = sixBar.turns_fully;
-  const share = (k) => (round ? k / (FRAMES - 1) : (1 - Math.cos((Math.PI * k) / (FRAMES - 1))) / 2);
-  const drive = Array.from({ length: FRAMES }, (_, k) => low + (high - low) * share(k));
-  const places = drive.map((each) => sixBarAt(sixBar, each));
+  const [low, high] = sixBar.ends_deg, round = sixBar.turns_fully, frames = FRAMES * Math.max(1, Math.ceil((high - low) / 360 - 1e-9));
+  const share = (k) => (round ? k / frames : (1 - Math.cos((Math.PI * k) / frames)) / 2);
+  const drive = Array.from({ length: frames + 1 }, (_, k) => low + (high - low) * share(k));
+  const way = { drive, angles: sixBar.links.map(({ name }) => sixBar.angles[name]), round };
+  const places = drive.map((_, k) => sixBarAt(sixBar, way, k));
   const column = (value) => places.map(value);
   return {
-    circuit: 1, branch: 1, branches: 1, round, dead: [!round, !round], poses: sixBar.drive_deg.map((_, k) => k + 1), drive,
+    ...way, circuit: 1, branch: 1, branches: 1, dead: [!round, !round], poses: sixBar.drive_deg.map((_, k) => k + 1),
     x: column((at) => at.x), y: column((at) => at.y), angle: column((at) => at.a),
-    transmission: column((at) => at.transmission), loops: [0, 1].map((k) => column((at) => at.loops[k])),
+    transmission: column((at) => at.transmission), loops: sixBar.legs.map((_, k) => column((at) => at.loops[k])),
   };
 }
 
 /** A six-bar with its one way, its cranks (the driver first), and where it is at the poses. */
 export function moving(sixBar, poses) {
-  const way = wayOf(sixBar), { A, B } = sixBar.ground;
-  const cranks = [{ id: "AC", kind: "crank", fixed_pivot: A }, { id: "BD", kind: "crank", fixed_pivot: B }];
+  const way = wayOf(sixBar), grounded = sixBar.links.filter(({ pin }) => pin in sixBar.ground);
+  const cranks = grounded.map(({ name, pin, joints }) => ({ id: pin + Object.keys(joints).find((joint) => joint !== pin), name, kind: "crank", fixed_pivot: sixBar.ground[pin] }));
   return {
     ...sixBar,
     ways: [way],
-    led: sixBar.driver === "first" ? cranks : cranks.reverse(),
+    led: cranks.sort((a, b) => (b.name === sixBar.driver) - (a.name === sixBar.driver)),
     pose_errors: sixBar.drive_deg.map((drive, k) => {
-      const at = sixBarAt(sixBar, drive);
+      const frame = frameAt(way.drive, drive), at = sixBarAt(sixBar, way, frame);
       return {
-        x: at.x, y: at.y, angle_deg: degrees(at.a), way: 0, frame: frameAt(way.drive, drive), drive_deg: drive, joints: at.joints, loops: at.loops,
+        x: at.x, y: at.y, angle_deg: degrees(at.a), way: 0, frame, drive_deg: drive, joints: at.joints, loops: at.loops,
         position: Math.hypot(at.x - poses[k].x, at.y - poses[k].y), transmission_deg: at.transmission,
         said: { position: sixBar.said.errors?.[k][0] ?? "exact", turned: sixBar.said.errors?.[k][1] ?? "exact" },
       };

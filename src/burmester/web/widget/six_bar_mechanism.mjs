@@ -10,28 +10,36 @@ import { bodyOutline } from "./outlines.mjs";
 
 const NAME = 15; // pixels: how far the name of a joint stands from it
 const BODY_AXIS = AXIS + 10; // pixels: the x axis of the body
-// Links from the lowest to the topmost, and those beyond which the names of their joints stand.
-const LINKS = ["CDE", "BDG", "AC", "GH", "EHM"];
-const NAMED_ON = { C: "CDE", D: "CDE", E: "CDE", G: "BDG", H: "GH" };
 
-/** How a link is drawn: the driver filled, the other crank hollow, in grey those between; the body is grey and filled. */
-const kindOf = (link, driver) => (link === "EHM" ? "bm-carried" : link === "AC" || link === "BDG" ? `bm-side${(link === "AC") === (driver === "first") ? 0 : 1}` : "bm-inner");
+/** How a link is drawn: the driver filled, another crank hollow, in grey those between; the body is grey and filled. */
+function kindOf({ name, pin }, { driver, carries, ground }) {
+  if (name === carries) return "bm-carried";
+  return pin in ground ? `bm-side${name === driver ? 0 : 1}` : "bm-inner";
+}
+
+/** The link beyond which the name of a joint stands: the first one of three joints, else one that is not the body. */
+function namedOn(joint, { links, carries }) {
+  const own = links.filter(({ joints }) => joint in joints), others = own.filter(({ name }) => name !== carries);
+  return others.find(({ joints }) => Object.keys(joints).length > 2) ?? others[0] ?? own[0];
+}
 
 export class SixBarMechanism {
   constructor(data, linkage, view) {
     this.view = view;
-    this.links = LINKS.map((joints) => {
+    // From the lowest to the topmost: links of three joints, those of two, the body.
+    const height = ({ name, outline }) => (name === linkage.carries ? 2 : outline.length > 2 ? 0 : 1);
+    this.links = [...linkage.links].sort((a, b) => height(a) - height(b)).map((link) => {
       const strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
-      const group = s("g", { class: `bm-link ${kindOf(joints, linkage.driver)}${joints.length > 2 ? " bm-ternary" : ""}`, "data-link": joints.replace("M", "") }, strokes);
-      return { joints, strokes, group };
+      const group = s("g", { class: `bm-link ${kindOf(link, linkage)}${link.outline.length > 2 ? " bm-ternary" : ""}`, "data-link": link.outline.replace("M", "") }, strokes);
+      return { joints: link.outline, strokes, group };
     });
     this.outline = data.body ? s("path", { class: "bm-body-outline", d: bodyOutline(data, view) }) : null;
     this.frame = s("g", { class: "bm-coupler" }, s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
-    this.pins = [..."ABCDEGH"].map((joint) => ({
-      joint,
-      pin: s("circle", { class: `bm-pin${joint < "C" ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint }),
-      name: NAMED_ON[joint] ? s("text", { class: "bm-name", "text-anchor": "middle" }, joint) : null,
-    }));
+    this.pins = Object.keys(linkage.pose_errors[0].joints).map((joint) => {
+      const fixed = joint in linkage.ground, on = fixed ? null : Object.keys(namedOn(joint, linkage).joints);
+      const pin = s("circle", { class: `bm-pin${fixed ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint });
+      return { joint, on, pin, name: fixed ? null : s("text", { class: "bm-name", "text-anchor": "middle" }, joint) };
+    });
     const pivot = linkage.led[0].fixed_pivot;
     this.group = s(
       "g",
@@ -55,12 +63,12 @@ export class SixBarMechanism {
     const seen = transform(...at.M, place.a);
     put(this.frame, "transform", seen);
     if (this.outline) put(this.outline, "transform", seen);
-    for (const { joint, pin, name } of this.pins) {
+    for (const { joint, on, pin, name } of this.pins) {
       const [x, y] = at[joint];
       put(pin, "cx", px(x));
       put(pin, "cy", px(y));
       if (!name) continue;
-      const [u, v] = outwards([...NAMED_ON[joint]].map((each) => at[each]), at[joint]);
+      const [u, v] = outwards(on.map((each) => at[each]), at[joint]);
       put(name, "x", px(x + NAME * u));
       put(name, "y", px(y + NAME * v + 4));
     }

@@ -2,7 +2,6 @@
 
 import { s } from "./dom.mjs";
 import { polyline } from "./drawing.mjs";
-import { linear } from "./kinematics.mjs";
 import { including } from "./outlines.mjs";
 import { Plane } from "./plane.mjs";
 import { sixBarAt } from "./six_bar.mjs";
@@ -17,18 +16,23 @@ export class SixBarPlane extends Plane {
   }
 
   placesOf(way, stretch) {
-    return placesAlong(this.data, stretch, (u) => sixBarAt(this.linkage, linear(way.drive, u)));
+    return placesAlong(this.data, stretch, (u) => sixBarAt(this.linkage, way, u));
   }
 
   bounds(far) {
     return including(super.bounds(far), this.places.flatMap((place) => Object.values(place.joints)));
   }
 
-  /** The body at every pose; where it has no outline, its two joints and its origin. */
+  /** The link that is the body. */
+  get body() {
+    return this.linkage.links.find(({ name }) => name === this.linkage.carries);
+  }
+
+  /** The body at every pose; where it has no outline, its joints and its origin. */
   ghosts() {
     const { data, linkage, view } = this;
     if (data.body || !linkage) return super.ghosts();
-    const plates = linkage.pose_errors.map(({ x, y, joints }) => s("path", { class: "bm-ghost", d: `${polyline([[x, y], joints.E, joints.H], view)}Z` }));
+    const plates = linkage.pose_errors.map(({ x, y, joints }) => s("path", { class: "bm-ghost", d: `${polyline([...this.body.outline].map((joint) => joints[joint] ?? [x, y]), view)}Z` }));
     return s("g", { class: "bm-ghosts" }, plates);
   }
 
@@ -36,23 +40,25 @@ export class SixBarPlane extends Plane {
     return new SixBarMechanism(this.data, this.linkage, this.view);
   }
 
-  /** The paths of the two pins that carry the body. */
+  /** The paths of the pins that carry the body. */
   pivotPaths() {
-    return ["E", "H"].map((joint) => ({ side: "-inner", points: this.places.map((place) => place.joints[joint]) }));
+    return Object.keys(this.body.joints).filter((joint) => !(joint in this.linkage.ground)).map((joint) => ({ side: "-inner", points: this.places.map((place) => place.joints[joint]) }));
   }
 
   ground(labels) {
     const group = s("g", { class: "bm-grounds" });
     this.keepCranksFree(labels);
-    this.linkage.led.forEach(({ id, fixed_pivot }, side) => this.fixedPivot(group, labels, { id: id[0], fixed_pivot }, side));
+    this.linkage.led.forEach(({ id, fixed_pivot }, side) => this.fixedPivot(group, labels, { id: id[0], fixed_pivot }, Math.min(side, 1)));
     return group;
   }
 
   /** Where cranks are on their way no name is to stand. */
   keepCranksFree(labels) {
-    const { view, places } = this, every = Math.ceil(places.length / 9);
+    const { view, places, linkage } = this, every = Math.ceil(places.length / 9);
+    const cranks = linkage.links.filter(({ pin }) => pin in linkage.ground);
+    const arms = cranks.flatMap(({ pin, joints }) => Object.keys(joints).filter((joint) => joint !== pin).map((joint) => pin + joint));
     for (const { joints } of places.filter((_, k) => k % every === 0)) {
-      for (const [pivot, end] of ["AC", "BD", "BG"]) {
+      for (const [pivot, end] of arms) {
         const [[x, y], [u, v]] = [joints[pivot], joints[end]].map((at) => [view.X(at[0]), view.Y(at[1])]);
         const size = Math.hypot(u - x, v - y) || 1;
         for (const along of BESIDE_PIVOT) labels.block(x + (along * (u - x)) / size, y + (along * (v - y)) / size, 12, 12);

@@ -1,13 +1,12 @@
-// What moves a six-bar: its places are exact at every angle of the driver.
+// What moves a six-bar: its joints meet at every angle of the driver.
 
-import { linear } from "./kinematics.mjs";
 import { fixed } from "./numbers.mjs";
 import { Player } from "./player.mjs";
 import { sixBarAt } from "./six_bar.mjs";
 
 export class SixBarPlayer extends Player {
   placeAt(u) {
-    return sixBarAt(this.linkage, linear(this.path.drive, u));
+    return sixBarAt(this.linkage, this.path, u);
   }
 
   driverText(drive) {

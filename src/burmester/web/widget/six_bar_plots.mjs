@@ -1,4 +1,4 @@
-// The transmission angles of both loops of a six-bar over the drive.
+// The transmission angles of a six-bar over the drive.
 
 import { s } from "./dom.mjs";
 import { LEFT, Plots, RIGHT } from "./plots.mjs";
@@ -9,7 +9,7 @@ const SOUND = 30; // degrees: the transmission angle below which a linkage is no
 
 export class SixBarPlots extends Plots {
   static HEIGHT = PANEL;
-  static TITLE = "Transmission angles of both loops";
+  static TITLE = "Transmission angles";
 
   panels(rows) {
     const { svg, way, width, top } = this, base = top + PANEL;
@@ -31,13 +31,13 @@ export class SixBarPlots extends Plots {
   build(linkage, index, stretch) {
     super.build(linkage, index, stretch);
     if (!this.cursor) return;
-    this.other = s("circle", { r: 4.5 });
-    this.cursor.append(this.other);
+    this.others = linkage.legs.slice(1).map(() => s("circle", { r: 4.5 }));
+    this.cursor.append(...this.others);
   }
 
   show(drive, transmission, place) {
     if (!this.cursor) return;
     super.show(drive, place.loops[0]);
-    this.other.setAttribute("cy", px(this.Y(place.loops[1])));
+    this.others.forEach((mark, k) => mark.setAttribute("cy", px(this.Y(place.loops[k + 1]))));
   }
 }

@@ -44,7 +44,7 @@ export class SixBarReport extends Report {
       this.story,
       drawing,
       this.player?.element,
-      h("div", { class: "bm-under" }, sixBarKey(this.data, Boolean(this.player))),
+      h("div", { class: "bm-under" }, sixBarKey(this.data)),
     );
   }
 

@@ -66,7 +66,7 @@ export function sixBarFacts(data, { said }) {
 export function sixBarPoses(data, linkage) {
   const digits = decimalsOf(data), unit = data.unit ? ` (${data.unit})` : "";
   const missed = linkage?.said.errors;
-  const heads = ["pose", "x", `y${unit}`, "angle", ...(missed ? ["off by", "turned by"] : []), ...(linkage ? [`driver ${linkage.crank}`, `transm. at ${loopTips(linkage)[0]}`, "at H"] : [])];
+  const heads = ["pose", "x", `y${unit}`, "angle", ...(missed ? ["off by", "turned by"] : []), ...(linkage ? [`driver ${linkage.crank}`, ...loopTips(linkage).map((tip, k) => `${k ? "" : "transm. "}at ${tip}`)] : [])];
   const rows = data.poses.map((pose, k) => {
     const values = [poseName(pose), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`];
     if (missed) values.push(...missed[k]);
@@ -80,19 +80,27 @@ export function sixBarPoses(data, linkage) {
   return table(linkage ? `Poses, and how ${linkage.id} stands there` : "Poses", heads, rows, { class: named ? "bm-pose-table bm-named" : "bm-pose-table" });
 }
 
-/** The joints at which both loops transmit, the first one's first. */
-export const loopTips = (linkage) => [linkage.driver === "first" ? "D" : "C", "H"];
+/** The joints at which links transmit, the first loop's first. */
+export const loopTips = (linkage) => linkage.legs.map((legs) => [...new Set(legs.map(([, tip]) => tip))].join(", "));
+
+/** The links between cranks and body, by their names and joints. */
+function between(linkages) {
+  const inner = linkages[0].links.filter(({ name, pin }) => !(pin in linkages[0].ground) && name !== linkages[0].carries);
+  const same = linkages.every(({ type, carries }) => type === linkages[0].type && carries === linkages[0].carries);
+  return same ? inner.map(({ name, joints }) => [...new Set([name, Object.keys(joints).join("")])].join(" ")).join(" and ") : "links between";
+}
 
 /** The signs of the drawing, and what they mean. */
-export function sixBarKey(data, hasLinkages) {
+export function sixBarKey(data) {
+  const hasLinkages = data.linkages.length > 0;
   const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
   const link = (kind) => s("g", { class: `bm-link ${kind}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
   const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
   if (hasLinkages) {
     items.push(
       one(link("bm-side0"), "driver (filled)"),
-      one(link("bm-side1"), "other crank (hollow)"),
-      one(link("bm-inner"), "coupler CDE and floating link GH"),
+      one(link("bm-side1"), data.linkages[0].led.length > 2 ? "other cranks (hollow)" : "other crank (hollow)"),
+      one(link("bm-inner"), between(data.linkages)),
       one(link("bm-carried"), "body, with its frame M"),
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M"),
     );
@@ -104,6 +112,6 @@ export function sixBarKey(data, hasLinkages) {
 /** The lines of the plot, and what they mean. */
 export function loopKey(linkage) {
   const one = (k, text) => h("li", {}, s("svg", { width: 34, height: 12, viewBox: "0 -6 34 12", "aria-hidden": "true", class: "bm-key" }, s("path", { class: `bm-line bm-loop${k}`, d: "M0 0H32" })), text);
-  const [first, second] = loopTips(linkage);
-  return h("ul", { class: "bm-keys" }, one(0, `first loop, at ${first}`), one(1, `second loop, at ${second}`));
+  const tips = loopTips(linkage), of = tips.length > 1 ? ["first loop, ", "second loop, "] : ["the least, "];
+  return h("ul", { class: "bm-keys" }, tips.map((tip, k) => one(k, `${of[k]}at ${tip}`)));
 }

@@ -35,9 +35,7 @@ from burmester.io.reading.pose_table import Source, held_float, shown
 
 __all__ = ["read_function", "settings_of_tree", "task_of_tree"]
 
-SETTINGS: Final = (
-    "minimax", "input_phase_deg", "output_phase_deg", "ground", *(each.name for each in KEPT),
-)  # fmt: skip
+SETTINGS: Final = (*FunctionSettings._fields[:-1], *(each.name for each in KEPT))
 KEYS: Final = (
     "expression", "x", "input_deg", "output_deg", "opposite", "pairs", "spacing", *SETTINGS,
 )  # fmt: skip
@@ -116,17 +114,10 @@ def settings_of_tree(tree: Any, *, known: Sequence[str] = SETTINGS) -> FunctionS
                 f"[function] has an unknown key {shown(key)}",
                 help=f"the keys are {', '.join(known)}",
             )
-    return FunctionSettings(
-        _number(tree, "input_phase_deg"),
-        _number(tree, "output_phase_deg"),
-        _number(tree, "ground") or 1.0,
-        _flag(tree, "minimax"),
-        {
-            each.name: (_names if each.form == "names" else _number)(tree, each.name)
-            for each in KEPT
-            if tree.get(each.name) is not None
-        },
-    )
+    read: dict[str, Any] = {"minimax": _flag, "types": _names}
+    stated = {k: read.get(k, _number)(tree, k) for k in SETTINGS if tree.get(k) is not None}
+    asked = {each.name: stated.pop(each.name) for each in KEPT if each.name in stated}
+    return FunctionSettings(**stated, asked=asked)
 
 
 def task_of_tree(tree: Any, settings: FunctionSettings = FunctionSettings()) -> FunctionTask:  # noqa: B008

@@ -42,13 +42,13 @@ LEAST_STEP: Final = 1e-9  # radians; inputs that differ less are one
 
 
 class FunctionSettings(NamedTuple):
-    """What is asked of a function generator beside its pairs; angles in degrees.
+    """What is asked of a function generator beside its pairs, by the keys of a file.
 
     asked: requirements, by their names in `Requirements`.
     """
 
-    input_phase: float | None = None
-    output_phase: float | None = None
+    input_phase_deg: float | None = None
+    output_phase_deg: float | None = None
     ground: float = 1.0
     minimax: bool = False
     asked: Mapping[str, Any] = MappingProxyType({})
@@ -194,7 +194,7 @@ def _task(
             f"the length of the ground link is {settings.ground:g}",
             help="give a number above 0 and below 1e+09",
         )
-    for name, value in (("input", settings.input_phase), ("output", settings.output_phase)):
+    for name, value in (("input", settings.input_phase_deg), ("output", settings.output_phase_deg)):
         if value is not None and not math.isfinite(value):
             raise InputError(
                 "E194", f"the {name} phase is {shown(value)}", help="give an angle in degrees"
@@ -202,8 +202,8 @@ def _task(
     return FunctionTask(
         inputs,
         outputs,
-        _radians(settings.input_phase),
-        _radians(settings.output_phase),
+        _radians(settings.input_phase_deg),
+        _radians(settings.output_phase_deg),
         weights,
         settings.ground,
         function,

@@ -1,16 +1,16 @@
 """Pairs of angles in tables: CSV, a sheet of a workbook, Parquet.
 
 E101 not readable                  E105 a column is missing
-E102 no rows                       E106 a row of the wrong length
-E103 no value                      E107 a column that is not known
+E102 no rows                       E107 a column that is not known
 E104 not a number                  E108 a column twice
+E106 a row of the wrong length
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
@@ -113,7 +113,10 @@ def read_pair_text(source: Source, settings: FunctionSettings) -> FunctionTask:
             numbers[role].append(math.degrees(value) if unit == "rad" else value)
         places.append(where)
     arrays = {role: np.array(values) for role, values in numbers.items()}
-    return _task(arrays, settings, head, places)
+    weights = arrays.get(WEIGHT)
+    require_weights(weights, head)
+    inputs, outputs = arrays["input"], arrays["output"]
+    return task_of_pairs(inputs, outputs, weights, settings, where=places.__getitem__)
 
 
 def read_pair_parquet(label: str, data: bytes, settings: FunctionSettings) -> FunctionTask:
@@ -127,41 +130,12 @@ def read_pair_parquet(label: str, data: bytes, settings: FunctionSettings) -> Fu
         why = str(error).partition("\n")[0][:200]
         help = "write the file again, or save the pairs as CSV"
         raise InputError("E101", "this Parquet file cannot be read", why=why, help=help) from None
-    names = [str(name).strip().lower() for name in table.column_names]
     if not table.num_rows:
         raise no_poses("the file has no rows")
-    arrays: dict[str, FloatArray] = {}
-    for role, (index, unit) in _columns(names, label).items():
-        values = _numbers(table.column(index), f"{label}: column {names[index]}")
-        if (bad := ~np.isfinite(values)).any():
-            raise InputError(
-                "E103",
-                f"row {int(bad.argmax()) + 1} has no finite number",
-                where=f"{label}: column {names[index]}",
-                help="give a number, or delete the row",
-            )
-        arrays[role] = np.degrees(values) if unit == "rad" else values
-    places = [f"{label}: row {k + 1}" for k in range(table.num_rows)]
-    return _task(arrays, settings, label, places)
-
-
-def _numbers(column: Any, where: str) -> FloatArray:
-    from pyarrow import float64, types
-
-    kind = column.type
-    if not (types.is_floating(kind) or types.is_integer(kind) or types.is_decimal(kind)):
-        message = f"the column holds {kind}, not numbers"
-        raise InputError("E104", message, where=where, help="store it as float64")
-    return np.asarray(column.cast(float64()).to_numpy(), dtype=np.float64)
-
-
-def _task(
-    arrays: dict[str, FloatArray], settings: FunctionSettings, head: str, places: list[str]
-) -> FunctionTask:
-    weights = arrays.get(WEIGHT)
-    require_weights(weights, head)
-    inputs, outputs = arrays["input"], arrays["output"]
-    return task_of_pairs(inputs, outputs, weights, settings, where=places.__getitem__)
+    names = [str(name).strip().lower() for name in table.column_names]
+    rows = zip(*(map(str, column.to_pylist()) for column in table.columns), strict=True)
+    text = "\n".join(map(",".join, [names, *rows]))
+    return read_pair_text(Source(label, text), settings)
 
 
 def require_weights(weights: FloatArray | None, where: str | None) -> None:

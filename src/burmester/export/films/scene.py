@@ -1,9 +1,9 @@
-"""The pictures of a film of a four-bar: what stands still is drawn once, what moves each time."""
+"""The pictures of a film: what stands still is drawn once, what moves each time."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Final, NamedTuple, final
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["LinkageScene"]
+__all__ = ["marks", "pictures"]
 
 FITTED_PLACES: Final = 25  # places whose drawing has to fit into the picture
 MARGIN: Final = (0.62, 0.12, 0.48, 0.34)  # inches left, right, below and above the axes
@@ -37,31 +37,22 @@ class Stage(NamedTuple):
     over: list[Artist]
 
 
-@final
-class LinkageScene:
-    """A film of a four-bar, to be drawn; see `film.Scene`."""
+def marks(film: Film, numbers: NDArray[np.intp]) -> tuple[tuple[int, int], FloatArray]:
+    """The width and height of pictures, and where the mark is in those of some numbers.
 
-    def __init__(self, film: Film) -> None:
-        self.film = film
-        self.count = film.count
-
-    def pictures(self) -> Iterator[Picture]:
-        """The pictures (rows, columns, 3), all of one size."""
-        return _pictures(self.film)
-
-    def marks(self, numbers: NDArray[np.intp]) -> tuple[tuple[int, int], FloatArray]:
-        """The size of pictures, and where in some of them the mark is; see `film.Scene`."""
-        stage = _stage(self.film)
-        wanted = stage.ax.transData.transform(self.film.followed(numbers))
-        return stage.figure.canvas.get_width_height(), np.asarray(wanted)
+    (n, 2), pixels to the right and upwards from the lower left corner.
+    """
+    stage = _stage(film)
+    wanted = stage.ax.transData.transform(film.followed(numbers))
+    return stage.figure.canvas.get_width_height(), np.asarray(wanted)
 
 
-def _pictures(film: Film) -> Iterator[Picture]:
-    """The pictures (rows, columns, 3) of a film."""
-    motion, along = film.motion, (film.motion.places,)
-    long = X_AXIS_LENGTH * span_of(film.chosen.task.poses)
+def pictures(film: Film) -> Iterator[Picture]:
+    """The pictures (rows, columns, 3) of a film, all of one size."""
+    places = film.places
+    long = X_AXIS_LENGTH * span_of(film.task.poses)
     body = np.array([[long, 0.0], [0.0, 0.0], [0.0, 0.6 * long]])
-    path = motion.places.translation
+    path, many = places.translation, film.grown
     pivot = film.followed(np.arange(film.count))
     with plot.house_style():
         stage = _stage(film)
@@ -77,14 +68,12 @@ def _pictures(film: Film) -> Iterator[Picture]:
         ax.add_patch(mark)
         drive = ax.text(1.0, 1.0, "", transform=ax.transAxes, ha="right", va="bottom", fontsize=9)
         for number in range(film.count):
-            place = motion.places[number]
+            place = places[number]
             step(f"drawing picture {number + 1} of {film.count}")
-            drawn = plot.linkage(ax, film.linkage, place, travel=along)
-            own = [*drawn.links, drawn.coupler, *drawn.ground]
-            own += [drawn.fixed_pivots, drawn.moving_pivots]
+            own = film.drawn(ax, number)
             if film.outline is not None:
                 own += plot.body(ax, film.outline, place[None], at=0).places
-            grown.set_data(*path[: film.grown[number]].T)
+            grown.set_data(*path[: many[number]].T)
             frame.set_data(*place.act(body).T)
             mark.set_center(tuple(pivot[number].tolist()))
             drive.set_text(film.drive_text(number))
@@ -107,16 +96,15 @@ def _shown_poses(points: FloatArray) -> NDArray[np.intp]:
 
 def _background(film: Film, shown: NDArray[np.intp], ax: Axes) -> None:
     """Draw the regions to keep out of, and the body faintly where it is at some of the poses."""
-    chosen = film.chosen
-    if chosen.task.surroundings is not None:
-        plot.keep_out(ax, chosen.task.surroundings.keep_out)
+    if film.task.surroundings is not None:
+        plot.keep_out(ax, film.task.surroundings.keep_out)
     if film.outline is not None:
-        plot.body(ax, film.outline, chosen.error.places[shown])
+        plot.body(ax, film.outline, film.at_poses[shown])
 
 
 def _stage(film: Film) -> Stage:
     """Axes that hold the whole motion, with the path, the poses and a title, drawn once."""
-    task, motion, linkage = film.chosen.task, film.motion, film.linkage
+    task = film.task
     shown = _shown_poses(task.poses.translation)
     with plot.house_style():
         # First all that is ever drawn, to see how large it is.
@@ -125,11 +113,11 @@ def _stage(film: Film) -> Stage:
         some = np.unique(np.linspace(0, film.count - 1, FITTED_PLACES).astype(np.intp))
         plot.poses(ax, task.poses[shown], numbers=False, free=task.free_angles[shown])
         for number in some:
-            plot.linkage(ax, linkage, motion.places[number], travel=(motion.places,))
+            film.drawn(ax, number)
         if film.outline is not None:
-            plot.body(ax, film.outline, motion.places[some])
+            plot.body(ax, film.outline, film.places[some])
         _background(film, shown, ax)
-        plot.finish(ax, film.chosen.unit, room=0.04)
+        plot.finish(ax, task.length_unit, room=0.04)
         (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
 
         beside, above = MARGIN[0] + MARGIN[1], MARGIN[2] + MARGIN[3]
@@ -145,16 +133,13 @@ def _stage(film: Film) -> Stage:
             ylim=(y - half * (h - above), y + half * (h - above)),
             autoscale_on=False,
         )
-        curve = plot.coupler_curve(ax, linkage, only=motion.number)
-        for line in [each for lines in curve.circuits for each in lines]:
+        for line in film.curve(ax):
             line.set(color=GREY, lw=0.9, linestyle=(0, (3, 2)))
-        for cross in curve.dead_points:
-            cross.remove()
         _background(film, shown, ax)
         over = list[Artist]()
         long = X_AXIS_LENGTH * span_of(task.poses)
         for color, reached in ((VERMILION, True), (GREY, False)):
-            numbers = shown[np.isfinite(motion.pose_shares[shown]) == reached]
+            numbers = shown[film.reached[shown] == reached]
             if len(numbers):
                 names = [str(k + 1) for k in numbers]
                 wanted = plot.poses(
@@ -166,9 +151,9 @@ def _stage(film: Film) -> Stage:
                     free=task.free_angles[numbers],
                 )
                 over += [wanted.x_axes, wanted.y_axes, wanted.origins, *wanted.labels]
-        ax.set_xlabel(with_unit("X", film.chosen.unit), labelpad=1)
-        ax.set_ylabel(with_unit("Y", film.chosen.unit), labelpad=1)
-        title = plain(f"{film.chosen.id}  {film.chosen.type}")
+        ax.set_xlabel(with_unit("X", task.length_unit), labelpad=1)
+        ax.set_ylabel(with_unit("Y", task.length_unit), labelpad=1)
+        title = plain(f"{film.id}  {film.type}")
         ax.set_title(title, loc="left", fontsize=10, pad=4)
         settle_labels(ax)
         for artist in over:

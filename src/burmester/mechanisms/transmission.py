@@ -1,0 +1,38 @@
+"""The transmission angle of a mechanism of any kind: how well its driver moves the links beyond it.
+
+Two legs that meet in a joint have the angle between them there.  A link on three legs has, at the
+end of each, the angle between this leg and the line to where the other two meet.  The least of all
+is told; it is zero at the driver's dead points and nowhere else.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from burmester.mechanisms.circles import acute_angle
+from burmester.mechanisms.skeleton import Skeleton
+from burmester.numerics.arrays import ComplexArray, FloatArray
+
+__all__ = ["least_transmission_angle"]
+
+
+def least_transmission_angle(skeleton: Skeleton, joints: ComplexArray, pivot: str) -> FloatArray:
+    """The least transmission angle (*,) where the joints are (*, j), in radians.
+
+    pivot: of the driver.
+    """
+    at = {name: joints[..., k] for k, name in enumerate(skeleton.joints)}
+    angles = []
+    for group in skeleton.legs(pivot):
+        legs = [tuple(at[joint] for joint in tuple(leg)) for leg in group]
+        if len(legs) == 2:
+            (one, tip), (other, _) = legs
+            angles.append(acute_angle(one - tip, other - tip))
+            continue
+        for k in range(3):
+            (base, tip), (p, q), (r, s) = legs[k], legs[k - 1], legs[k - 2]
+            u, v = q - p, s - r
+            # Where the other two meet, as seen from the tip and times the sine between them.
+            meeting = (p - tip) * (u.conj() * v).imag + u * ((r - p).conj() * v).imag
+            angles.append(acute_angle(meeting, tip - base))
+    return np.asarray(np.minimum.reduce(angles))
