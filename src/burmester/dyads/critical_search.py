@@ -1,8 +1,8 @@
 """All critical points of the squared circle residuals of many tasks: see `critical_points`.
 
-They come from eigenproblems: of all tasks at once by the template of circles without limits
-(`elimination`), and where that does not find all of a task, which is special or turns little, from
-a greater matrix (`macaulay`), task by task.  Newton's method on F removes the rounding.
+They come from eigenproblems: of many tasks at once by the template of circles without limits
+(`elimination`), and of few, or where that does not find all of a task, which is special or turns
+little, from a greater matrix (`macaulay`), task by task.  Newton's method on F removes rounding.
 """
 
 from __future__ import annotations
@@ -47,6 +47,7 @@ SETTLED_STEP = 1e-8  # relative; shorter steps are rounding once they no longer 
 LAST_STEP = 1e-13  # relative; a step as short as this is the last one in any case
 SAME_POINT = 1e-6  # relative; critical points nearer than this are one
 TASKS_AT_ONCE = 400  # bounds the memory
+FEW_TASKS = 4  # solved by the greater matrix before the template is loaded
 
 _CIRCLE = circle_shape(2, 2, 0, "none")
 
@@ -72,6 +73,7 @@ def critical_points(
     scaled, unit = balanced(triangle)
     points = np.full((len(far), COUNT, 4), np.nan, dtype=complex)
     charts, easy = np.zeros(len(far), dtype=np.int_), np.flatnonzero(turning)
+    easy = easy if len(far) > FEW_TASKS else easy[:0]
     with one_thread():
         for first in range(0, len(easy), TASKS_AT_ONCE):
             index = easy[first : first + TASKS_AT_ONCE]

@@ -11,6 +11,7 @@ real all the same: their columns are the real and the imaginary parts of monomia
 
 from __future__ import annotations
 
+import os
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -105,8 +106,8 @@ class Isotropic(NamedTuple):
 
 def finite_count(shape: Shape) -> int:
     """How many finite solutions systems of a shape have for generic poses; 0 without a template."""
-    numbers = _stored().get(f"{_kept(shape)}/numbers")
-    return 0 if numbers is None else int(numbers[0])
+    stored = _stored(_kept(shape))
+    return int(stored[-1][0]) if stored else 0
 
 
 @cache
@@ -296,9 +297,8 @@ def lagrangian(shape: Shape) -> tuple[Exponents, NDArray[np.int_], ComplexArray,
 
 def _choice(shape: Shape) -> list[NDArray[np.int_]]:
     """Columns, rows, forms and numbers of a shape, the pivots exchanged where that is kept."""
-    table, name, n = _stored(), _kept(shape), shape.unknowns
-    parts = ("columns", "rows", "forms", "numbers")
-    columns, rows, forms, numbers = (table[f"{name}/{part}"] for part in parts)
+    name, n = _kept(shape), shape.unknowns
+    columns, rows, forms, numbers = _stored(name)
     order = np.arange(shape.size)
     if name != shape.name:
         moving = int(name[7])
@@ -317,14 +317,8 @@ def _kept(shape: Shape) -> str:
 
 
 @cache
-def _stored() -> dict[str, NDArray[np.int_]]:
-    """The choices of `elimination_templates.npz`."""
-    from importlib import resources  # noqa: PLC0415  tasks without limits do without it
-
-    with (
-        resources.files("burmester.polynomials")
-        .joinpath("elimination_templates.npz")
-        .open("rb") as file,
-        np.load(file, allow_pickle=False) as table,
-    ):
-        return {name: table[name].astype(int) for name in table.files}
+def _stored(name: str) -> list[NDArray[np.int_]]:
+    """Columns, rows, forms and numbers of a stored shape; nothing of others."""
+    parts = [f"{name}/{part}" for part in ("columns", "rows", "forms", "numbers")]
+    with np.load(os.path.join(os.path.dirname(__file__), TEMPLATES), allow_pickle=False) as table:
+        return [table[each].astype(int) for each in parts if each in table]
