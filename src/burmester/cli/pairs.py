@@ -28,7 +28,7 @@ def words_of_function(
 ) -> list[str] | None:
     """What `burmester function` is told in place of a command of poses; None where it is poses."""
     name = command.name or ""
-    if name not in TAKE_PAIRS or "--help" in words:
+    if name not in TAKE_PAIRS or "--help" in words or "-h" in words:
         return None
     plain = [p for word in words for p in (word.split("=", 1) if word[:2] == "--" else [word])]
     old = any(word in OF_FUNCTIONS for word in plain)
