@@ -222,7 +222,7 @@ def test_the_drawing_in_a_notebook_has_the_joints_of_the_middle_pose(result):
     joints = np.array([*ground, *there])
     scale = abs(drawn[1] - drawn[0]) / abs(joints[1] - joints[0])
     assert np.abs((drawn - drawn[0]) / scale - (joints - joints[0])).max() < 0.3 / scale
-    assert text.count("<tr>") == 1 + len(result)
+    assert text[: text.index("<svg")].count("<tr>") == 1 + len(result)
 
 
 def run(capsys, *words):
