@@ -105,7 +105,7 @@ def test_the_command_refuses_it_with_exit_code_2(
     options: list[str] = []
     for option, value in BAD[name].get("options", {}).items():
         values = value if isinstance(value, list) else [value]
-        options += [word for v in values for word in (f"--{option.replace('_', '-')}", v)]
+        options += [word for v in values for word in (f"--{option.replace('_', '-')}", str(v))]
     with pytest.raises(SystemExit) as caught:
         cli.main(["synthesize", str(CORPUS / name), *options])
     assert caught.value.code == 2

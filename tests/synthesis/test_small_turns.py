@@ -1,11 +1,14 @@
 """What is said of bodies that hardly turn: a sample of `python -m benchmarks.small_turns`."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from benchmarks.small_turns import judged
 
 from burmester import Displacement, Task, synthesize
 from burmester.dyads import local_minima
+from burmester.numerics.bundles import take
 from burmester.synthesis import motion_generation
 from tests.oracles.small_turns import any_four_bar, driven, small_turn
 from tests.samples import samples
@@ -45,19 +48,11 @@ def test_a_dyad_that_the_rank_promises_and_the_list_lacks_is_told(monkeypatch):
     task = nine_poses(0.5)
     assert "W207" not in {warning.code for warning in synthesize(task).warnings}
 
-    def without_the_best(*args, **kwargs):
-        best = local_minima.best_dyads(*args, **kwargs)
-        return local_minima.BestDyads(
-            best.search,
-            best.circles[1:],
-            best.dyads[1:],
-            best.sliders,
-            best.rms_error[1:],
-            best.max_error[1:],
-            best.unfinished,
-        )
+    def without_the_best(*args):
+        best = local_minima.best_dyads_of_tasks(*args)
+        return replace(best, minima=take(best.minima, slice(1, None)))
 
-    monkeypatch.setattr("burmester.synthesis.dyad_search.best_dyads", without_the_best)
+    monkeypatch.setattr("burmester.synthesis.dyad_search.best_dyads_of_tasks", without_the_best)
     told = [each for each in motion_generation.synthesize(task).warnings if each.code == "W207"]
     assert len(told) == 1
     assert "2 independent quadrics hold the poses" in told[0].message
