@@ -11,7 +11,7 @@ from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.web.six_bar_data import six_bar_report
 from tests.oracles import browser as browsers
 from tests.oracles.relabelled import renamed, seen_from_coupler
-from tests.report.test_six_bar_page import DRAWN, SCRUB, points
+from tests.report.drawn_six_bars import DRAWN, SCRUB, points
 from tests.sixbar.tasks import TURNING, task
 
 

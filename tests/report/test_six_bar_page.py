@@ -12,30 +12,11 @@ from burmester import Polygon, Requirements, cli
 from burmester.errors import InputError
 from tests.oracles import browser as browsers
 from tests.oracles.six_bars import LIST, dimensions, driven
+from tests.report.drawn_six_bars import DRAWN, SCRUB, points
 from tests.sixbar.tasks import BENT, TURNING, task
 
 START = (*BENT[0][:2], np.radians(BENT[0][2]))
 PLATE = np.array([(-0.6, -0.4), (1.4, -0.4), (1.4, 0.5), (0.2, 1.1)])
-# Where joints are by their pins, the ends of links, and the body, all in the task's unit.
-DRAWN = """() => {
-  const svg = document.querySelector(".bm-plane"), { scale, left, top } = svg.dataset;
-  const world = (x, y) => [(x - left) / scale, (top - y) / scale];
-  const joints = {}, links = {};
-  for (const pin of svg.querySelectorAll("[data-joint]"))
-    joints[pin.dataset.joint] = world(+pin.getAttribute("cx"), +pin.getAttribute("cy"));
-  for (const link of svg.querySelectorAll("[data-link]")) {
-    const numbers = link.firstChild.getAttribute("d").match(/-?[\\d.]+(e-?\\d+)?/g).map(Number);
-    links[link.dataset.link] = numbers.flatMap((x, k) => (k % 2 ? [] : [world(x, numbers[k + 1])]));
-  }
-  const at = svg.querySelector(".bm-coupler").getAttribute("transform").match(/-?[\\d.]+/g);
-  const [x, y, turned] = at.map(Number);
-  return { joints, links, body: [...world(x, y), (-turned * Math.PI) / 180], scale: +scale };
-}"""
-SCRUB = """(share) => {
-  const slider = document.querySelector(".bm-slider");
-  slider.value = +slider.min + share * (slider.max - slider.min);
-  slider.dispatchEvent(new Event("input", { bubbles: true }));
-}"""
 # What is drawn in each frame, from the press on, until it has been at both ends and back.
 PLAYED = f"""() => new Promise((done) => {{
   const drawn = {DRAWN}, slider = document.querySelector(".bm-slider"), seen = [];
@@ -53,10 +34,6 @@ def angle(tip, one, other):
     p, q = one - tip, other - tip
     turned = abs(np.degrees(np.angle(p / q)))
     return min(turned, 180 - turned)
-
-
-def points(drawn):
-    return {name: complex(*at) for name, at in drawn["joints"].items()}
 
 
 def require_bars(joints, bars, close):
