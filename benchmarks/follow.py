@@ -36,7 +36,7 @@ from burmester.io import templates
 from burmester.io.reading.poses import read_task
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.from_dyads import target_of
-from burmester.linkages.judged_places import places_to_judge
+from burmester.linkages.judged_places import NearestPlaces
 from burmester.synthesis.dyad_search import search_dyads
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
@@ -175,7 +175,7 @@ def verdicts(followed):
     known = {each.id: each for found in followed.linkages for each in found.dyads}
     out = []
     for k, (one, two) in enumerate(strands.pairs):
-        _, rows = places_to_judge(batch[[k]], target)
+        _, rows, _ = NearestPlaces.of(batch[[k]], target).ways()
         index = np.full(len(rows), k)
         found = Evaluation(problem, target).members(
             Candidates(
