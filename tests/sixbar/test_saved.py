@@ -52,6 +52,15 @@ def test_what_is_read_is_what_was_written(answer, tree):
     assert refused.value.code == "E151"
 
 
+def test_what_a_file_says_was_assumed_cannot_move_the_cursor(tree):
+    hostile = copy.deepcopy(tree)
+    hostile["six_bars"]["assumed"] = [{"message": "red\x1b[31m", "option": "--x\x1b[2J"}, {}, 3]
+    ((message, option),) = read(hostile).synthesis.six_bars.assumed
+    assert "red" in message
+    assert "--x" in option
+    assert "\x1b" not in message + option
+
+
 def no_length(tree):
     del tree["lengths"]["GH"]
 

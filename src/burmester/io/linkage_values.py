@@ -1,8 +1,12 @@
-"""Dyads, points and numbers of a file that holds a linkage; what is none of these is E156."""
+"""Dyads, points, numbers and texts of a file that holds a linkage.
+
+E156 what is no dyad, point or number
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -11,10 +15,13 @@ from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.io.reading.dyads_text import line_through
 from burmester.numerics.arrays import FloatArray
+from burmester.printable import printable
 from burmester.synthesis.given_linkage import OpenLink
 from burmester.values import shown
 
-__all__ = ["dyad_of", "fault", "number", "pair"]
+__all__ = ["assumed_of", "dyad_of", "fault", "number", "pair", "text_of"]
+
+MOST_TEXT = 10_000  # characters of a sentence
 
 LINE_KEYS = ({"point", "direction_deg"}, {"normal_deg", "offset"})
 
@@ -85,3 +92,19 @@ def number(value: object, path: str) -> float:
 def fault(message: str, help: str, why: str | None = None) -> InputError:
     """E156."""
     return InputError("E156", message, why=why, help=help)
+
+
+def text_of(given: Any) -> str | None:
+    """A text of the file as a screen may show it."""
+    return printable(given[:MOST_TEXT]) if isinstance(given, str) else None
+
+
+def assumed_of(given: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
+    """What the file says was assumed, each with the option that changes it."""
+    every = given.get("assumed")
+    texts = [
+        (text_of(each.get("message")), text_of(each.get("option")) or "")
+        for each in (every if isinstance(every, list) else ())
+        if isinstance(each, dict)
+    ]
+    return tuple((message, option) for message, option in texts if message)

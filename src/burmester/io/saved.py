@@ -27,7 +27,7 @@ from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import PP, Dyad
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.io.linkage_values import dyad_of, number
+from burmester.io.linkage_values import assumed_of, dyad_of, number, text_of
 from burmester.io.reading.file_content import read_source
 from burmester.io.reading.pose_table import held_float
 from burmester.io.reading.poses import read_task
@@ -70,7 +70,6 @@ HELP = "make it with `burmester synthesize POSES -o result.json`"
 JUDGED_OTHERWISE = "W244"
 MOST_DIGITS = 20  # of a whole number; no longer one is written, and Python reads 4,300 at most
 MOST_OTHERS = 5  # statements of one warning
-MOST_TEXT = 10_000  # characters of a sentence
 LINKAGE_ID, DYAD_ID = re.compile("L[1-9][0-9]{0,6}"), re.compile("[A-Z]{1,3}[1-9][0-9]{0,6}")
 WARNING_CODE, OUTCOME_CODE = re.compile("W[0-9]{3}"), re.compile("[ER][0-9]{3}")
 # Errors that differ by less are the same: places are found by iteration, and beside a dead point
@@ -232,16 +231,11 @@ def _list(tree: Mapping[str, Any], key: str) -> list[Any]:
     return given
 
 
-def _text(given: Any) -> str | None:
-    """A text of the file as a screen may show it."""
-    return printable(given[:MOST_TEXT]) if isinstance(given, str) else None
-
-
 def _message(given: Any, code: re.Pattern[str]) -> tuple[str, str, str | None, str | None] | None:
     """The code, message, help and reason of an outcome or a warning; None of anything else."""
     if not isinstance(given, dict) or not code.fullmatch(str(given.get("code"))):
         return None
-    message, help, why = (_text(given.get(key)) for key in ("message", "help", "why"))
+    message, help, why = (text_of(given.get(key)) for key in ("message", "help", "why"))
     return None if message is None else (given["code"], message, help, why)
 
 
@@ -368,7 +362,7 @@ def _as_made(found: FoundLinkage, given: dict[str, Any], task: Task) -> FoundLin
     """What a file says of how a linkage was made: whether it was rounded, and how it was before."""
     for each in given["unmet"] if isinstance(given.get("unmet"), list) else ():
         if isinstance(each, dict) and each.get("kind") == "rounding":
-            lost = Violation("rounding", _text(each.get("message")) or "")
+            lost = Violation("rounding", text_of(each.get("message")) or "")
             found = replace(found, usable=False, violations=(*found.violations, lost))
     rounded = given.get("rounded")
     rows = rounded.get("coupler_before") if isinstance(rounded, dict) else None
@@ -459,7 +453,7 @@ def judged_otherwise(others: Sequence[str], refused: Mapping[str, InputError]) -
 
 def _texts(given: Any) -> tuple[str, ...]:
     """The texts of a list of the file."""
-    return tuple(filter(None, map(_text, given if isinstance(given, list) else ())))
+    return tuple(filter(None, map(text_of, given if isinstance(given, list) else ())))
 
 
 def _certificate(given: Any, dyads: Sequence[FoundDyad]) -> Certificate | None:
@@ -500,21 +494,16 @@ def _family(
     from burmester.linkages.from_dyads import target_of
     from burmester.verdicts.assumptions import Bound
 
-    target, assumed = target_of(problem), given.get("assumed")
-    texts = [
-        (_text(each.get("message")), _text(each.get("option")))
-        for each in (assumed if isinstance(assumed, list) else ())
-        if isinstance(each, dict)
-    ]
+    target = target_of(problem)
     counts = (given.get(key) for key in ("dyads", "pairs"))
     dyads, pairs = (each if isinstance(each, int) else 0 for each in counts)
     return Family(
-        _text(given.get("rule")) or "",
+        text_of(given.get("rule")) or "",
         LinkageBatch.of([each.linkage for each in linkages]).to_canonical(target.frames),
         np.array([each.preferred_driver == "second" for each in linkages], dtype=np.intp),
         np.stack([target.rows_at(each.error.places) for each in linkages]),
         any(each.usable for each in linkages),
-        tuple(Bound(message, option or "") for message, option in texts if message),
+        tuple(Bound(*each) for each in assumed_of(given)),
         given.get("given_up") is True,
         dyads,
         pairs,

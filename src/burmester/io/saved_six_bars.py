@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import Any
 
 from burmester.errors import InputError
+from burmester.io.linkage_values import assumed_of
 from burmester.io.six_bar_file import six_bar_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
@@ -54,19 +55,13 @@ def six_bars_again(
         raise next(iter(refused.values()))
     counts = (tree.get(key) for key in ("chains", "designs", "working", "free_poses"))
     chains, designs, working, free = (_count(each) for each in counts)
-    assumed = tree.get("assumed")
-    texts = [
-        (str(each.get("message")), str(each.get("option")))
-        for each in (assumed if isinstance(assumed, list) else ())
-        if isinstance(each, dict)
-    ]
     six_bars = SixBars(
         tuple(found for found, _ in out),
         chains,
         designs,
         working,
         _options(tree.get("options")),
-        tuple(texts),
+        assumed_of(tree),
         free,
         given=any(each.get("given") is True for _, each in out),
     )

@@ -144,8 +144,6 @@ def branches_of(mechanism: Mechanism, circuits: Circuits, pivot: str) -> tuple[B
             cuts = np.arange(0 if whole else length, dtype=float)
         else:
             cuts = np.sort(np.mod(dead[1][dead[0] == number], length))
-        if not circuits.closed[number]:
-            cuts = np.concatenate([[0.0], cuts[(cuts > 0) & (cuts < length)], [float(length)]])
         branches, certain = _between(mechanism, circuits, pivot, number, cuts)
         if not certain and not own:
             scan = _scanned(mechanism, circuits, pivot, number)
@@ -160,6 +158,8 @@ def _between(
 ) -> tuple[list[Branch], bool]:
     """The branches of a circuit between dead points at shares `cuts`, and whether these are all."""
     length, closed = float(circuits.length[circuit]), bool(circuits.closed[circuit])
+    if not closed:
+        cuts = np.concatenate([[0.0], cuts[(cuts > 0) & (cuts < length)], [length]])
     if not len(cuts):
         cuts, turning = np.array([0.0]), True
     else:
@@ -215,7 +215,4 @@ def _scanned(mechanism: Mechanism, circuits: Circuits, pivot: str, circuit: int)
         return -sense * wrapped_angle(there - drives[back])
 
     found, _ = golden_section(beyond, shares[back] - step, shares[back] + step)
-    cuts = np.sort(np.mod(found, length))
-    if not circuits.closed[circuit]:
-        cuts = np.concatenate([[0.0], cuts[(cuts > 0) & (cuts < length)], [length]])
-    return cuts
+    return np.sort(np.mod(found, length))

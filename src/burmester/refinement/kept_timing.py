@@ -17,10 +17,8 @@ from burmester.tasks.crank_timing import CrankTiming
 
 __all__ = ["TimingConstraint"]
 
-PHASES, ROUNDS = (
-    9,
-    8,
-)  # angles tried at once by which all are shifted, and rounds; to a quarter each
+PHASES = 9  # angles, by which all stated ones are shifted, that are tried at once
+ROUNDS = 8  # of such trials, each over a quarter of the range of the one before
 
 
 @final

@@ -34,7 +34,7 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import weights_or_ones
 from burmester.refinement.tolerance_boxes import counted_error, shares_used
 from burmester.requirements.table import Violation
-from burmester.sixbar.candidates import box_diagonal, figures_of, merit_of
+from burmester.sixbar.candidates import box_diagonal, figures_of, merit_of, steps_along
 from burmester.sixbar.defects import ELSEWHERE, Course, defects_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.kinds import SixBar
@@ -50,7 +50,6 @@ __all__ = ["judged_six_bar"]
 SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
 ALIKE = 1e-6  # sizes of the motion; errors that differ by less are one
 MERIT_DIGITS = 6  # decimals of a degree by which branches are compared
-PLACES = 33  # along the range, at which the extent is looked at
 
 
 @final
@@ -91,6 +90,7 @@ class _Verdict(NamedTuple):
     branch: int
     defects: tuple[Defect, ...]
     violations: tuple[Violation, ...]
+    shortcomings: tuple[str, ...]
 
 
 def judged_six_bar(
@@ -184,7 +184,7 @@ def _over_range(linkage: SixBar, branch: Branch, ends: FloatArray) -> tuple[floa
         return least_transmission_angle(linkage.skeleton, joints, branch.pivot)
 
     low, high = branch.share(linkage, ends).tolist()
-    extent = box_diagonal(branch.at(linkage, np.linspace(ends[0], ends[1], PLACES)))
+    extent = box_diagonal(branch.at(linkage, steps_along(ends[None])[0]))
     return least_along(linkage, branch, low, high, transmission), float(extent)
 
 
@@ -269,8 +269,8 @@ def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProb
         for number, name in enumerate(task.names or ("",) * len(missed[k]), start=1)
     )
     shares = None if driven.shares is None else driven.shares[k]
-    size, least = problem.motion_size, float(driven.transmission[k])
-    figures = figures_of(linkage, least, True, driven.extent[k])
+    size = problem.motion_size
+    figures = figures_of(linkage, driven.transmission[k], full, driven.extent[k])
     return _Verdict(
         far=float(np.log1p(driven.missed[k]).mean()),
         combined=float(driven.combined[k]),
@@ -281,7 +281,8 @@ def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProb
             *defects_of(course, driven.errors[k], shares, task, names),
             *_degenerate(linkage, problem),
         ),
-        violations=violations(linkage, least, full, task, size),
+        violations=violations(linkage, figures, task, size),
+        shortcomings=shortcomings(figures, size, task),
     )
 
 
@@ -298,7 +299,6 @@ def _degenerate(linkage: SixBar, problem: SynthesisProblem) -> list[Defect]:
 
 def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundSixBar:
     driven, k, task = best.driven, best.branch, problem.given
-    least, extent = float(driven.transmission[k]), float(driven.extent[k])
     turns = float(np.round(driven.drive[k, 0] / (2 * np.pi)))
     return FoundSixBar(
         id="S1",
@@ -306,10 +306,10 @@ def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundS
         branch=driven.branches[k].moved(-turns),
         drive=driven.drive[k] - 2 * np.pi * turns,
         room=driven.room[k],
-        transmission=least,
-        extent=extent,
+        transmission=float(driven.transmission[k]),
+        extent=float(driven.extent[k]),
         error=driven.errors[k],
-        shortcomings=shortcomings(linkage, least, extent, problem.motion_size, task),
+        shortcomings=best.shortcomings,
         chain=0,
         defects=best.defects,
         violations=best.violations,

@@ -8,9 +8,9 @@ import numpy as np
 
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
 from burmester.requirements.table import Violation
 from burmester.requirements.table import violations as violations_of
-from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.kinds import SixBar
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
@@ -20,14 +20,8 @@ from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside
 __all__ = ["violations"]
 
 
-def violations(
-    linkage: SixBar, transmission: float, turns_fully: bool, task: Task, size: float
-) -> tuple[Violation, ...]:
-    """The limits and requirements of a task that a six-bar does not keep.
-
-    transmission: the least angle of both loops over the range, in radians; size: of the motion.
-    """
-    figures = figures_of(linkage, transmission, turns_fully)
+def violations(linkage: SixBar, figures: Figures, task: Task, size: float) -> tuple[Violation, ...]:
+    """The limits and requirements of a task that a six-bar does not keep; size: of the motion."""
     out = list(violations_of(task.requirements.bounds, figures, task.length_unit))
     if task.limits:
         first, second = task.limits[0], task.limits[-1]

@@ -6,10 +6,9 @@ import numpy as np
 
 from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
 from burmester.requirements.table import shortcomings as falls_short
 from burmester.requirements.table import standard
-from burmester.sixbar.candidates import figures_of
-from burmester.sixbar.kinds import SixBar
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.problem import SynthesisProblem
@@ -18,11 +17,8 @@ from burmester.verdicts.degeneracy import least_cranks, least_link
 __all__ = ["least_bars", "shortcomings"]
 
 
-def shortcomings(
-    linkage: SixBar, transmission: float, extent: float, size: float, task: Task
-) -> tuple[str, ...]:
-    """Where a six-bar falls short of the standard of four-bars, or is large; in words."""
-    figures = figures_of(linkage, transmission, True, extent)
+def shortcomings(figures: Figures, size: float, task: Task) -> tuple[str, ...]:
+    """Where a six-bar falls short of the standard of linkages to build, in words."""
     bounds = standard(task.requirements.bounds, size)
     below = falls_short(bounds, figures, lambda value: length_of(value, task))
     return tuple(each.message for each in below)

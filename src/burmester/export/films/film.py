@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.lines import Line2D
 
+    from burmester.synthesis.result import Candidate
+
 __all__ = [
     "DPI",
     "MARK_COLOUR",
@@ -108,24 +110,27 @@ def looks_of(count: int) -> NDArray[np.intp]:
 class Film(ABC):
     """A film that is to be drawn: what moves, picture by picture, and the size of the pictures.
 
-    id, type, task: of what moves.
+    width: of a picture, in pixels; count: of pictures.
     """
 
-    id: str
-    type: str
-    task: Task
+    chosen: Candidate
     width: int
     count: int
+
+    @property
+    def task(self) -> Task:
+        """The task of what moves."""
+        return self.chosen.task
+
+    @property
+    def at_poses(self) -> Displacement:
+        """The place (N,) of the body for each pose; nan where it reaches none."""
+        return self.chosen.error.places
 
     @property
     @abstractmethod
     def places(self) -> Displacement:
         """The place (count,) of the body in each picture."""
-
-    @property
-    @abstractmethod
-    def at_poses(self) -> Displacement:
-        """The place (N,) of the body for each pose; nan where it reaches none."""
 
     @property
     @abstractmethod

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,11 +34,6 @@ class FourBarFilm(Film):
 
     chosen: FoundLinkage
 
-    @classmethod
-    def of(cls, chosen: FoundLinkage, width: int, count: int) -> Self:
-        """The film of a linkage."""
-        return cls(chosen.id, chosen.type, chosen.task, width, count, chosen)
-
     @cached_property
     def motion(self) -> CouplerMotion:
         """The place of the coupler in each picture."""
@@ -49,10 +44,6 @@ class FourBarFilm(Film):
     @property
     def places(self) -> Displacement:
         return self.motion.places
-
-    @property
-    def at_poses(self) -> Displacement:
-        return self.chosen.error.places
 
     @property
     def parameter(self) -> FloatArray:

@@ -150,8 +150,8 @@ def _mp4(chosen: Candidate, options: Options) -> Film:
 
 def _film(chosen: Candidate, options: Options, count: int) -> Film:
     if not isinstance(chosen, FoundLinkage):
-        return SixBarFilm.of(chosen, options.width_px, count)
-    return FourBarFilm.of(chosen, options.width_px, count)
+        return SixBarFilm(chosen, options.width_px, count)
+    return FourBarFilm(chosen, options.width_px, count)
 
 
 def _compare(film: Film, looks: NDArray[np.intp], shown: list[Picture]) -> None:

@@ -153,7 +153,7 @@ def _stage(film: Film) -> Stage:
                 over += [wanted.x_axes, wanted.y_axes, wanted.origins, *wanted.labels]
         ax.set_xlabel(with_unit("X", task.length_unit), labelpad=1)
         ax.set_ylabel(with_unit("Y", task.length_unit), labelpad=1)
-        title = plain(f"{film.id}  {film.type}")
+        title = plain(f"{film.chosen.id}  {film.chosen.type}")
         ax.set_title(title, loc="left", fontsize=10, pad=4)
         settle_labels(ax)
         for artist in over:

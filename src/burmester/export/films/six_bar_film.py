@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,51 +29,42 @@ __all__ = ["SixBarFilm"]
 class SixBarFilm(Film):
     """A film of a six-bar; of one that turns fully all turns until all is as it was."""
 
-    found: FoundSixBar
-
-    @classmethod
-    def of(cls, chosen: FoundSixBar, width: int, count: int) -> Self:
-        """The film of a linkage."""
-        return cls(chosen.id, chosen.type, chosen.task, width, count, chosen)
+    chosen: FoundSixBar
 
     @cached_property
     def parameter(self) -> FloatArray:
         """The driver's angle in each picture (count,)."""
-        start, end = self.found.along(2).tolist()
+        start, end = self.chosen.along(2).tolist()
         if self.full_turn:
             way = math.copysign(
-                2 * math.pi * self.found.turns, self.found.drive[-1] - self.found.drive[0]
+                2 * math.pi * self.chosen.turns, self.chosen.drive[-1] - self.chosen.drive[0]
             )
-            return float(self.found.drive[0]) + way * np.arange(self.count) / self.count
+            return float(self.chosen.drive[0]) + way * np.arange(self.count) / self.count
         return np.asarray(start + (end - start) * there_and_back(self.count))
 
     @cached_property
     def places(self) -> Displacement:
         """The place (count,) of the body in each picture."""
-        return self.found.body(self.parameter)
-
-    @property
-    def at_poses(self) -> Displacement:
-        return self.found.error.places
+        return self.chosen.body(self.parameter)
 
     @property
     def full_turn(self) -> bool:
-        return self.found.turns > 0
+        return self.chosen.turns > 0
 
     @property
     def reached(self) -> NDArray[np.bool_]:
-        return np.full(len(self.found.drive), fill_value=True)
+        return np.full(len(self.chosen.drive), fill_value=True)
 
     def followed(self, number: NDArray[np.intp]) -> FloatArray:
-        end = self.found.skeleton.arm(self.found.driver_pivot)[1]
-        return self.found.joints(self.parameter[number])[end]
+        end = self.chosen.skeleton.arm(self.chosen.driver_pivot)[1]
+        return self.chosen.joints(self.parameter[number])[end]
 
     def drive_text(self, number: int) -> str:
         degrees = math.degrees(self.parameter[number])
         return f"driver {degrees % 360 if self.full_turn else degrees:5.1f}°"
 
     def drawn(self, ax: Axes, number: int) -> list[Artist]:
-        return plot.six_bar(ax, self.found, float(self.parameter[number]))
+        return plot.six_bar(ax, self.chosen, float(self.parameter[number]))
 
     def curve(self, ax: Axes) -> list[Line2D]:
         return ax.plot(*self.places.translation.T)
