@@ -98,7 +98,8 @@ class SavedResult(NamedTuple):
                 "E151",
                 "there is no linkage in this result",
                 where=self.label,
-                help="give poses that have one; `burmester explain R301` says more",
+                help="give poses that have one; "
+                f"`burmester explain {self.synthesis.outcome.code}` says more",
             )
         return named(every, id, self.label, self.refused)
 

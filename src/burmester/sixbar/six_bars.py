@@ -57,8 +57,8 @@ class SixBarOptions:
         if self.kind not in CHOICES:
             raise InputError(
                 "E197",
-                f"there is no kind {shown(self.kind)} of six-bars that is looked for",
-                help=f"leave it out, or give {listed(CHOICES, 'or')}",
+                f"{shown(self.kind)} is no kind of six-bar that is looked for",
+                help=f"give one of {listed(CHOICES)}, or leave it out",
             )
         bounds = {"chains": (1, MOST_CHAINS), "seed": (0, 2**63 - 1), "most": (1, 1000)}
         for name, (least, greatest) in bounds.items():
