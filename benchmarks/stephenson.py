@@ -2,10 +2,13 @@
 
     python -m benchmarks.stephenson circuits --count 300
     python -m benchmarks.stephenson tasks --count 20 --chains 2000
+    python -m benchmarks.stephenson cures --count 60 --chains 2500
 
 circuits: random linkages of the third class; dead points of F against a scan of its angle on every
 circuit, and at random angles of F the branches against all real assemblies.
 tasks: five random poses each; for how many Watt I alone has a sound six-bar, and for how many all.
+cures: of the same tasks, how many have a four-bar of two cranks that locks between the poses and
+that a dyad drives past it, as the exact verdict says of the best four.
 """
 
 from __future__ import annotations
@@ -21,8 +24,13 @@ from tests.stephenson.made import linkage
 from burmester.mechanisms.branches import branches_of
 from burmester.mechanisms.circuits import circuits_of
 from burmester.mechanisms.contract import drive_of
+from burmester.sixbar.chain_search import search
+from burmester.sixbar.judged import judged_six_bar
+from burmester.sixbar.search_space import SearchSpace
 from burmester.sixbar.six_bars import CHOICES, SixBarOptions
 from burmester.synthesis.six_bars import synthesize_six_bars
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
 
 STEPS = 20_000  # of a scan, on a piece of a circuit
 
@@ -87,10 +95,28 @@ def tasks(count: int, chains: int) -> None:
         )
 
 
+def cures(count: int, chains: int) -> None:
+    """Print for how many tasks a dyad drives a four-bar that goes through the poses."""
+    has = driven = sound = refused = seen = 0
+    for seed in range(count):
+        problem = SynthesisProblem.of(wandering(seed), None, SynthesisOptions())
+        space = SearchSpace.of(problem)
+        found = search(space, ["Stephenson III six-bar"], chains, 0, 4)[1]
+        best = found.best.linkages
+        judged = [judged_six_bar(best[k], problem) for k in range(len(found.best.chain))]
+        has += found.designs > 0
+        driven += any(each.usable for each in judged)
+        sound += any(each.usable and not each.shortcomings for each in judged)
+        refused += sum(not each.usable for each in judged)
+        seen += len(judged)
+    print(f"{count} tasks: {has} have a four-bar on one circuit and in order; a dyad drives")
+    print(f"one in {driven}, a sound one in {sound}; of {seen} judged {refused} were refused")
+
+
 def main() -> None:
     """Read the command."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("what", choices=["circuits", "tasks"])
+    parser.add_argument("what", choices=["circuits", "tasks", "cures"])
     parser.add_argument("--count", type=int, default=20)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--chains", type=int, default=2000)
@@ -98,7 +124,7 @@ def main() -> None:
     if given.what == "circuits":
         circuits(given.count, given.seed)
     else:
-        tasks(given.count, given.chains)
+        {"tasks": tasks, "cures": cures}[given.what](given.count, given.chains)
 
 
 if __name__ == "__main__":

@@ -10,9 +10,14 @@ from burmester.io.six_bar_data import six_bar_data
 from burmester.mechanisms.branches import branches_of
 from burmester.mechanisms.circuits import circuits_of
 from burmester.mechanisms.contract import body_of
+from burmester.sixbar.chain_search import search
+from burmester.sixbar.judged import judged_six_bar
+from burmester.sixbar.search_space import SearchSpace
 from burmester.sixbar.six_bars import CHOICES, SixBarOptions
 from burmester.synthesis.six_bar_judgement import judge_six_bar
 from burmester.synthesis.six_bars import synthesize_six_bars
+from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
 from tests.sixbar.tasks import REACH, TURNING, task, wandering
 from tests.stephenson.made import MANY, linkage
 
@@ -74,6 +79,26 @@ def test_what_is_found_goes_through_the_poses_without_a_stop(kind):
             sampled = found.transmission_at(drives).min()
             assert found.transmission <= sampled + 1e-9
             assert sampled - found.transmission < 2e-3
+
+
+@pytest.mark.parametrize("seed", [3, 30])
+def test_a_dyad_drives_a_four_bar_past_its_dead_points(seed):
+    """Its coupler is the body; driven by its own cranks it would lock between the poses."""
+    given = wandering(seed)
+    problem = SynthesisProblem.of(given, None, SynthesisOptions())
+    _, driven = search(SearchSpace.of(problem), ["Stephenson III six-bar"], 300, 0, 3)
+    for k in range(len(driven.best.chain)):
+        found = judged_six_bar(driven.best.linkages[k], problem)
+        assert found.usable
+        assert (found.linkage.carries, found.driver) == ("coupler", "F")
+        assert np.abs(found.error.position).max() < 1e-9 * problem.motion_size
+        drives = np.linspace(found.drive[0], found.drive[-1], 1500)
+        signs, off, beside = signs_of_the_drive(found, drives)
+        assert (signs == signs[0]).all()
+        assert max(off, beside) < 1e-9 * problem.motion_size
+        a, b, c, d = (found.joints(drives)[joint] @ [1, 1j] for joint in "ABCD")
+        by_ac, by_bd = ((d - b) * (c - d).conj()).imag, ((c - a) * (d - c).conj()).imag
+        assert all(len(set(np.sign(each))) > 1 for each in (by_ac, by_bd))  # both would lock
 
 
 def test_kinds_are_ranked_by_one_rule():

@@ -27,6 +27,7 @@ REFINED = 4  # of the places that are nearer than both neighbours, so many on ea
 AT_ONCE = 1_000_000  # places times poses looked at in one go; bounds the memory
 ALONG = 721  # places along a range of a branch
 END = 2e-5  # of a piece; nearer to a dead point its angle hardly tells a place
+SAME = 1e-9  # shares nearer than this are one
 SMOOTH = 22  # steps towards a minimum of which the value counts only
 
 
@@ -104,8 +105,14 @@ def nearest_shares(
     minima: Minima,
     measure: BodyMeasure,
     poses: int,
+    *,
+    alike: float = 0.0,
 ) -> tuple[FloatArray, FloatArray]:
-    """The shares (k, N) of branches (k,) at which the body is nearest to poses, and how near."""
+    """The shares (k, N) of branches (k,) at which the body is nearest to poses, and how near.
+
+    A branch may hold the body at one place twice, with its other links elsewhere.  Of places whose
+    distances differ by `alike` at most those are taken that come in the order of the poses, if any.
+    """
     shares, least = np.empty((len(branches), poses)), np.empty((len(branches), poses))
     numbers = np.arange(poses)
     for row, branch in enumerate(branches):
@@ -122,8 +129,31 @@ def nearest_shares(
         off = np.concatenate([minima.off[own], at_ends])
         order = np.lexsort((off, pose))
         first = order[np.searchsorted(pose[order], numbers)]
+        near = order[off[order] <= off[first][pose[order]] + alike]
+        if len(near) > poses:
+            several = np.split(near, np.searchsorted(pose[near], numbers[1:]))
+            chosen = _one_way([share[each] for each in several], branch, length)
+            first = first if chosen is None else np.array([*map(np.take, several, chosen)])
         shares[row], least[row] = share[first], off[first]
     return shares, least
+
+
+def _one_way(several: Sequence[FloatArray], branch: Branch, length: float) -> list[int] | None:
+    """Which of several shares for each pose come in order along a branch, over the least of it.
+
+    None where none do.  length: of the circuit.
+    """
+    best, least = None, np.inf
+    for way, end in ((1, branch.high), (-1, branch.low)):
+        for number, start in enumerate(several[0]):
+            at, over, chosen = start, 0.0, [number]
+            for shares in several[1:]:
+                steps = np.mod(way * (shares - at) + SAME, length) - SAME
+                chosen.append(int(steps.argmin()))
+                at, over = shares[chosen[-1]], over + steps.min()
+            if over < min(least, length if branch.turns else way * (end - start)):
+                best, least = chosen, over
+    return best
 
 
 def least_along(

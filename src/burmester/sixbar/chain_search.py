@@ -21,7 +21,11 @@ from burmester.requirements.table import excess, keeps, standard
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.sixbar.candidates import Candidates, Conditions, joined, watt_candidates
 from burmester.sixbar.search_space import POSES, SearchSpace
-from burmester.sixbar.stephenson_candidates import first_class_candidates, third_class_candidates
+from burmester.sixbar.stephenson_candidates import (
+    driven_four_bar_candidates,
+    first_class_candidates,
+    third_class_candidates,
+)
 from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.verdicts.quality import best_first
 
@@ -29,10 +33,10 @@ __all__ = ["SEARCHED", "ChainSearch", "is_sound", "search"]
 
 # How the six-bars of a class are worked out of chains, by the name of the class.
 Recipe: TypeAlias = Callable[[ThreeRChain, Displacement, FloatArray, Conditions], Candidates]
-SEARCHED: Final[Mapping[str, Recipe]] = {
-    "Watt I six-bar": watt_candidates,
-    "Stephenson I six-bar": first_class_candidates,
-    "Stephenson III six-bar": third_class_candidates,
+SEARCHED: Final[Mapping[str, tuple[Recipe, ...]]] = {
+    "Watt I six-bar": (watt_candidates,),
+    "Stephenson I six-bar": (first_class_candidates,),
+    "Stephenson III six-bar": (third_class_candidates, driven_four_bar_candidates),
 }
 
 ROUND = 500  # chains worked out at a time
@@ -116,12 +120,12 @@ class _Chains(NamedTuple):
 def search(
     space: SearchSpace, kinds: Sequence[str], chains: int, seed: int, most: int
 ) -> list[ChainSearch]:
-    """The best six-bars of each class on so many chains, `most` at most of each.
+    """The best six-bars of each recipe on so many chains, `most` at most of each.
 
     The same seed gives the same answer.  A time limit (`progress.limited`) ends it after a round.
     """
     rounds = -(-chains // ROUND)
-    searches = [_Search(space, kind, seed) for kind in kinds]
+    searches = [_Search(space, recipe, seed) for kind in kinds for recipe in SEARCHED[kind]]
     time_for(f"looking for six-bars on {chains} chains")
     for number in range(rounds):
         if number and not goes_on(number + 1, rounds, "round"):
@@ -132,10 +136,10 @@ def search(
 
 
 class _Search:
-    """The search for six-bars of one class: chains that were looked at, and the best so far."""
+    """The search for six-bars of one recipe: chains that were looked at, and the best so far."""
 
-    def __init__(self, space: SearchSpace, kind: str, seed: int) -> None:
-        self._space, self._kind = space, kind
+    def __init__(self, space: SearchSpace, recipe: Recipe, seed: int) -> None:
+        self._space, self._recipe = space, recipe
         self._random = np.random.default_rng(seed)
         given = space.poses.shape[0]
         self._own = np.round(np.linspace(0, POSES - 1, given)).astype(np.intp)
@@ -149,8 +153,7 @@ class _Search:
         fresh = _drawn(space, self._own, count, self._random)
         if near and drawn is not None and len(drawn.side):
             fresh = _varied(space, drawn, fresh, self._random)
-        worked_out = SEARCHED[self._kind]
-        found = worked_out(fresh.chains(), fresh.poses, fresh.side, space.conditions)
+        found = self._recipe(fresh.chains(), fresh.poses, fresh.side, space.conditions)
         self._designs += found.designs
         self._working += len(np.unique(found.design[_violation(space, found) == 0]))
         mine = fresh.take(found.chain)
@@ -262,8 +265,8 @@ def _violation(space: SearchSpace, found: Candidates) -> FloatArray:
     skeleton, frames, lengths = linkage.skeleton, linkage.frames(), linkage.lengths()
     off = []
     for regions, link in ((space.fixed, skeleton.ground), (space.moving, linkage.carries)):
-        for at in list(frames[link].values())[1:]:  # the first one is drawn in its region
-            far = regions[1].distance(at)
+        for number, at in enumerate(frames[link].values()):
+            far = regions[min(number, 1)].distance(at)
             off.append(np.where(far <= slack, 0.0, far / space.size))
     for number, pivot in enumerate(skeleton.drivers):
         least, most = space.lengths[min(number, 1)]

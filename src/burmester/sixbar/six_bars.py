@@ -122,7 +122,7 @@ def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
     for each, k in (rows[at] for at in order.tolist()):
         pivot = each.linkages.skeleton.drivers[int(each.driver[k])]
         judged = judged_six_bar(each.linkages[k], problem, (pivot,))
-        if judged.usable:  # but for rounding, all are
+        if judged.usable:  # most are: a search sees a driver at F at places only
             id = f"S{len(found) + 1}"
             found.append(replace(judged, id=id, chain=int(each.chain[k])))
         if len(found) == options.most:

@@ -4,6 +4,9 @@ The body carries G of a dyad FG through the five poses themselves, and is the la
 chain A, C, E.  Then one dyad is left, and it is one of five poses as well: in the third class from
 the ground to the link CE, in the first from the crank FG to the crank AC (Soh and McCarthy 2008
 for the chain; the names of the joints are ours).
+
+Or the body is the coupler of a four-bar through the poses, and the chain is a dyad F, G, E that
+drives it.  Such a four-bar may lock at a dead point of its own cranks: F passes it.
 """
 
 from __future__ import annotations
@@ -13,8 +16,11 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.circles import meeting
 from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.sixbar.added_dyads import dyads_but, size_of, with_first_dyad
@@ -24,10 +30,11 @@ from burmester.sixbar.travel import along
 from burmester.stephenson.chain import Chain
 from burmester.stephenson.linkage import CLASSES, StephensonLinkage, dead_angles
 
-__all__ = ["first_class_candidates", "third_class_candidates"]
+__all__ = ["driven_four_bar_candidates", "first_class_candidates", "third_class_candidates"]
 
 THIRD: Final = CLASSES["Stephenson III six-bar"]
 FIRST: Final = CLASSES["Stephenson I six-bar"]
+PLACES: Final = 65  # of a four-bar, at which a dyad is looked at that drives it
 
 
 def third_class_candidates(
@@ -110,6 +117,107 @@ def first_class_candidates(
     return _driven(linkage, joints, chain, conditions)
 
 
+def driven_four_bar_candidates(
+    chains: ThreeRChain, poses: Displacement, side: FloatArray, conditions: Conditions
+) -> Candidates:
+    """All four-bars through poses (k, 5) that chains (k,), as dyads F, G, E, drive at F.
+
+    The body is the coupler.  Whether F turns one way is seen at places along the range, so that a
+    short turn back between two of them is missed.
+    """
+    once = _all_alike(poses)
+    task, first, second, parameter = _four_bars(poses[:1] if once else poses, conditions)
+    if once:
+        chain = np.repeat(np.arange(len(side)), len(task))
+        bar = np.tile(np.arange(len(task)), len(side))
+    else:
+        chain, bar = _pairs(np.arange(len(side)), task)
+    circuits, low, high = parameter
+    steps = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, PLACES)
+    body = circuits.couplers(steps)
+    one, other, links = first[bar], second[bar], chains[chain]
+    f = complex_of(links.fixed_pivot)
+    linkage = StephensonLinkage(
+        THIRD,
+        "coupler",
+        _chain_of(one, other, links),
+        _pair(one.fixed_pivot, other.fixed_pivot),
+        _pair(one.moving_pivot, other.moving_pivot),
+    )
+
+    def joints(places: Displacement, index: NDArray[np.intp]) -> ComplexArray:
+        """The joints (n, p, 7) of some where their bodies are at places (n, p)."""
+        points = one.moving_pivot, other.moving_pivot, links.body_joint
+        c, d, e = (complex_of(places.act(each[index, None])) for each in points)
+        start = f[index, None] + 0 * e
+        lengths = links.first_length[index, None], links.second_length[index, None]
+        g = meeting(start, lengths[0], e, lengths[1], side[chain[index], None])
+        pivots = (complex_of(each.fixed_pivot)[index, None] + 0 * e for each in (one, other))
+        return np.stack([*pivots, c, d, e, start, g], axis=-1)
+
+    every = np.arange(len(chain))
+    there = joints(body[bar], every)
+    drive = np.unwrap(np.angle(there[..., 6] - there[..., 5]), axis=-1)
+    turn = np.diff(drive, axis=-1)
+    good = np.flatnonzero((turn > 0).all(axis=-1) | (turn < 0).all(axis=-1))  # nan is neither
+    there, number = there[good], THIRD.skeleton.drivers.index("F")
+    return Candidates(
+        chain=chain[good],
+        design=good,
+        linkages=linkage[good],
+        joints=joints(poses[chain[good]], good),
+        driver=np.full(len(good), number),
+        transmission=least_transmission_angle(THIRD.skeleton, there, "F").min(
+            axis=-1, initial=np.pi / 2
+        ),
+        extent=box_diagonal(there),
+        designs=len(chain),
+    )
+
+
+def _four_bars(
+    poses: Displacement, conditions: Conditions
+) -> tuple[NDArray[np.intp], RR, RR, tuple[Circuits, FloatArray, FloatArray]]:
+    """The four-bars (m,) through poses (k, 5), all on one circuit and in order.
+
+    Of which poses, their dyads, and the range of the circuit: as its parameter goes on, the poses
+    come in their order or in the reverse one; all round where the driver must turn fully.
+    """
+    task, dyad = _dyads_of(poses)
+    one, other = _pairs(task, task)
+    twice = one < other
+    one, other = one[twice], other[twice]
+    task, first, second = task[one], dyad[one], dyad[other]
+    circuits = Circuits.of(Linkage(first, second))
+    where = circuits.locate(poses[task])
+    same = (where.circuit == where.circuit[:, :1]).all(axis=-1) & (where.circuit[:, 0] >= 0)
+    no_end = np.full((len(task), 1), np.nan)
+    way = along(where.parameter, no_end, same, any_order=conditions.any_order)
+    at = np.flatnonzero(way.works)
+    low, high = way.drive[at].min(axis=-1), way.drive[at].max(axis=-1)
+    if conditions.crank:
+        high = low + 2 * np.pi
+    own = circuits[at, where.circuit[at, 0]]
+    return task[at], first[at], second[at], (own, low, high)
+
+
+def _chain_of(one: RR, other: RR, links: ThreeRChain) -> Chain:
+    """The dimensions of four-bars (n,) whose couplers carry E of a dyad each."""
+    a, b = complex_of(one.fixed_pivot), complex_of(other.fixed_pivot)
+    c, d = complex_of(one.moving_pivot), complex_of(other.moving_pivot)
+    f, e = complex_of(links.fixed_pivot), complex_of(links.body_joint)
+    return Chain(
+        base=np.abs(b - a),
+        f=(f - a) * np.abs(b - a) / (b - a),
+        first=one.radius,
+        second=other.radius,
+        arm=np.abs(e - c),
+        d=(d - c) * np.abs(e - c) / (e - c),
+        upper=links.second_length,
+        lower=links.first_length,
+    )
+
+
 def _driven(
     linkage: StephensonLinkage,
     joints: ComplexArray,
@@ -161,16 +269,25 @@ def _driven(
 
 def _body_dyads(poses: Displacement) -> tuple[NDArray[np.intp], RR]:
     """The dyads from the ground to the body through poses (k, 5): of which poses, and they."""
-    rows = np.concatenate([poses.translation, poses.angle[..., None]], axis=-1)
-    once = bool((rows == rows[:1]).all())  # none of the five is free
-    some = poses[:1] if once else poses
-    none = np.full((some.shape[0], 2), np.nan)
-    task, dyad = dyads_but(some, none, none, size_of(some))
+    once = _all_alike(poses)
+    task, dyad = _dyads_of(poses[:1] if once else poses)
     if once:
         count = poses.shape[0]
         task = np.repeat(np.arange(count), len(dyad.radius))
         dyad = dyad[np.tile(np.arange(len(dyad.radius)), count)]
     return task, dyad
+
+
+def _all_alike(poses: Displacement) -> bool:
+    """Whether poses (k, 5) are the same k times: none of the five is free."""
+    rows = np.concatenate([poses.translation, poses.angle[..., None]], axis=-1)
+    return bool((rows == rows[:1]).all())
+
+
+def _dyads_of(poses: Displacement) -> tuple[NDArray[np.intp], RR]:
+    """The dyads (n,) through poses (k, 5): of which poses, and they."""
+    none = np.full((poses.shape[0], 2), np.nan)
+    return dyads_but(poses, none, none, size_of(poses))
 
 
 def _pairs(one: NDArray[np.intp], other: NDArray[np.intp]) -> tuple[NDArray[np.intp], ...]:
