@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from burmester import plot
-from burmester.batch.six_bar_rows import six_bar_rows
+from burmester.batch.answer_rows import solved_rows
 from burmester.describe import six_bar_words
 from burmester.export import Options, export
 from burmester.export.parts.plates import assembly_of
@@ -138,7 +138,7 @@ def test_its_file_makes_the_same_mechanism(chosen, monkeypatch):
     for link, joints in chosen.frames.items():
         for joint, at in joints.items():
             assert frames[link][joint] == pytest.approx(at, abs=1e-9)
-    (row,) = six_bar_rows(
+    (row,) = solved_rows(
         {0: {"six_bars": {"found": [data]}, "outcome": {"code": "R370"}, "warnings": []}}
     ).to_pylist()
     (six_bar,) = row["six_bars"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any, final
 
 import numpy as np
@@ -11,13 +11,22 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from numpy.typing import NDArray
 
-from burmester.batch.schema import DYAD, LINKAGE, SCHEMA
+from burmester.batch.schema import (
+    ANSWER,
+    DYAD,
+    DYAD_COLUMNS,
+    GENERATOR_COLUMNS,
+    LINKAGE,
+    LINKAGE_COLUMNS,
+    SIX_BAR_COLUMNS,
+    WATT_COLUMNS,
+    Columns,
+)
 from burmester.stacked import DyadRows, LinkageRows, StackedAnswers
 
-__all__ = ["Refusal", "answer_table", "refused_rows", "solved_rows", "stacked_rows"]
+__all__ = ["Refusal", "refused_rows", "solved_rows", "stacked_rows"]
 
-_ANSWERS = ("outcome", "code", "reason", "dyads", "linkages", "warnings", "generators", "six_bars")
-_WARNINGS = pa.list_(pa.string())
+WATT = "Watt I six-bar"
 
 
 @final
@@ -39,61 +48,73 @@ def stacked_rows(answers: StackedAnswers, indices: NDArray[np.intp]) -> pa.Table
     told: list[list[str]] = [[] for _ in range(count)]
     for task, code in answers.warnings:
         told[task].append(code)
-    return answer_table(
-        indices,
-        _words(StackedAnswers.OUTCOMES, answers.outcome),
-        pc.if_else(pc.equal(codes, ""), None, codes),
-        pa.nulls(count, pa.string()),
-        _lists(answers.dyads.task, count, _dyads(answers.dyads)),
-        _lists(linkages.task, count, _linkages(linkages))
-        if linkages is not None
-        else pa.nulls(count, pa.list_(LINKAGE)),
-        pa.array(told, _WARNINGS),
-    )
+    columns = {
+        "index": pa.array(indices, pa.int64()),
+        "outcome": _words(StackedAnswers.OUTCOMES, answers.outcome),
+        "code": pc.if_else(pc.equal(codes, ""), None, codes),
+        "dyads": _lists(answers.dyads.task, count, _dyads(answers.dyads)),
+        "warnings": told,
+    }
+    if linkages is not None:
+        columns["linkages"] = _lists(linkages.task, count, _linkages(linkages))
+    every = [columns.get(each.name, pa.nulls(count, each.type)) for each in ANSWER]
+    return pa.table(every, schema=ANSWER)
 
 
 def refused_rows(refusals: Sequence[Refusal]) -> pa.Table:
     """The rows of tasks that have no answer."""
-    count = len(refusals)
-    return answer_table(
-        np.array([each.index for each in refusals], dtype=np.intp),
-        pa.array([each.outcome for each in refusals], pa.string()),
-        pa.array([each.code for each in refusals], pa.string()),
-        pa.array([each.reason for each in refusals], pa.string()),
-        pa.array([[]] * count, pa.list_(DYAD)),
-        pa.nulls(count, pa.list_(LINKAGE)),
-        pa.array([[]] * count, _WARNINGS),
-    )
+    rows = [{**asdict(each), "dyads": [], "warnings": []} for each in refusals]
+    return pa.Table.from_pylist(rows, schema=ANSWER)
 
 
 def solved_rows(found: Mapping[int, Mapping[str, Any]]) -> pa.Table:
-    """Whole syntheses as `burmester synthesize --json` tells them, by their places in the part."""
-    dyads, linkages = [], []
-    for data in found.values():
-        ids = {each["id"]: number for number, each in enumerate(data["dyads"])}
-        searches = data["search"]
-        way = searches[0]["kind"] if searches else "family" if data["family"] else "motion"
-        dyads.append([_dyad(each, way) for each in data["dyads"]])
-        linkages.append([_linkage(each, ids, way) for each in data["linkages"]])
-    return answer_table(
-        np.array(list(found), dtype=np.intp),
-        pa.array([_outcome(data) for data in found.values()], pa.string()),
-        pa.array([data["outcome"]["code"] for data in found.values()], pa.string()),
-        pa.nulls(len(found), pa.string()),
-        pa.array(dyads, pa.list_(DYAD)),
-        pa.array(linkages, pa.list_(LINKAGE)),
-        pa.array(
-            [[each["code"] for each in data["warnings"]] for data in found.values()], _WARNINGS
-        ),
-    )
+    """Whole syntheses as the commands tell them with --json, by their places in the part."""
+    rows = [
+        {
+            "index": index,
+            "code": data["outcome"]["code"],
+            "warnings": [each["code"] for each in data["warnings"]],
+            **_found(data),
+        }
+        for index, data in found.items()
+    ]
+    return pa.Table.from_pylist(rows, schema=ANSWER)
 
 
-def answer_table(indices: NDArray[np.intp], *columns: Any) -> pa.Table:
-    """Columns of answers with the places of their tasks; the last ones, left out, are null."""
-    every = [pa.array(indices, pa.int64()), *columns]
-    for name in _ANSWERS[len(columns) :]:
-        every.append(pa.nulls(len(indices), SCHEMA.field(name).type))
-    return pa.table(every, names=["index", *_ANSWERS])
+def _found(data: Mapping[str, Any]) -> dict[str, Any]:
+    """What was found for a task, and its outcome in one word."""
+    if data.get("six_bars") is not None:
+        found = [_six_bar(each) for each in data["six_bars"]["found"]]
+        return {"outcome": "solved" if found else "none usable", "dyads": [], "six_bars": found}
+    usable = any(each["usable"] for each in data["linkages"])
+    if "function" in data["task"]:
+        found = [_generator(each) for each in data["linkages"]]
+        return {"outcome": "solved" if usable else "none usable", "dyads": [], "generators": found}
+    ids = {each["id"]: number for number, each in enumerate(data["dyads"])}
+    searches = data["search"]
+    way = searches[0]["kind"] if searches else "family" if data["family"] else "motion"
+    return {
+        "outcome": "solved" if usable else _outcome(data),
+        "dyads": [_dyad(each, way) for each in data["dyads"]],
+        "linkages": [_linkage(each, ids, way) for each in data["linkages"]],
+    }
+
+
+def _row(columns: Columns, data: Mapping[str, Any], **made: Any) -> dict[str, Any]:
+    """What the JSON of a result says by columns; made: of several of its values."""
+    return {
+        name: made[name] if name in made else _at(data, key if isinstance(key, str) else name)
+        for name, key in columns.items()
+    }
+
+
+def _at(data: Any, path: str) -> Any:
+    """What stands under keys or numbers, None where there is nothing."""
+    for key in path.split("."):
+        if data is None:
+            return None
+        data = data[int(key)] if key.isdigit() else data.get(key)
+    return data
 
 
 def _words(words: Sequence[str], codes: NDArray[np.integer[Any]]) -> Any:
@@ -149,10 +170,8 @@ def _linkages(rows: LinkageRows) -> Any:
 
 
 def _outcome(data: Mapping[str, Any]) -> str:
-    """The outcome of a synthesis in one word."""
+    """The outcome of a synthesis without a usable linkage, in one word."""
     code = data["outcome"]["code"]
-    if any(each["usable"] for each in data["linkages"]):
-        return "solved"
     if data["linkages"]:
         return "none usable"
     words = {"R303": "infinitely many", "R318": "not determined"}
@@ -169,55 +188,38 @@ _STATUSES = {
 
 
 def _dyad(data: Mapping[str, Any], way: str) -> dict[str, Any]:
-    line = data.get("line", {})
-    status = _STATUSES.get(way, "locally best")
-    fixed, moving, point = (
-        given if given is not None else (None, None)
-        for given in (data.get("fixed_pivot"), data.get("moving_pivot"), line.get("point"))
-    )
-    return {
-        "kind": data["kind"],
-        "status": status if data["minimum"] else "nearest",
-        "fixed_x": fixed[0],
-        "fixed_y": fixed[1],
-        "moving_x": moving[0],
-        "moving_y": moving[1],
-        "length": data.get("radius"),
-        "point_x": point[0],
-        "point_y": point[1],
-        **{name: line.get(name) for name in ("direction_deg", "normal_deg", "offset")},
-        "angle_deg": data.get("angle_deg"),
-        "rms": data["rms_error"],
-        "worst": data["max_error"],
-    }
+    status = _STATUSES.get(way, "locally best") if data["minimum"] else "nearest"
+    return _row(DYAD_COLUMNS, data, status=status)
 
 
 def _linkage(data: Mapping[str, Any], ids: Mapping[str, int], way: str) -> dict[str, Any]:
     """A linkage whose driver comes first."""
-    quality = data["quality"] or {}
-    kinds = [each["kind"] for each in (*data["defects"], *data["unmet"])]
     own = data["dyads"] if data["driver"] != "second" else data["dyads"][::-1]
-    tracing = data.get("tracing") or {}
-    path = tracing.get("curve_to_path") or {}
-    return {
-        "first": ids.get(own[0]["id"]),
-        "second": ids.get(own[1]["id"]),
-        "verdict": "usable" if data["usable"] else _verdict(kinds),
-        "type": data["type"],
-        "rms": data["position_error"]["rms"],
-        "worst": data["position_error"]["max"],
-        "angle_rms_deg": data["angle_error_deg"]["rms"],
-        "angle_worst_deg": data["angle_error_deg"]["max"],
-        "combined": data["combined_error"],
-        **{name: quality.get(name) for name in ("transmission_deg", "extent", "sensitivity")},
-        "dyads": [_dyad(each, way) for each in own],
-        "path_rms": path.get("rms"),
-        "path_worst": path.get("max"),
-        "chamfer": tracing.get("chamfer"),
-        "dtw": tracing.get("dtw"),
-    }
+    first, second = (ids.get(each["id"]) for each in own)
+    # The first thing that is wrong: a defect, or a requirement that is not met.
+    wrong = [each["kind"] for each in (*data["defects"], *data["unmet"])] or ["not usable"]
+    verdict = "usable" if data["usable"] else wrong[0]
+    dyads = [_dyad(each, way) for each in own]
+    return _row(LINKAGE_COLUMNS, data, first=first, second=second, verdict=verdict, dyads=dyads)
 
 
-def _verdict(kinds: Sequence[str]) -> str:
-    """The first thing that is wrong: a defect, or a requirement that is not met."""
-    return kinds[0] if kinds else "not usable"
+def _generator(data: Mapping[str, Any]) -> dict[str, Any]:
+    verdict = "usable" if data["usable"] else data["defects"][0]["kind"]
+    return _row(GENERATOR_COLUMNS, data, verdict=verdict)
+
+
+def _six_bar(data: Mapping[str, Any]) -> dict[str, Any]:
+    keys = {link: link.replace(" ", "_") for link in data["joints_of_links"]}
+    joints = [
+        {"link": link, "joint": joint, "x": x, "y": y}
+        for link, key in keys.items()
+        for joint, (x, y) in data.get(key, {}).items()
+    ]
+    return _row(
+        SIX_BAR_COLUMNS,
+        data,
+        verdict="not sound" if data["shortcomings"] else "sound",
+        joints=joints,
+        lengths=list(data["lengths"].items()),
+        **({} if data["type"] == WATT else dict.fromkeys(WATT_COLUMNS)),
+    )

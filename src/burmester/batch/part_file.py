@@ -22,14 +22,15 @@ from numpy.typing import NDArray
 from burmester import __version__
 from burmester.batch import schema
 from burmester.batch.answer_rows import Refusal, refused_rows, solved_rows, stacked_rows
-from burmester.batch.function_rows import NOT_STACKED, function_rows, function_task
 from burmester.batch.options import BatchOptions, Depth, as_task
 from burmester.batch.parts import DrawnTasks, Part, TableTasks, TextTasks
 from burmester.batch.sample import DRAWN, drawn_columns, drawn_table
-from burmester.batch.six_bar_rows import six_bar_rows
 from burmester.batch.worker import within
 from burmester.errors import BurmesterError, InputError
+from burmester.functions.function_task import FunctionTask
 from burmester.io.function_result import function_data
+from burmester.io.reading.functions.function_file import read_function
+from burmester.io.reading.functions.function_kind import is_function
 from burmester.io.result import synthesis_data
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
@@ -54,6 +55,7 @@ WORDS = [
     *(f"linkages.list.element.dyads.list.element.{name}" for name in ("kind", "status")),
     *(f"generators.list.element.{name}" for name in ("verdict", "type")),
 ]
+NOT_STACKED = "pairs of angles are solved at the depth full only"
 POINTS = "points are solved at the depth full"
 TOLD = 20  # failed tasks of a part that the manifest names
 
@@ -140,25 +142,22 @@ def _solved(
     tasks: Tasks, plan: Plan, wanted: list[int], sizes: Sizes, refusals: list[Refusal]
 ) -> list[pa.Table]:
     """Whole syntheses, a task after the other."""
-    found, functions, six_bars = {}, {}, {}
+    found = {}
     for index in wanted:
         try:
-            if (function := function_task(tasks, index, plan.options)) is not None:
-                sizes.pairs[index] = len(function.inputs)
-                functions[index] = function_data(generate_function(function))
-                continue
             task = _task(tasks, index, plan.options)
+            if isinstance(task, FunctionTask):
+                sizes.pairs[index] = len(task.inputs)
+                found[index] = function_data(generate_function(task))
+                continue
             sizes.poses[index] = len(task.poses.angle)
             if (how := plan.options.six_bars) is not None:
-                six_bars[index] = synthesis_data(synthesize_six_bars(task, how))
+                found[index] = synthesis_data(synthesize_six_bars(task, how))
             else:
                 found[index] = synthesis_data(synthesize(task, plan.options.synthesis))
         except InputError as error:
             refusals.append(_refusal(tasks, index, error))
-    blocks = [solved_rows(found)]
-    if functions:
-        blocks.append(function_rows(functions))
-    return [*blocks, six_bar_rows(six_bars)] if six_bars else blocks
+    return [solved_rows(found)]
 
 
 def _refusal(tasks: Tasks, index: int, error: BurmesterError) -> Refusal:
@@ -171,15 +170,25 @@ def _refusal(tasks: Tasks, index: int, error: BurmesterError) -> Refusal:
     return Refusal(index, "refused", error.code, f"{error.message}{where}{why}")
 
 
-def _task(tasks: Tasks, index: int, options: BatchOptions) -> Task:
-    """A task as `burmester synthesize` would read it from a file of its own."""
+def _task(tasks: TableTasks | TextTasks, index: int, options: BatchOptions) -> Task | FunctionTask:
+    """A task as `burmester synthesize` or `function` would read it from a file of its own."""
     if isinstance(tasks, TextTasks):
-        return as_task(options, tasks.labels[index], tasks.data[index])
-    one = tasks.only([index])
-    angle = f"{'crank' if one.points else 'angle'}_{'deg' if one.degrees else 'rad'}"
+        label, data = tasks.labels[index], tasks.data[index]
+        pairs = is_function(data, label)
+    else:
+        label, data = f"{tasks.label}, task {tasks.names[index]}", _lines(tasks.only([index]))
+        pairs = tasks.pairs
+    return read_function(data, label, options.functions) if pairs else as_task(options, label, data)
+
+
+def _lines(one: TableTasks) -> bytes:
+    """The one task of a table as a table of its own."""
+    unit = "deg" if one.degrees else "rad"
     # Without any angle the rows are those of a path, as in a table without the column.
     columns = 2 if one.has_angles and np.isnan(one.poses[:, 2]).all() else one.poses.shape[1]
-    names = ["x", "y", angle][:columns]
+    names = ["x", "y", f"{'crank' if one.points else 'angle'}_{unit}"][:columns]
+    if one.pairs:
+        names = [f"input_{unit}", f"output_{unit}"]
     exact = one.exact if one.exact is not None and one.exact.any() else None
     names += ["weight"] * (one.weights is not None) + ["exact"] * (exact is not None)
     lines = [",".join(names)]
@@ -193,8 +202,7 @@ def _task(tasks: Tasks, index: int, options: BatchOptions) -> Task:
         if exact is not None:
             cells.append("yes" if exact[row] else "no")
         lines.append(",".join(cells))
-    label = f"{one.label}, task {one.names[0]}"
-    return as_task(options, label, "\n".join([*lines, ""]).encode())
+    return "\n".join([*lines, ""]).encode()
 
 
 def _stacked(
@@ -256,13 +264,13 @@ def _as_table(
     read, kept = [], []
     for index in wanted:
         try:
-            if (function := function_task(tasks, index, plan.options)) is not None:
-                sizes.pairs[index] = len(function.inputs)
-                refusals.append(Refusal(index, "not at this depth", None, NOT_STACKED))
-                continue
             task = _task(tasks, index, plan.options)
         except InputError as error:
             refusals.append(_refusal(tasks, index, error))
+            continue
+        if isinstance(task, FunctionTask):
+            sizes.pairs[index] = len(task.inputs)
+            refusals.append(Refusal(index, "not at this depth", None, NOT_STACKED))
             continue
         sizes.poses[index] = len(task.poses.angle)
         if states := _beyond_poses(task):

@@ -8,97 +8,153 @@ away and none changes its meaning under the same version.
 
 from __future__ import annotations
 
-from typing import Any, Final
+from collections.abc import Mapping
+from typing import Any, Final, TypeAlias
 
 import pyarrow as pa
 
 from burmester.stacked import StackedAnswers
 
 __all__ = [
+    "ANSWER",
     "DYAD",
-    "GENERATOR",
+    "DYAD_COLUMNS",
+    "GENERATOR_COLUMNS",
     "LINKAGE",
+    "LINKAGE_COLUMNS",
     "OUTCOMES",
     "POSE",
     "SCHEMA",
-    "SIX_BAR",
+    "SIX_BAR_COLUMNS",
     "VERSION",
+    "WATT_COLUMNS",
+    "Columns",
     "schema",
 ]
 
 VERSION: Final = "burmester.batch/1"
 
+Columns: TypeAlias = Mapping[str, Any]
+
+
+def _struct(columns: Columns) -> Any:
+    return pa.struct(
+        [(name, NUMBER if isinstance(each, str) else each) for name, each in columns.items()]
+    )
+
+
+def _points(**keys: str) -> dict[str, str]:
+    return {
+        f"{name}_{axis}": f"{key}.{k}" for name, key in keys.items() for k, axis in enumerate("xy")
+    }
+
+
 # "refused": the task cannot be computed with; "failed": burmester could not compute it.
 OUTCOMES: Final = (*StackedAnswers.OUTCOMES, "failed")
 
-_NUMBER = pa.float64()
-DYAD: Final = pa.struct(
-    [
-        ("kind", pa.string()),
-        ("status", pa.string()),
-        *((name, _NUMBER) for name in ("fixed_x", "fixed_y", "moving_x", "moving_y", "length")),
-        *((name, _NUMBER) for name in ("point_x", "point_y", "direction_deg")),
-        *((name, _NUMBER) for name in ("normal_deg", "offset", "angle_deg", "rms", "worst")),
-    ]
-)
-LINKAGE: Final = pa.struct(
-    [
-        ("first", pa.int32()),
-        ("second", pa.int32()),
-        ("verdict", pa.string()),
-        ("type", pa.string()),
-        *((name, _NUMBER) for name in ("rms", "worst", "angle_rms_deg", "angle_worst_deg")),
-        *((name, _NUMBER) for name in ("combined", "transmission_deg", "extent", "sensitivity")),
-        ("dyads", pa.list_(DYAD)),
-        *((name, _NUMBER) for name in ("path_rms", "path_worst", "chamfer", "dtw")),
-    ]
-)
-GENERATOR: Final = pa.struct(
-    [
-        ("verdict", pa.string()),
-        ("type", pa.string()),
-        *((name, _NUMBER) for name in ("ground", "input_link", "coupler", "output_link")),
-        *((name, _NUMBER) for name in ("input_phase_deg", "output_phase_deg")),
-        ("side", pa.int32()),
-        *((name, _NUMBER) for name in ("max_error_deg", "rms_error_deg")),
-        *((name, _NUMBER) for name in ("transmission_deg", "link_ratio", "extent")),
-    ]
-)
-_POINTS: Final = ("fixed_first", "fixed_second", "coupler_joint", "crank_joint")
-_JOINT: Final = pa.struct(
-    [("link", pa.string()), ("joint", pa.string()), ("x", _NUMBER), ("y", _NUMBER)]
-)
-SIX_BAR: Final = pa.struct(
-    [
-        ("verdict", pa.string()),
-        *((name, pa.string()) for name in ("driver", "type", "carries")),
-        ("joints", pa.list_(_JOINT)),  # of links with more than a length, in the frames of links
-        ("lengths", pa.map_(pa.string(), _NUMBER)),
-        # Of the class Watt I alone.
-        *((f"{name}_{axis}", _NUMBER) for name in _POINTS for axis in "xy"),
-        *((f"{name}_{axis}", _NUMBER) for name in ("body_joint", "link_joint") for axis in "xy"),
-        *((name, _NUMBER) for name in ("first_crank", "coupler_arm", "second_crank")),
-        ("floating_link", _NUMBER),
-        ("drive_deg", pa.list_(_NUMBER)),
-        ("turns_fully", pa.bool_()),
-        *((name, _NUMBER) for name in ("reserve_below_deg", "reserve_above_deg")),
-        *((name, _NUMBER) for name in ("transmission_deg", "link_ratio", "extent")),
-    ]
-)
-POSE: Final = pa.struct([("x", _NUMBER), ("y", _NUMBER), ("angle_deg", _NUMBER)])
+TEXT: Final = pa.string()
+NUMBER: Final = pa.float64()
+
+# What results hold by their columns: each a type, or where its number stands in JSON, keys after
+# dots.  A column that has its type comes from the key of its own name, or is made of several.
+DYAD_COLUMNS: Final[Columns] = {
+    "kind": TEXT,
+    "status": TEXT,
+    **_points(fixed="fixed_pivot", moving="moving_pivot"),
+    "length": "radius",
+    **_points(point="line.point"),
+    "direction_deg": "line.direction_deg",
+    "normal_deg": "line.normal_deg",
+    "offset": "line.offset",
+    "angle_deg": NUMBER,
+    "rms": "rms_error",
+    "worst": "max_error",
+}
+DYAD: Final = _struct(DYAD_COLUMNS)
+LINKAGE_COLUMNS: Final[Columns] = {
+    "first": pa.int32(),
+    "second": pa.int32(),
+    "verdict": TEXT,
+    "type": TEXT,
+    "rms": "position_error.rms",
+    "worst": "position_error.max",
+    "angle_rms_deg": "angle_error_deg.rms",
+    "angle_worst_deg": "angle_error_deg.max",
+    "combined": "combined_error",
+    "transmission_deg": "quality.transmission_deg",
+    "extent": "quality.extent",
+    "sensitivity": "quality.sensitivity",
+    "dyads": pa.list_(DYAD),
+    "path_rms": "tracing.curve_to_path.rms",
+    "path_worst": "tracing.curve_to_path.max",
+    "chamfer": "tracing.chamfer",
+    "dtw": "tracing.dtw",
+}
+LINKAGE: Final = _struct(LINKAGE_COLUMNS)
+GENERATOR_COLUMNS: Final[Columns] = {
+    "verdict": TEXT,
+    "type": TEXT,
+    "ground": "links.ground",
+    "input_link": "links.input",
+    "coupler": "links.coupler",
+    "output_link": "links.output",
+    "input_phase_deg": NUMBER,
+    "output_phase_deg": NUMBER,
+    "side": pa.int32(),
+    "max_error_deg": "structural_error_deg.max",
+    "rms_error_deg": "structural_error_deg.rms",
+    "transmission_deg": "min_transmission_angle_deg",
+    "link_ratio": NUMBER,
+    "extent": NUMBER,
+}
+GENERATOR: Final = _struct(GENERATOR_COLUMNS)
+WATT_COLUMNS: Final[Columns] = {  # of the class Watt I alone
+    **_points(fixed_first="ground.A", fixed_second="ground.B", coupler_joint="coupler.D"),
+    **_points(crank_joint="second_crank.G", body_joint="body.E", link_joint="body.H"),
+    "first_crank": "lengths.AC",
+    "coupler_arm": "coupler.E.0",
+    "second_crank": "second_crank.D.0",
+    "floating_link": "lengths.GH",
+}
+_JOINT: Final = pa.struct([("link", TEXT), ("joint", TEXT), ("x", NUMBER), ("y", NUMBER)])
+SIX_BAR_COLUMNS: Final[Columns] = {
+    "verdict": TEXT,
+    "driver": TEXT,
+    "type": TEXT,
+    "carries": TEXT,
+    "joints": pa.list_(_JOINT),  # of links with more than a length, in the frames of links
+    "lengths": pa.map_(TEXT, NUMBER),
+    **WATT_COLUMNS,
+    "drive_deg": pa.list_(NUMBER),
+    "turns_fully": pa.bool_(),
+    "reserve_below_deg": "reserve_deg.0",
+    "reserve_above_deg": "reserve_deg.1",
+    "transmission_deg": "min_transmission_angle_deg",
+    "link_ratio": NUMBER,
+    "extent": NUMBER,
+}
+SIX_BAR: Final = _struct(SIX_BAR_COLUMNS)
+POSE: Final = pa.struct([("x", NUMBER), ("y", NUMBER), ("angle_deg", NUMBER)])
 SCHEMA: Final = pa.schema(
     [
-        ("task", pa.string()),
+        ("task", TEXT),
         ("poses", pa.int32()),
-        ("outcome", pa.string()),
-        ("code", pa.string()),
-        ("reason", pa.string()),
+        ("outcome", TEXT),
+        ("code", TEXT),
+        ("reason", TEXT),
         ("dyads", pa.list_(DYAD)),
         ("linkages", pa.list_(LINKAGE)),
-        ("warnings", pa.list_(pa.string())),
+        ("warnings", pa.list_(TEXT)),
         ("pairs", pa.int32()),
         ("generators", pa.list_(GENERATOR)),
         ("six_bars", pa.list_(SIX_BAR)),
+    ]
+)
+# The answer of a task, by its place in its part.
+ANSWER: Final = pa.schema(
+    [
+        ("index", pa.int64()),
+        *(each for each in SCHEMA if each.name not in ("task", "poses", "pairs")),
     ]
 )
 
