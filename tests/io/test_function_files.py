@@ -15,10 +15,10 @@ import burmester
 from burmester.cli import burmester as command
 from burmester.errors import InputError
 from burmester.io import templates
-from burmester.io.function_result import read_function_result
 from burmester.io.reading.functions.expression import read_expression
 from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.pose_table import Source
+from burmester.io.saved import read_result
 from burmester.synthesis.function_generation import generate_function
 
 SCHEMA = json.loads(resources.files("burmester").joinpath("io/function.schema.json").read_text())
@@ -167,7 +167,7 @@ def test_a_changed_result_is_judged_again(run):
     data = json.loads(Path("a.json").read_text())
     data["linkages"][0]["links"]["coupler"] *= 3
     Path("a.json").write_text(json.dumps(data))
-    read = read_function_result(Path("a.json").read_bytes(), "a.json").synthesis
+    read = read_result("a.json").synthesis
     (found,) = read.generators
     assert not found.usable
     (told,) = [each for each in read.warnings if each.code == "W244"]
@@ -175,10 +175,10 @@ def test_a_changed_result_is_judged_again(run):
     for change in ({"links": {}}, {"side": 0}, {"input_phase_deg": "a"}, {"id": 3}):
         broken = {**data, "linkages": [{**data["linkages"][0], **change}]}
         with pytest.raises(InputError) as caught:
-            read_function_result(json.dumps(broken).encode(), "a.json")
+            read_result("a.json", json.dumps(broken).encode())
         assert caught.value.code == "E150"
     beside = {**data, "linkages": [data["linkages"][0], {"id": "L2"}]}
-    read = read_function_result(json.dumps(beside).encode(), "a.json")
+    read = read_result("a.json", json.dumps(beside).encode())
     assert [each.id for each in read.synthesis.generators] == ["L1"]
     with pytest.raises(InputError, match="lacks a dimension"):
         read.choose("L2")

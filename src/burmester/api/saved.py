@@ -8,8 +8,7 @@ from typing import Any
 from burmester.api.function import FunctionGenerators
 from burmester.api.result import Result
 from burmester.io import saved
-from burmester.io.function_result import is_function_result, read_function_result
-from burmester.io.reading.file_content import read_source
+from burmester.synthesis.result import Synthesis
 
 __all__ = ["read_result"]
 
@@ -45,8 +44,7 @@ def read_result(source: str | os.PathLike[str]) -> Result[Any] | FunctionGenerat
     >>> [linkage.id for linkage in again.usable]
     ['L1', 'L2', 'L3']
     """
-    path = os.fspath(source)
-    data = read_source(path)
-    if is_function_result(data):
-        return FunctionGenerators(read_function_result(data, path).synthesis)
-    return Result.of(saved.read_result(path, data).synthesis)
+    synthesis = saved.read_result(source).synthesis
+    if isinstance(synthesis, Synthesis):
+        return Result.of(synthesis)
+    return FunctionGenerators(synthesis)

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
 from burmester.cli.options import Number
 from burmester.cli.output import EXIT_FOUND, console
-
-if TYPE_CHECKING:
-    from burmester.synthesis.result import Candidate
 
 __all__ = ["export"]
 
@@ -111,24 +108,16 @@ def export(
     from burmester.export import Options, require_format
     from burmester.export import export as run
     from burmester.io.files import require_writable
-    from burmester.io.function_result import is_function_result, read_function_result
     from burmester.io.message import show
-    from burmester.io.reading.file_content import read_source
     from burmester.io.saved import JUDGED_OTHERWISE, read_result
     from burmester.printable import printable
 
     name = require_format(output, to)
     require_writable(output, force=force, source=result)
-    chosen: Candidate
     with working("reading the result"):
-        data = read_source(result)
-        if is_function_result(data):
-            functions = read_function_result(data, result)
-            chosen, warnings = functions.exported(linkage), functions.synthesis.warnings
-        else:
-            read = read_result(result, data)
-            chosen, warnings = read.choose(linkage), read.synthesis.warnings
-    for each in warnings:
+        read = read_result(result)
+        chosen = read.exported(linkage)
+    for each in read.synthesis.warnings:
         if each.code == JUDGED_OTHERWISE:  # the others were said when the result was made
             show("warning", each, console())
     with working("writing the file"):

@@ -264,9 +264,8 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
     """The judgement of a linkage that exists; None where none is given."""
     from dataclasses import replace
 
-    from burmester.io.function_result import read_function_result
-    from burmester.io.reading.file_content import read_source
     from burmester.io.reading.requirements_text import lengths
+    from burmester.io.saved import read_result
     from burmester.synthesis.function_generation import judge_generator, judge_links
 
     links, linkage = given["links"], given["linkage"]
@@ -293,7 +292,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
             )
     if linkage is None:
         return None
-    result = read_function_result(read_source(linkage), linkage)
+    result = read_result(linkage)
     return judge_generator(task, result.choose(given["id"]).generator)
 
 

@@ -67,6 +67,11 @@ class FoundGenerator:
     extent: float
 
     @property
+    def violations(self) -> tuple[Advice, ...]:
+        """None: what it does not keep of the task stands among its defects."""
+        return ()
+
+    @property
     def max_error(self) -> float:
         """The greatest structural error, radians; nan where the linkage is open somewhere."""
         return float(np.abs(self.range_errors).max())

@@ -1,59 +1,27 @@
-"""A function synthesis as plain data, and read back: the object of `burmester function --json`.
+"""A function synthesis as plain data: the object of `burmester function --json`.
 
-The contract is `function.schema.json` beside this file.  Reading takes from it the task and the
-dimensions of linkages, and judges these anew, as `saved` does.
-
-E150 no result of this kind      E151 no such linkage, or none at all
+The contract is `function.schema.json` beside this file; `saved` reads it back.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import replace
-from typing import Any, Final, NamedTuple, get_args
+from typing import Any
 
 import numpy as np
 
-from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
-from burmester.functions.found_generator import FoundGenerator, found_generators
+from burmester.functions.found_generator import FoundGenerator
 from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
 from burmester.io.linkage_data import number
-from burmester.io.reading.functions.function_file import task_of_tree
 from burmester.io.reading.stated_requirements import requirements_data
-from burmester.io.result import message_data
-from burmester.io.saved import (
-    judged_otherwise,
-    linkages_by_id,
-    named,
-    outcome_of,
-    result_tree,
-    unlike,
-    warnings_of,
-)
-from burmester.printable import printable
-from burmester.synthesis.function_generation import (
-    FunctionMethod,
-    FunctionSynthesis,
-    coupler_synthesis,
-)
-from burmester.values import shown
-from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.io.result import FUNCTION_SCHEMA, message_data
+from burmester.synthesis.function_generation import FunctionSynthesis
 
-__all__ = [
-    "SCHEMA",
-    "FunctionResult",
-    "function_data",
-    "function_task_data",
-    "is_function_result",
-    "read_function_result",
-]
+__all__ = ["function_data", "function_task_data", "generator_of"]
 
-SCHEMA: Final = "burmester.function/1"
-LINK_KEYS: Final = ("input", "coupler", "output")
-COUNTS: Final = ("expected", "found", "real")
+LINK_KEYS = ("input", "coupler", "output")
 LONGEST = 1e9  # ground links; no link is longer
 SAME_SHARE = 1e-9  # of the range; shares that differ less are the same spacing
 
@@ -62,7 +30,7 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
     """The synthesis as an object ready for JSON."""
     task = synthesis.task
     return {
-        "schema": SCHEMA,
+        "schema": FUNCTION_SCHEMA,
         "outcome": message_data(synthesis.outcome),
         "method": synthesis.method,
         "task": function_task_data(task),
@@ -181,110 +149,17 @@ def _degrees(angle: float) -> float | None:
     return number(math.degrees(angle))
 
 
-# --- read back
-
-
-class FunctionResult(NamedTuple):
-    """A result that was read: where it came from, and its generators, judged anew.
-
-    refused: the linkages of the file that cannot be used, by id, and why.
-    """
-
-    label: str
-    synthesis: FunctionSynthesis
-    refused: Mapping[str, InputError]
-
-    def choose(self, id: str | None = None) -> FoundGenerator:
-        """A linkage by its id, or the first; raises E150, E151."""
-        every = self.synthesis.generators
-        if not every:
-            raise InputError(
-                "E151",
-                "there is no linkage in this result",
-                where=self.label,
-                why="it has none",
-                help="`burmester explain R361` says more",
-            )
-        return named(every, id, self.label, self.refused)
-
-    def exported(self, id: str | None = None) -> FoundLinkage:
-        """A linkage as exports take it: the coupler is the body."""
-        chosen = self.choose(id)
-        judged = coupler_synthesis(self.synthesis.task, chosen)
-        return replace(judged.linkages[0], id=chosen.id, usable=chosen.usable)
-
-
-def is_function_result(data: bytes) -> bool:
-    """Whether bytes are a result of this kind, whatever is wrong with it."""
-    return data[:200].lstrip().startswith(b'{"schema": "burmester.function/')
-
-
-def read_function_result(data: bytes, path: str) -> FunctionResult:
-    """The result in the bytes of a file; raises E109, E150 and what reading its task raises."""
-    label = "<stdin>" if path == "-" else printable(path)
-    tree = result_tree(data, label)
-    refused: dict[str, InputError] = {}
-    try:
-        synthesis = _synthesis(tree, refused)
-    except InputError as error:
-        error.where = error.where or label
-        raise
-    for each in refused.values():
-        each.where = label
-    return FunctionResult(label, synthesis, refused)
-
-
-def _synthesis(tree: dict[str, Any], refused: dict[str, InputError]) -> FunctionSynthesis:
-    """The task of a file and its linkages, judged anew; of the search what the file says."""
-    if tree.get("schema") != SCHEMA:
-        raise unlike(f"this is no result of function: its schema is not {SCHEMA}")
-    stated = tree.get("task")
-    if not isinstance(stated, dict) or not isinstance(tree.get("linkages"), list):
-        raise unlike("this result has no task, or no linkages")
-    method: FunctionMethod | None = next(
-        (each for each in get_args(FunctionMethod) if each == tree.get("method")), None
-    )
-    if method is None:
-        raise unlike("$.method of this result cannot be used", f"it is {shown(tree.get('method'))}")
-    task = task_of_tree(stated.get("function"))
-    found, others = list[FoundGenerator](), list[str]()
-    for id, each in linkages_by_id(tree):
-        try:
-            one = _generator(each, task)
-        except InputError as error:
-            refused[id] = error
-            continue
-        (judged,) = found_generators(one, task, exact=method in ("exact", "phases"))
-        judged = replace(judged, id=id, rank=len(found) + 1)
-        found.append(judged)
-        stated = each.get("usable")
-        if isinstance(stated, bool) and stated is not judged.usable:
-            others.append(f"{id} is {'' if judged.usable else 'not '}usable, otherwise than stated")
-    if refused and not found:
-        raise next(iter(refused.values()))
-    search = tree.get("search")
-    counts = (search.get(key) if isinstance(search, dict) else None for key in COUNTS)
-    return FunctionSynthesis(
-        task,
-        method,
-        outcome_of(tree),
-        tuple(found),
-        (*warnings_of(tree), *judged_otherwise(others, refused)),
-        *(each if isinstance(each, int) else None for each in counts),
-    )
-
-
-def _generator(tree: dict[str, Any], task: FunctionTask) -> Generator:
-    """One generator, with a leading axis of one; raises E150."""
+def generator_of(tree: dict[str, Any], task: FunctionTask) -> Generator:
+    """One generator, with a leading axis of one; raises ValueError."""
     try:
         links = [float(tree["links"][key]) / task.ground for key in LINK_KEYS]
         phases = [math.radians(float(tree[f"{key}_phase_deg"])) for key in ("input", "output")]
         side = float(tree["side"])
     except (KeyError, TypeError, ValueError, OverflowError):
-        raise unlike("a linkage of this result lacks a dimension") from None
+        raise ValueError("a linkage of this result lacks a dimension") from None
     numbers = np.array([*links, *phases])
     sound = np.isfinite(numbers).all() and min(links) > 0 and max(links) <= LONGEST
     if not sound or side not in (1.0, -1.0):
-        raise unlike("a linkage of this result has a dimension that no linkage has")
+        raise ValueError("a linkage of this result has a dimension that no linkage has")
     a, r, b = links
     return Generator(*(np.array([v]) for v in (a, r, b, *phases, side)))

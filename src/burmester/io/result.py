@@ -59,7 +59,7 @@ __all__ = [
     "task_data",
 ]
 
-SCHEMA = "burmester.synthesis/1"
+SCHEMA, FUNCTION_SCHEMA = "burmester.synthesis/1", "burmester.function/1"
 # What a result says of its search alone, and nothing gives again when it is read.
 SEARCH_KEYS = ("singular_values", "critical_points", "search")
 

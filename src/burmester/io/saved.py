@@ -1,4 +1,4 @@
-"""What `burmester synthesize --json` printed, read back: the task and its linkages.
+"""What the commands printed with --json, read back: the task and its linkages, of any kind.
 
 A result is input like any other.  Its task and the dimensions of its linkages are read, and the
 linkages judged anew: no number and no verdict of the file is taken on trust, and where a verdict
@@ -18,7 +18,7 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, cast, get_args
 
 import numpy as np
 
@@ -31,11 +31,10 @@ from burmester.io.linkage_values import assumed_of, dyad_of, number, text_of
 from burmester.io.reading.file_content import read_source
 from burmester.io.reading.pose_table import held_float
 from burmester.io.reading.poses import read_task
-from burmester.io.result import SCHEMA, SEARCH_KEYS
+from burmester.io.result import FUNCTION_SCHEMA, SCHEMA, SEARCH_KEYS
 from burmester.printable import printable
 from burmester.refinement.tolerance_boxes import counted_error
 from burmester.requirements.table import Violation
-from burmester.sixbar.found import FoundSixBar
 from burmester.synthesis.given_linkage import OpenLink, require_linkage
 from burmester.synthesis.judgement import judged_again
 from burmester.synthesis.result import Candidate, Outcome, Synthesis
@@ -52,25 +51,22 @@ if TYPE_CHECKING:
     from burmester.certificates.certificate import Certificate
     from burmester.families.family import Family
     from burmester.functions.found_generator import FoundGenerator
+    from burmester.sixbar.found import FoundSixBar
+    from burmester.sixbar.six_bars import SixBars
+    from burmester.synthesis.function_generation import FunctionSynthesis
 
 __all__ = [
     "JUDGED_OTHERWISE",
     "SavedResult",
-    "judged_otherwise",
-    "linkages_by_id",
-    "named",
-    "outcome_of",
     "read_result",
-    "result_tree",
-    "unlike",
-    "warnings_of",
 ]
 
 HELP = "make it with `burmester synthesize POSES -o result.json`"
 JUDGED_OTHERWISE = "W244"
 MOST_DIGITS = 20  # of a whole number; no longer one is written, and Python reads 4,300 at most
+COUNTS = ("expected", "found", "real")
 MOST_OTHERS = 5  # statements of one warning
-LINKAGE_ID, DYAD_ID = re.compile("L[1-9][0-9]{0,6}"), re.compile("[A-Z]{1,3}[1-9][0-9]{0,6}")
+LINKAGE_ID, DYAD_ID = re.compile("[LS][1-9][0-9]{0,6}"), re.compile("[A-Z]{1,3}[1-9][0-9]{0,6}")
 WARNING_CODE, OUTCOME_CODE = re.compile("W[0-9]{3}"), re.compile("[ER][0-9]{3}")
 # Errors that differ by less are the same: places are found by iteration, and beside a dead point
 # rounding moves them.
@@ -88,65 +84,55 @@ class SavedResult(NamedTuple):
     """
 
     label: str
-    synthesis: Synthesis
+    synthesis: Synthesis | FunctionSynthesis
     refused: Mapping[str, InputError]
 
-    def choose(self, id: str | None = None) -> Candidate:
-        """A linkage by its id, or the first, four-bar or six-bar; raises E150, E151."""
-        if not (every := self.synthesis.candidates):
+    def choose(self, id: str | None = None) -> Any:
+        """A linkage of any kind by its id, or the first; raises E150, E151."""
+        every = self.synthesis.candidates
+        if not every:
             raise InputError(
                 "E151",
                 "there is no linkage in this result",
                 where=self.label,
-                help="give poses that have one; "
+                help="give a task that has one; "
                 f"`burmester explain {self.synthesis.outcome.code}` says more",
             )
-        return named(every, id, self.label, self.refused)
+        if id is not None and (error := self.refused.get(id.upper())) is not None:
+            raise error
+        for each in every:
+            if id is None or each.id.lower() == id.lower():
+                return each
+        raise InputError(
+            "E151",
+            f"there is no linkage {id} in this result",
+            where=self.label,
+            why=f"it has {', '.join(each.id for each in every)}",
+            help=f"give --linkage {every[0].id}",
+        )
 
-
-_Named = TypeVar("_Named", Candidate, "FoundGenerator")
-
-
-def named(
-    every: Sequence[_Named],
-    id: str | None,
-    label: str,
-    refused: Mapping[str, InputError],
-) -> _Named:
-    """The one with an id, or the first; raises E151, or why that one was refused."""
-    if id is not None and (error := refused.get(id.upper())) is not None:
-        raise error
-    for each in every:
-        if id is None or each.id.lower() == id.lower():
-            return each
-    raise InputError(
-        "E151",
-        f"there is no linkage {id} in this result",
-        where=label,
-        why=f"it has {', '.join(each.id for each in every)}",
-        help=f"give --linkage {every[0].id}",
-    )
+    def exported(self, id: str | None = None) -> Candidate:
+        """The same as exports take it: of a function generator the coupler is the body."""
+        chosen: Candidate = self.choose(id)
+        if isinstance(self.synthesis, Synthesis):
+            return chosen
+        return self.synthesis.coupler_linkage(cast("FoundGenerator", chosen))
 
 
 def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> SavedResult:
     """The result in a file, or on standard input ("-"); data: its bytes, where they are known.
 
-    Raises E101, E109 and E150, and what reading the poses of its task raises.
+    Raises E101, E109 and E150, and what reading its task raises.
     """
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     data = read_source(path) if data is None else data
-    tree = result_tree(data, label)
+    refused: dict[str, InputError] = {}
     try:
-        if tree.get("schema") != SCHEMA:
-            raise unlike(f"this is no result of synthesize: its schema is not {SCHEMA}")
-        if tree.get("task") is None:
-            raise unlike("this result has no task: the poses could not be used")
-        if "poses" in tree:
-            raise unlike("$.poses stands beside the task of this result")
-        task = read_task("-", data=data)
-        refused: dict[str, InputError] = {}
-        synthesis = _synthesis(tree, task, refused)
+        tree = _tree(data)
+        schema = tree.get("schema")
+        functions = isinstance(schema, str) and schema.startswith(FUNCTION_SCHEMA.partition("/")[0])
+        synthesis = _functions(tree, refused) if functions else _synthesis(tree, data, refused)
     except InputError as error:
         error.where = (error.where or label).replace("<stdin>", label)
         raise
@@ -155,20 +141,16 @@ def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> Sa
     return SavedResult(label, synthesis, refused)
 
 
-def result_tree(data: bytes, label: str) -> dict[str, Any]:
+def _tree(data: bytes) -> dict[str, Any]:
     """The object in the bytes of a result; raises E103, E109 and E150."""
     try:
         tree = json.loads(
             data, parse_int=_whole_number, parse_float=_finite, parse_constant=_finite
         )
-    except InputError as error:
-        error.where = label
-        raise
     except (ValueError, RecursionError) as error:
-        why = printable(str(error))
-        raise InputError("E109", "this is not JSON", where=label, why=why, help=HELP) from None
+        raise InputError("E109", "this is not JSON", why=printable(str(error)), help=HELP) from None
     if not isinstance(tree, dict):
-        raise InputError("E150", "this is no result of synthesize", where=label, help=HELP)
+        raise _unlike("this is no result of synthesize")
     return tree
 
 
@@ -184,24 +166,28 @@ def _finite(digits: str) -> float:
     return value
 
 
-def unlike(message: str, why: str | None = None) -> InputError:
+def _unlike(message: str, why: str | None = None) -> InputError:
     return InputError("E150", message, why=why, help=HELP)
 
 
-def _synthesis(tree: dict[str, Any], task: Task, refused: dict[str, InputError]) -> Synthesis:
+def _synthesis(tree: dict[str, Any], data: bytes, refused: dict[str, InputError]) -> Synthesis:
     """All that a file says of a task, with what its dimensions give; refused: see `SavedResult`."""
+    if tree.get("schema") != SCHEMA:
+        raise _unlike(f"this is no result of synthesize: its schema is not {SCHEMA}")
+    if tree.get("task") is None:
+        raise _unlike("this result has no task: the poses could not be used")
+    if "poses" in tree:
+        raise _unlike("$.poses stands beside the task of this result")
+    task = read_task("-", data=data)
     motion = None
     if task.path is None and task.poses.shape[0] > 1:
         motion = classify_motion(task)
     problem = SynthesisProblem.of(task, motion, _options(tree))
-    outcome, warnings = outcome_of(tree), warnings_of(tree)
+    outcome, warnings = _outcome(tree), _warnings(tree)
     if isinstance(tree.get("six_bars"), dict):
-        from burmester.io.saved_six_bars import six_bars_again
-
-        six_bars, judged = six_bars_again(tree["six_bars"], problem, refused)
-        others = [text for each in judged for text in _differences(*each, problem)]
+        six_bars, others = _six_bars(tree["six_bars"], problem, refused)
         others += _claims(outcome, any(each.usable for each in six_bars.found))
-        warnings += judged_otherwise(others, refused)
+        warnings += _judged_otherwise(others, refused)
         return Synthesis(problem, outcome, warnings=tuple(warnings), six_bars=six_bars)
     dyads = _dyads(tree, task)
     linkages, others = _linkages(tree, problem.merged(), refused)
@@ -211,11 +197,96 @@ def _synthesis(tree: dict[str, Any], task: Task, refused: dict[str, InputError])
         outcome,
         dyads,
         linkages,
-        (*warnings, *judged_otherwise(others, refused)),
+        (*warnings, *_judged_otherwise(others, refused)),
         certificate=_certificate(tree.get("certificate"), dyads),
         family=_family(tree.get("family"), linkages, problem),
         search=_search(tree),
     )
+
+
+def _functions(tree: dict[str, Any], refused: dict[str, InputError]) -> FunctionSynthesis:
+    """The same of a function task."""
+    from burmester.functions.found_generator import found_generators
+    from burmester.io.function_result import generator_of
+    from burmester.io.reading.functions.function_file import task_of_tree
+    from burmester.synthesis.function_generation import FunctionMethod, FunctionSynthesis
+
+    if tree.get("schema") != FUNCTION_SCHEMA:
+        raise _unlike(f"this is no result of function: its schema is not {FUNCTION_SCHEMA}")
+    stated = tree.get("task")
+    if not isinstance(stated, dict) or not isinstance(tree.get("linkages"), list):
+        raise _unlike("this result has no task, or no linkages")
+    method: FunctionMethod | None = next(
+        (each for each in get_args(FunctionMethod) if each == tree.get("method")), None
+    )
+    if method is None:
+        why = f"it is {shown(tree.get('method'))}"
+        raise _unlike("$.method of this result cannot be used", why)
+    task = task_of_tree(stated.get("function"))
+    found: list[FoundGenerator] = []
+    others = list[str]()
+    for id, each in _by_id(tree, "linkages"):
+        try:
+            one = generator_of(each, task)
+        except ValueError as error:
+            refused[id] = _unlike(str(error))
+            continue
+        (judged,) = found_generators(one, task, exact=method in ("exact", "phases"))
+        found.append(replace(judged, id=id, rank=len(found) + 1))
+        others += _usable_differs(found[-1], each)
+    if refused and not found:
+        raise next(iter(refused.values()))
+    search = tree.get("search")
+    counts = (search.get(key) if isinstance(search, dict) else None for key in COUNTS)
+    return FunctionSynthesis(
+        task,
+        method,
+        _outcome(tree),
+        tuple(found),
+        (*_warnings(tree), *_judged_otherwise(others, refused)),
+        *(each if isinstance(each, int) else None for each in counts),
+    )
+
+
+def _six_bars(
+    tree: dict[str, Any], problem: SynthesisProblem, refused: dict[str, InputError]
+) -> tuple[SixBars, list[str]]:
+    """The six-bars of a result, judged anew, and where the file says otherwise."""
+    from burmester.io.six_bar_file import six_bar_of
+    from burmester.sixbar.six_bars import SixBarOptions, SixBars
+    from burmester.synthesis.six_bar_judgement import judged_at_poses
+
+    every = _by_id(tree, "found", "six_bars.")
+    out: list[FoundSixBar] = []
+    others = list[str]()
+    for k, (id, each) in enumerate(every):
+        try:
+            found = judged_at_poses(six_bar_of(each), problem, each.get("driver"))
+        except InputError as error:
+            why = f"{error.message}{(error.why and f': {error.why}') or ''}"
+            refused[id] = _unlike(f"$.six_bars.found[{k}] of this result cannot be used", why)
+            continue
+        chain = each.get("chain")
+        out.append(replace(found, id=id, chain=chain if isinstance(chain, int) else found.chain))
+        others += _differences(out[-1], each, problem)
+    if every and not out:
+        raise next(iter(refused.values()))
+    counts = (tree.get(key) for key in ("chains", "designs", "working", "free_poses"))
+    chains, designs, working, free = (_count(each) for each in counts)
+    try:
+        options = SixBarOptions(**tree.get("options"))  # type: ignore[arg-type]
+    except (InputError, TypeError):
+        options = SixBarOptions()
+    given = any(each.get("given") is True for _, each in every)
+    assumed = assumed_of(tree)
+    found_all = SixBars(tuple(out), chains, designs, working, options, assumed, free, given=given)
+    return found_all, others
+
+
+def _count(given: Any) -> int:
+    """A whole number of the file, 0 for what is none."""
+    whole = isinstance(given, int) and not isinstance(given, bool)
+    return given if whole and 0 <= given < 2**63 else 0
 
 
 def _search(tree: dict[str, Any]) -> dict[str, Any]:
@@ -224,11 +295,12 @@ def _search(tree: dict[str, Any]) -> dict[str, Any]:
     return kept | {key: each for key, each in tree["outcome"].items() if key == "causes"}
 
 
-def _list(tree: Mapping[str, Any], key: str) -> list[Any]:
+def _list(tree: Mapping[str, Any], key: str, within: str = "") -> list[Any]:
     """A list of the file; none where there is none; raises E150."""
     given = tree.get(key, [])
     if not isinstance(given, list):
-        raise unlike(f"$.{key} of this result cannot be used", f"it is {shown(given)}, not a list")
+        why = f"it is {shown(given)}, not a list"
+        raise _unlike(f"$.{within}{key} of this result cannot be used", why)
     return given
 
 
@@ -240,13 +312,13 @@ def _message(given: Any, code: re.Pattern[str]) -> tuple[str, str, str | None, s
     return None if message is None else (given["code"], message, help, why)
 
 
-def outcome_of(tree: dict[str, Any]) -> Outcome:
+def _outcome(tree: dict[str, Any]) -> Outcome:
     if (parts := _message(tree.get("outcome"), OUTCOME_CODE)) is None:
-        raise unlike("$.outcome of this result cannot be used")
+        raise _unlike("$.outcome of this result cannot be used")
     return Outcome(*parts)
 
 
-def warnings_of(tree: dict[str, Any]) -> list[Advice]:
+def _warnings(tree: dict[str, Any]) -> list[Advice]:
     every = [_message(each, WARNING_CODE) for each in _list(tree, "warnings")]
     return [
         Advice(code, text, help or "", why)
@@ -259,7 +331,7 @@ def _options(tree: dict[str, Any]) -> SynthesisOptions:
     """How the task was solved; of a file of before these were written, as far as it says."""
     given = tree.get("options", {})
     if not isinstance(given, dict):
-        raise unlike("$.options of this result cannot be used", f"it is {shown(given)}")
+        raise _unlike("$.options of this result cannot be used", f"it is {shown(given)}")
     known = {each.name for each in fields(SynthesisOptions)}
     given = {name: value for name, value in given.items() if name in known}
     if "length_per_radian" not in given:
@@ -267,7 +339,7 @@ def _options(tree: dict[str, Any]) -> SynthesisOptions:
     try:
         return SynthesisOptions(**given)
     except InputError as error:
-        raise unlike("$.options of this result cannot be used", error.message) from None
+        raise _unlike("$.options of this result cannot be used", error.message) from None
 
 
 def _dyad(given: Any, where: str) -> FoundDyad:
@@ -275,10 +347,10 @@ def _dyad(given: Any, where: str) -> FoundDyad:
     try:
         dyad = _dimensions(given, where)
     except InputError as error:
-        raise unlike(f"$.{error.message}", error.why) from None
+        raise _unlike(f"$.{error.message}", error.why) from None
     id = given.get("id")
     if not isinstance(id, str) or not DYAD_ID.fullmatch(id):
-        raise unlike(f"$.{where}.id is {shown(id)}, and burmester writes ids such as D1")
+        raise _unlike(f"$.{where}.id is {shown(id)}, and burmester writes ids such as D1")
     limits = given.get("limits", 0)
     minimum = given.get("minimum", True)
     return FoundDyad(id, dyad, 0.0, 0.0, minimum is True, limits if limits in (1, 2) else 0)
@@ -286,13 +358,13 @@ def _dyad(given: Any, where: str) -> FoundDyad:
 
 def _dimensions(given: Any, where: str) -> Dyad:
     if not isinstance(given, dict):
-        raise unlike(f"{where} is {shown(given)}, not an object")
+        raise _unlike(f"{where} is {shown(given)}, not an object")
     if given.get("kind") == "PP":
         angle = number(given.get("angle_deg"), f"{where}.angle_deg")
         return PP(np.asarray(math.radians(angle)))
     dyad = dyad_of(given, where, HELP)
     if isinstance(dyad, OpenLink):
-        raise unlike(f"{where}.radius is missing")
+        raise _unlike(f"{where}.radius is missing")
     return dyad
 
 
@@ -312,7 +384,7 @@ def _linkages(
 ) -> tuple[tuple[FoundLinkage, ...], list[str]]:
     """The linkages of the file that can be used, judged anew, and where it says otherwise."""
     pairs, stated = list[Pair](), list[tuple[str, dict[str, Any]]]()
-    for k, (id, each) in enumerate(linkages_by_id(tree)):
+    for k, (id, each) in enumerate(_by_id(tree, "linkages")):
         try:
             pairs.append(_pair(each, k, problem.given))
             stated.append((id, each))
@@ -322,7 +394,7 @@ def _linkages(
     out, others = list[FoundLinkage](), list[str]()
     for (id, each), found in zip(stated, judged_again(problem, pairs, searched), strict=True):
         if found is None:
-            refused[id] = unlike(f"linkage {id} has a link without length")
+            refused[id] = _unlike(f"linkage {id} has a link without length")
             continue
         found = _as_made(replace(found, id=id), each, problem.given)  # noqa: PLW2901
         out.append(replace(found, rank=len(out) + 1))
@@ -332,14 +404,14 @@ def _linkages(
     return tuple(out), others
 
 
-def linkages_by_id(tree: dict[str, Any]) -> list[tuple[str, dict[str, Any]]]:
+def _by_id(tree: dict[str, Any], key: str, within: str = "") -> list[tuple[str, dict[str, Any]]]:
     """The linkages of a file as it has them, each with its id; raises E150."""
     out: dict[str, dict[str, Any]] = {}
-    for k, each in enumerate(_list(tree, "linkages")):
+    for k, each in enumerate(_list(tree, key, within)):
         id = each.get("id") if isinstance(each, dict) else None
         if not isinstance(id, str) or not LINKAGE_ID.fullmatch(id) or id in out:
             why = f"it is {shown(id)}, and each linkage has an id of its own, such as L1"
-            raise unlike(f"$.linkages[{k}].id of this result cannot be used", why)
+            raise _unlike(f"$.{within}{key}[{k}].id of this result cannot be used", why)
         out[id] = each
     return list(out.items())
 
@@ -348,14 +420,14 @@ def _pair(given: dict[str, Any], number: int, task: Task) -> Pair:
     """The dyads of a linkage, which make one; raises E150."""
     where, dyads = f"linkages[{number}].dyads", given.get("dyads")
     if not isinstance(dyads, list) or len(dyads) != 2:
-        raise unlike(f"$.{where} is {shown(dyads)}, not two dyads")
+        raise _unlike(f"$.{where} is {shown(dyads)}, not two dyads")
     first, second = (_dyad(each, f"{where}[{k}]") for k, each in enumerate(dyads))
     if first.id == second.id:
-        raise unlike(f"$.{where} has {first.id} twice")
+        raise _unlike(f"$.{where} has {first.id} twice")
     try:
         require_linkage((first.dyad, second.dyad), task)
     except InputError as error:
-        raise unlike(f"$.{where}: {error.message}", error.why) from None
+        raise _unlike(f"$.{where}: {error.message}", error.why) from None
     return first, second
 
 
@@ -378,37 +450,35 @@ def _as_made(found: FoundLinkage, given: dict[str, Any], task: Task) -> FoundLin
     return found
 
 
-def _differences(
-    found: FoundLinkage | FoundSixBar, given: dict[str, Any], problem: SynthesisProblem
-) -> list[str]:
-    """What the file says otherwise of a linkage: whether it is usable, or how near it comes."""
-    task, stated = problem.given, given.get("usable")
-    if isinstance(stated, bool) and stated is not found.usable:
-        if found.usable:
-            return [f"{found.id} is usable, and the file says that it is not"]
-        reasons = [each.message for each in found.defects]
-        reasons += [each.message for each in found.violations]
-        return [f"{found.id} is not usable ({reasons[0]}), and the file says that it is"]
-    if not found.usable:  # its places depend on rounding, its dyads do not
-        return [] if isinstance(found, FoundSixBar) else _dyad_differences(found, given, problem)
-    errors, own = given.get("position_error"), float(found.error.position.max())
-    said = _number(errors.get("max") if isinstance(errors, dict) else None)
-    if _alike(said, own, problem):
+def _usable_differs(found: Candidate | FoundGenerator, given: dict[str, Any]) -> list[str]:
+    """What the file says otherwise of a linkage: whether it is usable."""
+    stated = given.get("usable")
+    if not isinstance(stated, bool) or stated is found.usable:
         return []
-    return [
-        f"{found.id} misses a pose by {_told(own, task)}, and the file says {_told(said, task)}"
-    ]
+    if found.usable:
+        return [f"{found.id} is usable, and the file says that it is not"]
+    reason = next(iter((*found.defects, *found.violations))).message
+    return [f"{found.id} is not usable ({reason}), and the file says that it is"]
 
 
-def _dyad_differences(
-    found: FoundLinkage, given: dict[str, Any], problem: SynthesisProblem
-) -> list[str]:
-    """The first dyad of a linkage whose dimensions miss the poses otherwise than the file says."""
-    said = {each["id"]: _number(each.get("max_error")) for each in given["dyads"]}
-    for each in found.dyads:
-        if not _alike(said[each.id], each.max_error, problem):
-            own, other = (_told(e, problem.given) for e in (each.max_error, said[each.id]))
-            return [f"{each.id} of {found.id} misses a pose by {own}, and the file says {other}"]
+def _differences(found: Candidate, given: dict[str, Any], problem: SynthesisProblem) -> list[str]:
+    """The same, and how near it comes; of one that is not usable how near its first dyad comes."""
+    if differs := _usable_differs(found, given):
+        return differs
+    errors = given.get("position_error")
+    stated = _number(errors.get("max") if isinstance(errors, dict) else None)
+    every = [(found.id, float(found.error.position.max()), stated)]
+    if not found.usable:  # its places depend on rounding, its dyads do not
+        dyads = found.dyads if isinstance(found, FoundLinkage) else ()
+        rows = {each["id"]: each for each in given["dyads"]} if dyads else {}
+        every = [
+            (f"{each.id} of {found.id}", each.max_error, _number(rows[each.id].get("max_error")))
+            for each in dyads
+        ]
+    for name, own, other in every:
+        if not _alike(other, own, problem):
+            near, far = (_told(each, problem.given) for each in (own, other))
+            return [f"{name} misses a pose by {near}, and the file says {far}"]
     return []
 
 
@@ -434,7 +504,7 @@ def _claims(outcome: Outcome, works: bool) -> list[str]:
     return [f"{one}, and the outcome of the file, {outcome.code}, says that {other}"]
 
 
-def judged_otherwise(others: Sequence[str], refused: Mapping[str, InputError]) -> list[Advice]:
+def _judged_otherwise(others: Sequence[str], refused: Mapping[str, InputError]) -> list[Advice]:
     """W244, where a file says something else than its task and its dimensions give."""
     others = [*(f"{id} cannot be used" for id in refused), *others]
     if not others:

@@ -71,7 +71,7 @@ def exported(result: bytes, given: dict[str, Any]) -> tuple[bytes, str]:
         raise InputError("E151", "the linkage has no name", help="give its id, such as L1")
     name = require_format("", to)
     options = _options(given.get("settings"))
-    chosen = read_result("-", data=result).choose(linkage)
+    chosen = read_result("-", data=result).exported(linkage)
     file = f"{plain_name(given.get('name'))}-{chosen.id}{FORMATS[name].suffix}"
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / file

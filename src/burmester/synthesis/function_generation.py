@@ -13,7 +13,7 @@ R360 function generators that work              R361 none that does
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, Literal, TypeAlias, final
 
 import numpy as np
@@ -37,6 +37,7 @@ from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import count, figure, listed
 
 __all__ = [
@@ -81,6 +82,16 @@ class FunctionSynthesis:
     def usable(self) -> tuple[FoundGenerator, ...]:
         """The linkages that work."""
         return tuple(each for each in self.generators if each.usable)
+
+    @property
+    def candidates(self) -> tuple[FoundGenerator, ...]:
+        """All linkages by rank."""
+        return self.generators
+
+    def coupler_linkage(self, found: FoundGenerator) -> FoundLinkage:
+        """A generator as the linkage that guides its coupler, for pictures and exports."""
+        (judged,) = coupler_synthesis(self.task, found).linkages
+        return replace(judged, id=found.id, usable=found.usable)
 
     @property
     def prices(self) -> tuple[FoundGenerator, ...]:
