@@ -94,9 +94,12 @@ class InputError(BurmesterError):
 @final
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """A warning with what to do about it; why: with numbers."""
+    """A stable code with its sentence, and what to do: a warning, or the outcome of a task.
+
+    why: with numbers.
+    """
 
     code: str
     message: str
-    help: str
+    help: str | None = None
     why: str | None = None

@@ -15,8 +15,8 @@ from burmester.functions.found_generator import FoundGenerator
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.pair_checks import reversals
 from burmester.io.function_result import function_task_data
-from burmester.io.linkage_table import new_table
-from burmester.io.message import draw, message, note, print_trimmed, show, wrapped
+from burmester.io.linkage_table import new_table, show_read, show_warnings, table_of
+from burmester.io.message import draw, message, print_trimmed, show, wrapped
 from burmester.io.result import message_data
 from burmester.synthesis.function_generation import FunctionSynthesis
 from burmester.wording import count, figure, listed, with_article
@@ -26,7 +26,7 @@ __all__ = ["function_check_data", "show_function", "show_function_check"]
 CHECK_SCHEMA: Final = "burmester.function-check/1"
 
 NARROW = 76  # columns; in a narrower terminal the table has fewer
-MOST_PAIRS = 20  # in a table; of more, the first 18 and the last 2, or no table at all
+MOST_PAIRS = 20  # in a table; of more there is none
 MOST_ROWS = 8  # linkages in the table where not all are asked for
 EXACT = 1e-9  # radians; an error below is rounding
 
@@ -41,10 +41,7 @@ def show_function(
         judged = synthesis.method == "judged"
         _best(usable[0], task, console, f"{usable[0].id} is" if judged else "")
     else:
-        draw(message("result", outcome.code, outcome.message, width=console.width), console)
-        for head, text in (("why", outcome.why), ("help", outcome.help)):
-            if text:
-                draw(note(head, text, console.width), console)
+        show("result", outcome, console)
     shown = list(synthesis.generators if everything else synthesis.leading(MOST_ROWS))
     if usable and not everything:
         shown = [each for each in shown if each.usable]
@@ -59,10 +56,7 @@ def show_function(
         draw(message("result", outcome.code, outcome.message, width=console.width), console)
         if (rest := len(synthesis.generators) - len(shown)) and not everything:
             print_trimmed(Text(f"{rest} more: --all."), console)
-    if synthesis.warnings:
-        console.print()
-    for warning in synthesis.warnings:
-        show("warning", warning, console)
+    show_warnings(synthesis.warnings, console)
 
 
 def _best(found: FoundGenerator, task: FunctionTask, console: Console, named: str = "") -> None:
@@ -113,15 +107,15 @@ def _best(found: FoundGenerator, task: FunctionTask, console: Console, named: st
 
 def _pair_errors(found: FoundGenerator, task: FunctionTask, console: Console) -> None:
     """Each pair, and what the linkage makes of it."""
-    table = new_table("At the pairs, in degrees")
-    for name in ("pair", "input", "output", "is made", "error"):
-        table.add_column(name, justify="right", no_wrap=True)
-    rows = zip(task.inputs, task.outputs, found.errors, strict=True)
-    for k, (x, y, error) in enumerate(rows, start=1):
+    rows = []
+    for k, (x, y, error) in enumerate(
+        zip(task.inputs, task.outputs, found.errors, strict=True), start=1
+    ):
         made = "-" if math.isnan(error) else f"{math.degrees(y + error):.4f}"
         angles = f"{math.degrees(x):.10g}", f"{math.degrees(y):.10g}"
-        table.add_row(str(k), *angles, made, _degrees(float(error)))
-    print_trimmed(table, console)
+        rows.append((str(k), *angles, made, _degrees(float(error))))
+    heads = ("pair", "input", "output", "is made", "error")
+    print_trimmed(table_of(heads, rows, "At the pairs, in degrees", left=0), console)
 
 
 def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) -> None:
@@ -195,34 +189,14 @@ def function_check_data(task: FunctionTask, findings: tuple[Advice, ...]) -> dic
 
 def show_function_check(task: FunctionTask, findings: tuple[Advice, ...], console: Console) -> None:
     """The pairs as they were read, what is asked, and what stands out."""
-    _pairs(task, console)
-    console.print()
-    for name, text in _facts(task):
-        for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
-            console.print(line, soft_wrap=True)
-    for each in findings:
-        console.print()
-        show("warning", each, console)
-
-
-def _pairs(task: FunctionTask, console: Console) -> None:
-    pairs = len(task.inputs)
     columns = {
-        "pair": [str(k + 1) for k in range(pairs)],
+        "pair": [str(k + 1) for k in range(len(task.inputs))],
         "input [°]": [f"{each:.10g}" for each in np.degrees(task.inputs).tolist()],
         "output [°]": [f"{each:.10g}" for each in np.degrees(task.outputs).tolist()],
     }
     if task.weights is not None:
         columns["weight"] = [f"{each:g}" for each in task.weights.tolist()]
-    rows = list(zip(*columns.values(), strict=True))
-    if pairs > MOST_PAIRS:
-        rows[MOST_PAIRS - 2 : -2] = [("...",) * len(columns)]
-    table = new_table()
-    for head in columns:
-        table.add_column(Text(head), justify="right", overflow="fold")
-    for row in rows:
-        table.add_row(*map(Text, row))
-    print_trimmed(table, console)
+    show_read(columns, _facts(task), findings, console)
 
 
 def _facts(task: FunctionTask) -> Iterator[tuple[str, str]]:

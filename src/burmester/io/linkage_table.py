@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -18,7 +18,8 @@ from burmester.describe.decimals import Decimals
 from burmester.describe.digits import links, worst_errors
 from burmester.describe.dimensions import certain, decimals_of, dimensions
 from burmester.describe.quality_words import in_short, quality_note
-from burmester.io.message import wrapped
+from burmester.errors import Advice
+from burmester.io.message import print_trimmed, show, wrapped
 from burmester.io.sketch import sketch
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
@@ -31,6 +32,9 @@ __all__ = [
     "closest_three",
     "in_full",
     "new_table",
+    "show_read",
+    "show_warnings",
+    "table_of",
     "unusable",
     "usable_table",
 ]
@@ -41,6 +45,7 @@ MOST_CUT = 3  # decimals that link lengths in the table may lose on a narrow scr
 GAP = 4  # columns between dimensions and sketch
 LEAST_SKETCH, MOST_SKETCH = 22, 44  # columns of a sketch beside the dimensions
 MAX_POSES = 12  # poses in the table of tolerances
+MAX_ROWS = 20  # rows of a task as it was read; of more, the first 18 and the last 2
 INDENT = 5  # columns of reasons under their linkage
 
 
@@ -55,6 +60,57 @@ def new_table(title: str | None = None, gap: int = 1) -> Table:
         pad_edge=False,
         show_edge=False,
     )
+
+
+def table_of(
+    heads: Sequence[str],
+    rows: Iterable[Sequence[str]],
+    title: str | None = None,
+    *,
+    left: int = 1,
+    gap: int = 1,
+) -> Table:
+    """A table of these columns, the first ones set to the left; what rows have more is left out."""
+    table = new_table(title, gap)
+    for k, head in enumerate(heads):
+        table.add_column(head, justify="left" if k < left else "right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row[: len(heads)])
+    return table
+
+
+def show_read(
+    columns: Mapping[str, Sequence[str]],
+    facts: Iterable[tuple[str, str]],
+    findings: Iterable[Advice],
+    console: Console,
+) -> None:
+    """A task as it was read: its rows by columns, of many the first and the last, and facts."""
+    table = new_table()
+    for head in columns:
+        # Square brackets are no style here.
+        table.add_column(Text(head), justify="left" if head == "name" else "right", overflow="fold")
+    rows = list(zip(*columns.values(), strict=True))
+    if len(rows) > MAX_ROWS:
+        rows[MAX_ROWS - 2 : -2] = [("...",) * len(columns)]
+    for row in rows:
+        table.add_row(*map(Text, row))
+    print_trimmed(table, console)
+    console.print()
+    for name, text in facts:
+        for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
+            console.print(line, soft_wrap=True)
+    for each in findings:
+        console.print()
+        show("warning", each, console)
+
+
+def show_warnings(warnings: Sequence[Advice], console: Console) -> None:
+    """Warnings under what came of a task."""
+    if warnings:
+        console.print()
+    for warning in warnings:
+        show("warning", warning, console)
 
 
 def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:

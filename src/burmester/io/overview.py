@@ -11,12 +11,9 @@ from typing import Any
 
 import numpy as np
 from rich.console import Console
-from rich.table import Table
-from rich.text import Text
 
 from burmester.diagnosis.checks import Diagnosis
-from burmester.io.linkage_table import new_table
-from burmester.io.message import print_trimmed, wrapped
+from burmester.io.linkage_table import show_read
 from burmester.io.message import show as show_message
 from burmester.io.result import message_data, motion_data, task_data
 from burmester.numerics.arrays import FloatArray
@@ -35,7 +32,6 @@ __all__ = ["check_data", "show"]
 SCHEMA = "burmester.check/1"
 LEAST_CLOSED = 6  # points of a path that may be closed
 NEAR_ENDS = 1.5  # steps between neighbours; ends of a path that are nearer nearly meet
-MAX_ROWS = 20  # poses shown; of more, the first 18 and the last 2
 
 
 def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
@@ -54,14 +50,10 @@ def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
 def show(diagnosis: Diagnosis, console: Console) -> None:
     """The poses as they were read, what they are, and what stands out."""
     task = diagnosis.task
-    print_trimmed(_poses(task), console)
-    console.print()
-    for name, text in _facts(diagnosis):
-        for line in wrapped(text, console.width, Text(f"{name:10}", style="bold")):
-            console.print(line, soft_wrap=True)
     # Free angles say nothing of a motion.
     turns = task.path is None and point_conditions(task) is None
     motion = diagnosis.motion if turns else None
+    show_read(_columns(task), _facts(diagnosis), (), console)
     if motion is not None and not isinstance(motion.kind, General):
         console.print()
         show_message("result", motion.kind, console)
@@ -70,8 +62,8 @@ def show(diagnosis: Diagnosis, console: Console) -> None:
         show_message("warning", each, console)
 
 
-def _poses(task: Task) -> Table:
-    """The poses, angles in degrees whatever the file has."""
+def _columns(task: Task) -> dict[str, list[str]]:
+    """The poses by columns, angles in degrees whatever the file has."""
     count, unit = task.poses.shape[0], f" [{task.length_unit}]" if task.length_unit else ""
     columns: dict[str, list[str]] = {"pose": [str(i + 1) for i in range(count)]}
     if task.names is not None:
@@ -92,16 +84,7 @@ def _poses(task: Task) -> Table:
         _add_tolerances(columns, task.tolerances, unit)
     if task.exact is not None:
         columns["exact"] = ["yes" if mark else "" for mark in task.exact]
-    table = new_table()
-    for head in columns:
-        # Square brackets are no style here.
-        table.add_column(Text(head), justify="left" if head == "name" else "right", overflow="fold")
-    rows = list(zip(*columns.values(), strict=True))
-    if count > MAX_ROWS:
-        rows[MAX_ROWS - 2 : -2] = [("...",) * len(columns)]
-    for row in rows:
-        table.add_row(*map(Text, row))
-    return table
+    return columns
 
 
 def _add_tolerances(columns: dict[str, list[str]], tolerances: PoseTolerances, unit: str) -> None:

@@ -9,14 +9,15 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from burmester.describe import sentences
+from burmester.describe import sentences, six_bar_words
 from burmester.describe.digits import dyad_error, fitted_decimals, sides
 from burmester.describe.moved_pivots import improvements
 from burmester.io import linkage_table
-from burmester.io.linkage_table import new_table
+from burmester.io.linkage_table import new_table, show_warnings, table_of
 from burmester.io.message import draw, message, note, print_trimmed, show
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.wording import in_unit
 
 if TYPE_CHECKING:
     from burmester.sixbar.six_bars import SixBars
@@ -25,6 +26,7 @@ __all__ = ["show_synthesis"]
 
 # Columns; in a narrower terminal both sides of a dyad are in one column, or its length as well.
 NARROW, SLIM = 64, 48
+WIDE = 72  # columns; on fewer tables of six-bars have their first columns only
 PLAIN = ("R300", "R305", "R307", "R308", "R340")  # outcomes that are told without their code
 
 
@@ -37,6 +39,7 @@ def show_synthesis(
     """
     if synthesis.six_bars is not None:
         _six_bars(synthesis, synthesis.six_bars, console)
+        show_warnings(synthesis.warnings, console)
         return
     rest: list[FoundLinkage] = []
     if synthesis.outcome.code in JUDGED:
@@ -58,10 +61,7 @@ def show_synthesis(
     if synthesis.outcome.code not in JUDGED:
         _in_all(synthesis, 0 if everything else len(rest), console, dyads)
     _certificate(synthesis, console)
-    if synthesis.warnings:
-        console.print()
-    for warning in synthesis.warnings:
-        show("warning", warning, console)
+    show_warnings(synthesis.warnings, console)
     if synthesis.dyads:
         print_trimmed(Text(f"\n{sentences.footnotes(synthesis)}", style="dim"), console)
 
@@ -83,25 +83,44 @@ def _certificate(synthesis: Synthesis, console: Console) -> None:
 
 
 def _six_bars(synthesis: Synthesis, result: SixBars, console: Console) -> None:
-    """Six-bars, and what is to be warned of."""
-    from burmester.io.six_bar_terminal import show_six_bars
-
-    show_six_bars(synthesis, result, console)
-    if synthesis.warnings:
-        console.print()
-    for warning in synthesis.warnings:
-        show("warning", warning, console)
+    """The six-bar to build, in full, and then the others; or why there is none."""
+    outcome, wide = synthesis.outcome, console.width >= WIDE
+    if result.given or not result.found:
+        show("result", outcome, console)
+    if not result.found:
+        return
+    best = result.found[0]
+    print_trimmed(Text(six_bar_words.headline(best), style="bold"), console)
+    driven, at_poses, *short = six_bar_words.sentences(synthesis, best)
+    # Of one that was given the message has told the reasons.
+    told = [driven, *([at_poses] if best.usable else []), *([] if result.given else short)]
+    for sentence in told:
+        print_trimmed(Text(sentence), console)
+    if result.given:
+        rows = six_bar_words.pose_rows(synthesis, best)
+        title = f"At the poses{' that are missed most' * (len(rows) < len(best.drive))}"
+        title += ", on one branch" * best.on_branches
+        heads = six_bar_words.pose_heads(synthesis)[: None if wide else 3]
+        print_trimmed(table_of(heads, rows, title), console)
+    unit = in_unit(synthesis.task.length_unit)
+    grid = Table.grid(padding=(0, 2))
+    for name, *joints in (*six_bar_words.joint_rows(best), *six_bar_words.length_rows(best)):
+        cells = [Text(each) for each in joints if each]
+        grid.add_row(name, *(cells if wide else [Text("\n").join(cells)]))
+    print_trimmed(Text(f"\nDimensions{unit and ','}{unit}", style="bold"), console)
+    print_trimmed(grid, console)
+    if len(result.found) > 1:
+        rows = [six_bar_words.row(synthesis, each) for each in result.found]
+        heads = six_bar_words.HEADS[: None if wide else 4]
+        print_trimmed(table_of(heads, rows, "All of them", left=2), console)
+    if not result.given:
+        print_trimmed(Text(f"\n{outcome.message}."), console)
 
 
 def _answer(synthesis: Synthesis, console: Console) -> None:
     """The linkage to build, in a sentence and in full; then the other usable ones."""
-    outcome = synthesis.outcome
-    if outcome.code not in PLAIN:
-        draw(message("result", outcome.code, outcome.message, width=console.width), console)
-        if outcome.why:
-            draw(note("why", outcome.why, console.width), console)
-        if outcome.help:
-            draw(note("help", outcome.help, console.width), console)
+    if synthesis.outcome.code not in PLAIN:
+        show("result", synthesis.outcome, console)
     print_trimmed(Text(sentences.headline(synthesis), style="bold"), console)
     for sentence in sentences.alternatives(synthesis):
         print_trimmed(Text(sentence), console)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias, final
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice
@@ -26,28 +26,15 @@ __all__ = ["JUDGED", "Candidate", "Outcome", "Synthesis"]
 
 Candidate: TypeAlias = "FoundLinkage | FoundSixBar"  # what files and pictures are made of
 
+# What came of a task: R300 usable linkages; R301 linkages, none of them usable; R302 too few
+# dyads for a linkage; R303 infinitely many linkages; R305 usable linkages, but no pivots
+# determined; R306 no dyad within the limits; R307 approximate linkages, as two real dyads do not
+# exist; R308 the best of infinitely many linkages; R309 none of them works; R310 and above: a
+# special motion, see `motion_kinds` and `special_motions`; R330 a given linkage works, R331 it
+# does not; R340 usable linkages through poses and points, R341 none usable, R342 none real, R343
+# points of a line or a circle; R370 six-bars that work, R371 none of them.
+Outcome: TypeAlias = Advice
 JUDGED = ("R330", "R331")  # the outcomes of a linkage that was given
-
-
-@final
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """What came of a task: a stable code, a sentence, and what to do where nothing came.
-
-    R300 usable linkages; R301 linkages, none of them usable; R302 too few dyads for a linkage;
-    R303 infinitely many linkages; R305 usable linkages, but no pivots determined; R306 no dyad
-    within the limits; R307 approximate linkages, as two real dyads do not exist; R308 the best of
-    infinitely many linkages; R309 none of them works; R310 and above: a special motion, see
-    `motion_kinds` and `special_motions`; R330 a given linkage works, R331 it does not; R340 usable
-    linkages through poses and points, R341 none usable, R342 none real, R343 points of a line or a
-    circle; R370 six-bars that work, R371 none of them.  why: with
-    numbers.
-    """
-
-    code: str
-    message: str
-    help: str | None = None
-    why: str | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
