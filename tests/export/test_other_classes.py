@@ -16,7 +16,7 @@ from burmester.describe import six_bar_words
 from burmester.export import Options, export
 from burmester.export.parts.plates import assembly_of
 from burmester.io import six_bar_file
-from burmester.io.six_bar_data import six_bar_data
+from burmester.io.linkage_data import six_bar_data
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.web.still import six_bar_still

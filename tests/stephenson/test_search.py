@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
+from burmester.io.linkage_data import six_bar_data
 from burmester.io.linkage_file import read_linkage
-from burmester.io.six_bar_data import six_bar_data
 from burmester.mechanisms.branches import branches_of
 from burmester.mechanisms.circuits import circuits_of
 from burmester.mechanisms.contract import body_of

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import TypeAlias, TypedDict, Unpack, cast, overload
+from typing import Any, TypeAlias, cast
 
 from numpy.typing import ArrayLike
 
 from burmester.api.python_words import in_python_words
 from burmester.api.result import Result
-from burmester.api.six_bars import SixBarResult
 from burmester.api.synthesize import require_callable, task_of
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
@@ -33,52 +32,12 @@ from burmester.verdicts.found_linkage import FoundLinkage
 __all__ = ["judge"]
 
 Pivots: TypeAlias = tuple[ArrayLike, ArrayLike]
-FourBar: TypeAlias = Linkage | FoundLinkage | Sequence[Dyad | Pivots]
-GivenSixBar: TypeAlias = SixBar | FoundSixBar
-LinkageFile: TypeAlias = str | os.PathLike[str]
-
-
-class _How(TypedDict, total=False):
-    """What `judge` takes by name, for its types alone."""
-
-    improve: bool
-    id: str | None
-    angle_unit: AngleUnit | None
-    length_unit: str | None
-    norm: Norm
-    length_per_radian: float | None
-    manufacturing_tolerance: float | None
-    time_limit: float | None
-    progress: Listener | None
-
-
-@overload
-def judge(
-    poses: Task | Displacement | ArrayLike,
-    linkage: FourBar,
-    **how: Unpack[_How],
-) -> Result: ...
-
-
-@overload
-def judge(
-    poses: Task | Displacement | ArrayLike,
-    linkage: GivenSixBar,
-    **how: Unpack[_How],
-) -> SixBarResult: ...
-
-
-@overload
-def judge(
-    poses: Task | Displacement | ArrayLike,
-    linkage: LinkageFile,
-    **how: Unpack[_How],
-) -> Result | SixBarResult: ...
+Given: TypeAlias = Linkage | FoundLinkage | Sequence[Dyad | Pivots] | SixBar | FoundSixBar
 
 
 def judge(
     poses: Task | Displacement | ArrayLike,
-    linkage: FourBar | GivenSixBar | LinkageFile,
+    linkage: Given | str | os.PathLike[str],
     *,
     improve: bool = False,
     id: str | None = None,
@@ -89,7 +48,7 @@ def judge(
     manufacturing_tolerance: float | None = None,
     time_limit: float | None = None,
     progress: Listener | None = None,
-) -> Result | SixBarResult:
+) -> Result[Any]:
     """One linkage that exists, judged as `synthesize` judges its own.
 
     Parameters

@@ -59,10 +59,6 @@ class Chosen:
         """A linkage of an answer, to be drawn and handed over."""
         return cls(**{each.name: getattr(found, each.name) for each in fields(found)})
 
-    def saved(self) -> Self:
-        """The linkage itself; exports take it as it is."""
-        return self
-
     def export(
         self,
         path: str | os.PathLike[str],

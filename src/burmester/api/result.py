@@ -26,10 +26,9 @@ from burmester.api.python_words import in_python_words
 from burmester.api.table import as_html, as_text, plain_html
 from burmester.describe import six_bar_words
 from burmester.describe.sentences import best_sentences
-from burmester.errors import InputError
 from burmester.io import files
 from burmester.io.result import json_line, synthesis_data
-from burmester.synthesis.result import Outcome, Synthesis
+from burmester.synthesis.result import Outcome, Synthesis, chosen
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -101,23 +100,10 @@ class AnyResult(Generic[Kind]):
 
     def __getitem__(self, which: SupportsIndex | str | slice) -> Kind | tuple[Kind, ...]:
         """One by its id ("L2") or by its place in the ranking (from 0); raises E151."""
-        every = self.candidates
         if isinstance(which, slice):
-            return every[which]
-        known = [each.id for each in every]
-        if isinstance(which, str):
-            if which.upper() in known:
-                return every[known.index(which.upper())]
-        elif -len(every) <= which.__index__() < len(every):
-            return every[which]
-        raise InputError(
-            "E151",
-            f"there is no linkage {which} in this result",
-            why=f"it has {', '.join(known)}" if known else self.outcome.message,
-            help=f"choose one of them, such as {known[0]}"
-            if known
-            else self.outcome.help or "give other poses",
-        )
+            return self.candidates[which]
+        place = which if isinstance(which, str) else which.__index__()
+        return chosen(self.candidates, place, self.outcome)
 
     @abstractmethod
     def to_dict(self) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Final
 
 from burmester.describe import quality_words
 from burmester.describe.digits import degrees, fitted_decimals, sides, worst_errors
@@ -30,20 +31,15 @@ from burmester.verdicts.uncertainty import pose_sigma
 from burmester.wording import figure, in_unit, listed, spans, with_article
 
 __all__ = [
+    "NOTES",
     "alternatives",
     "best_sentences",
     "clearance_note",
-    "digits_note",
     "dyads_title",
     "footnotes",
     "headline",
     "notes",
-    "pose_tolerance_note",
-    "rounding_note",
     "standard_note",
-    "timing_note",
-    "tolerance_note",
-    "tracing_note",
     "type_doubt",
     "type_note",
     "uncertainty_note",
@@ -206,23 +202,6 @@ def type_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     return None if doubt is None else f"{found.id} is {with_article(found.type)}, and {doubt}."
 
 
-def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
-    """What stands under the dimensions: of soundness, digits, uncertainty and how it is made."""
-    every = (
-        standard_note,
-        digits_note,
-        uncertainty_note,
-        type_note,
-        clearance_note,
-        pose_tolerance_note,
-        tolerance_note,
-        tracing_note,
-        timing_note,
-        rounding_note,
-    )
-    return [text for note in every if (text := note(synthesis, found)) is not None]
-
-
 def standard_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     """Why nobody would build it as it is, though it works."""
     if not (found.usable and found.shortcomings):
@@ -368,6 +347,26 @@ def rounding_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
         for each in (found.error_before_rounding, found.error)
     )
     return f"{text[0].upper()}{text[1:]}: {found.id} misses {after}, instead of {before}."
+
+
+# What stands under the dimensions: of soundness, digits, uncertainty and how it is made.
+NOTES: Final = (
+    standard_note,
+    digits_note,
+    uncertainty_note,
+    type_note,
+    clearance_note,
+    pose_tolerance_note,
+    tolerance_note,
+    tracing_note,
+    timing_note,
+    rounding_note,
+)
+
+
+def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
+    """What stands under the dimensions of a linkage."""
+    return [text for note in NOTES if (text := note(synthesis, found)) is not None]
 
 
 def _order(synthesis: Synthesis) -> str:

@@ -20,8 +20,8 @@ from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
+from burmester.io.linkage_data import six_bar_data
 from burmester.io.pose_data import poses_data
-from burmester.io.six_bar_data import six_bar_data
 from burmester.numerics.arrays import FloatArray
 
 if TYPE_CHECKING:

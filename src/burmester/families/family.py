@@ -43,6 +43,7 @@ from burmester.verdicts.quality import (
 
 __all__ = [
     "Family",
+    "FoundFamily",
     "Pool",
     "best_of_family",
     "drawn_pool",
@@ -86,29 +87,37 @@ MOST_COMPARED: Final = 2000  # number of linkages that are compared with each ot
 VARIANTS: Final = 12  # number of draws of poses within their tolerances
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class Family:
-    """The best linkages of a family, the recommended one first, and how they were found.
+    """How linkages were chosen from a family.
 
     rule: by which one is recommended, as a sentence.
-    batch: linkages (k,) in the frames of the target, the driver first unless the task has two
-        limits; drivers: (k,), the sides that drive; rows: (k, N, 3), their places at the poses.
-    works: whether they meet all conditions; else they are the nearest to doing so.
     bounds: what was assumed.
     given_up: whether bounds that were only assumed had to be given up.
     dyads, pairs: how many were drawn, and looked at.
     """
 
     rule: str
-    batch: LinkageBatch
-    drivers: NDArray[np.intp]
-    rows: FloatArray
-    works: bool
     bounds: tuple[Bound, ...]
     given_up: bool
     dyads: int
     pairs: int
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class FoundFamily(Family):
+    """The best linkages of a family, the recommended one first, and how they were found.
+
+    batch: linkages (k,) in the frames of the target, the driver first unless the task has two
+        limits; drivers: (k,), the sides that drive; rows: (k, N, 3), their places at the poses.
+    works: whether they meet all conditions; else they are the nearest to doing so.
+    """
+
+    batch: LinkageBatch
+    drivers: NDArray[np.intp]
+    rows: FloatArray
+    works: bool
 
 
 class Pool(NamedTuple):
@@ -120,12 +129,12 @@ class Pool(NamedTuple):
     pairs: int
 
 
-def best_of_family(problem: SynthesisProblem, target: Target) -> Family | None:
+def best_of_family(problem: SynthesisProblem, target: Target) -> FoundFamily | None:
     """The best linkages of all that meet the poses of a problem; None where no dyad does.
 
     Where none keeps what is assumed, pivots may lie farther away, then the rest is given up.
     """
-    first: Family | None = None
+    first: FoundFamily | None = None
     for assumed, given_up in Assumptions.attempts(problem):
         if first is not None and not time_for("looking again under looser assumptions"):
             break
@@ -137,7 +146,7 @@ def best_of_family(problem: SynthesisProblem, target: Target) -> Family | None:
     return None if first is None else replace(first, given_up=True)
 
 
-def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
+def _searched(task: OpenTask, assumed: Assumptions) -> FoundFamily | None:
     """The best linkages of an open task, or the nearest to meeting its conditions."""
     rng = np.random.default_rng(0)
     kinds = task.conditions.kinds
@@ -166,16 +175,16 @@ def _searched(task: OpenTask, assumed: Assumptions) -> Family | None:
         index[0] = index[0][: SHOWN - len(index[1])]
     chosen = [take(pool.trials, k) for pool, k in zip(pools, index, strict=True)]
     trials = concatenate(chosen)
-    return Family(
+    return FoundFamily(
         rule_in_words(task.conditions),
-        driver_first(trials, task),
-        np.zeros_like(trials.driver) if task.is_symmetric else trials.driver,
-        task.rows(trials.offsets),
-        any(good),
         assumed.bounds,
         False,
         sum(pool.dyads for pool in pools),
         sum(pool.pairs for pool in pools),
+        driver_first(trials, task),
+        np.zeros_like(trials.driver) if task.is_symmetric else trials.driver,
+        task.rows(trials.offsets),
+        any(good),
     )
 
 

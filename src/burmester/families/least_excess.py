@@ -17,7 +17,7 @@ from burmester.families.evolution import improved
 from burmester.families.family import (
     PINNED,
     SLIDERS,
-    Family,
+    FoundFamily,
     drawn_pool,
     driver_first,
     pin_places,
@@ -132,7 +132,9 @@ def assumed_to_build(problem: SynthesisProblem, reach: float = WIDE) -> Assumpti
     return replace(known, asked={**known.asked, **usual})
 
 
-def last_search(problem: SynthesisProblem, target: Target, before: Family | None) -> Family | None:
+def last_search(
+    problem: SynthesisProblem, target: Target, before: FoundFamily | None
+) -> FoundFamily | None:
     """Where no linkage of a family works: one to build that evolves towards doing so, or `before`.
 
     Pairs that transmit too little evolve towards what is asked; others keep all else.
@@ -147,16 +149,16 @@ def last_search(problem: SynthesisProblem, target: Target, before: Family | None
     if near is None or near.excess[0] > 0:
         return before
     trials = take(near.trials, np.flatnonzero(near.excess == 0))
-    return Family(
+    return FoundFamily(
         rule_in_words(stated.conditions),
-        driver_first(trials, stated),
-        np.zeros_like(trials.driver) if stated.is_symmetric else trials.driver,
-        stated.rows(trials.offsets),
-        True,
         assumed.bounds,
         False,
         0 if before is None else before.dyads,
         near.met + (0 if before is None else before.pairs),
+        driver_first(trials, stated),
+        np.zeros_like(trials.driver) if stated.is_symmetric else trials.driver,
+        stated.rows(trials.offsets),
+        True,
     )
 
 

@@ -1,4 +1,4 @@
-"""A dyad and a linkage as plain data, for `result`: numbers with all their digits.
+"""A dyad, a linkage and a six-bar as plain data, for `result`: numbers with all their digits.
 
 A number that does not exist (the error of a linkage that reaches no pose) is null.  Poses are
 numbered from 1.
@@ -27,15 +27,13 @@ from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 
 if TYPE_CHECKING:
     from burmester.clearance.least_clearance import Clearance
+    from burmester.sixbar.found import FoundSixBar
 
 __all__ = [
-    "defect_data",
     "dyad_data",
-    "errors_data",
     "linkage_data",
     "number",
-    "shares_data",
-    "unmet_data",
+    "six_bar_data",
 ]
 
 CONFIDENCE = 0.95
@@ -95,13 +93,13 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         "type": found.type,
         "possible_types": [found.type, *found.other_types],
         "dyads": [dyad_data(dyad, found.error.places) for dyad in found.dyads],
-        "position_error": errors_data(found.error.position),
-        "angle_error_deg": errors_data(np.degrees(found.error.angle)),
+        "position_error": _errors(found.error.position),
+        "angle_error_deg": _errors(np.degrees(found.error.angle)),
         "combined_error": number(found.combined_error),
         "shortcomings": list(found.shortcomings),
         "quality": _quality(found),
-        "defects": [defect_data(each) for each in found.defects],
-        "unmet": unmet_data(found.violations),
+        "defects": [_defect(each) for each in found.defects],
+        "unmet": _unmet(found.violations),
         "sought": found.from_search,
         "min_transmission_angle_deg": _transmission(found.driven),
         "drives": {
@@ -119,19 +117,59 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
     if np.isfinite(found.error.angle).all():
         data["coupler"] = poses_data(found.error.places)
     if found.within_tolerance is not None:
-        data["within_tolerance"] = shares_data(found.within_tolerance)
+        data["within_tolerance"] = _shares(found.within_tolerance)
     if found.spread is not None:
         data["tolerance"] = _spread(found.spread, tolerance)
     if (before := found.error_before_rounding) is not None:
         data["rounded"] = {
-            "position_error_before": errors_data(before.position),
-            "angle_error_before_deg": errors_data(np.degrees(before.angle)),
+            "position_error_before": _errors(before.position),
+            "angle_error_before_deg": _errors(np.degrees(before.angle)),
             "coupler_before": poses_data(before.places),
         }
     return data
 
 
-def shares_data(shares: FloatArray) -> list[dict[str, float | None]]:
+def six_bar_data(found: FoundSixBar) -> dict[str, Any]:
+    """One six-bar: its dimensions, what it does, and where its joints are at the poses."""
+    skeleton, frames = found.skeleton, found.frames
+    joints = found.joints(found.drive)
+    data: dict[str, Any] = {
+        "id": found.id,
+        "type": skeleton.name,
+        "usable": found.usable,
+        "chain": found.chain,
+        "driver": found.driver,
+        "carries": found.carries,
+        "joints_of_links": {name: list(joints) for name, joints in skeleton.links.items()},
+        **{
+            link.replace(" ", "_"): {name: at.tolist() for name, at in frames[link].items()}
+            for link in skeleton.held(found.carries)
+        },
+        "lengths": found.lengths,
+        "drive_deg": np.degrees(found.drive).tolist(),
+        "turns_fully": found.turns_fully,
+        "reserve_deg": [
+            math.degrees(each) if math.isfinite(each) else None for each in found.room.tolist()
+        ],
+        "min_transmission_angle_deg": math.degrees(found.transmission),
+        "link_ratio": found.link_ratio,
+        "extent": found.extent,
+        "position_error": _errors(found.error.position),
+        "angle_error_deg": _errors(np.degrees(found.error.angle)),
+        "shortcomings": list(found.shortcomings),
+        "defects": [_defect(each) for each in found.defects],
+        "unmet": _unmet(found.violations),
+        "joints": [
+            {name: places[k].tolist() for name, places in joints.items()}
+            for k in range(len(found.drive))
+        ],
+    }
+    if found.within_tolerance is not None:
+        data["within_tolerance"] = _shares(found.within_tolerance)
+    return data
+
+
+def _shares(shares: FloatArray) -> list[dict[str, float | None]]:
     """The shares (N, 3) of tolerances that are used at poses."""
     return [
         {name: number(share) for name, share in zip(COMPONENTS, each, strict=True)}
@@ -139,17 +177,17 @@ def shares_data(shares: FloatArray) -> list[dict[str, float | None]]:
     ]
 
 
-def unmet_data(violations: Sequence[Violation]) -> list[dict[str, str]]:
+def _unmet(violations: Sequence[Violation]) -> list[dict[str, str]]:
     """Requirements that are not met."""
     return [{"kind": each.kind, "message": each.message} for each in violations]
 
 
-def errors_data(values: FloatArray) -> dict[str, float | None]:
+def _errors(values: FloatArray) -> dict[str, float | None]:
     """The errors (N,) at poses in two figures."""
     return {"rms": number(np.sqrt((values**2).mean())), "max": number(values.max())}
 
 
-def defect_data(defect: Defect) -> dict[str, Any]:
+def _defect(defect: Defect) -> dict[str, Any]:
     """A defect, with the numbers of poses from 1."""
     return {
         "kind": defect.kind,
@@ -194,7 +232,7 @@ def _drive(dyad: Dyad, driven: Driven) -> dict[str, Any]:
     slides = isinstance(dyad, PR)
     travel = driven.input_range if slides else np.degrees(driven.input_range)
     return {
-        "defects": [defect_data(each) for each in driven.defects],
+        "defects": [_defect(each) for each in driven.defects],
         "turns_fully": driven.turns_fully,
         "min_transmission_angle_deg": _transmission(driven),
         "circuit": driven.circuit if driven.circuit >= 0 else None,

@@ -114,12 +114,7 @@ def _is_table(text: str) -> bool:
 
 def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage | SixBar:
     """A linkage of a result, its dyads in the order of the file, or a six-bar."""
-    try:
-        chosen = read_result(path, data).exported(id)
-    except InputError as error:
-        if error.code == "E151" and error.help:
-            error.help = error.help.replace("--linkage", "--id")
-        raise
+    chosen = read_result(path, data).exported(id, "--id")
     _require_unit(chosen.unit, unit)
     return chosen.linkage
 

@@ -241,18 +241,10 @@ def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Itera
     quality = quality_note(best, synthesis.task)
     if quality is not None:
         yield Text(quality)
-    digits, uncertainty = sentences.digits_note, sentences.uncertainty_note
-    made = (
-        sentences.clearance_note,
-        sentences.pose_tolerance_note,
-        sentences.tolerance_note,
-        sentences.tracing_note,
-        sentences.timing_note,
-        sentences.rounding_note,
-    )
-    for note in (digits, uncertainty, sentences.type_note, *made):
-        text = note(synthesis, best)
-        if text is not None and (best.usable or note not in (uncertainty, sentences.type_note)):
+    uncertainty, of_type = sentences.uncertainty_note, sentences.type_note
+    for note in sentences.NOTES:
+        text = note(synthesis, best) if note is not sentences.standard_note else None
+        if text is not None and (best.usable or note not in (uncertainty, of_type)):
             yield Text(text, style="dim" if note is uncertainty else "")
     if lines := cognate_lines(synthesis, best):
         yield Text(f"\nThe curve of {best.id} by its cognates", style="bold")

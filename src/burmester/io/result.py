@@ -22,11 +22,7 @@ from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
 from burmester.fourbar.dyad import RR
 from burmester.geometry.regions import Line, Point, Region, Segment
-from burmester.io.linkage_data import (
-    dyad_data,
-    linkage_data,
-    number,
-)
+from burmester.io.linkage_data import dyad_data, linkage_data, number, six_bar_data
 from burmester.io.pose_data import crank_data, degrees_of, poses_data, tolerances_data
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
@@ -384,10 +380,26 @@ def _certificate(certificate: Certificate) -> dict[str, Any]:
 
 
 def _six_bars(result: SixBars) -> dict[str, Any]:
-    """What a search for six-bars has found."""
-    from burmester.io.six_bar_data import six_bars_data
+    """What a search for six-bars has found, or the one that was given."""
+    from burmester.sixbar.six_bars import RULE
 
-    return six_bars_data(result)
+    if result.given:
+        counts = {"chains": result.chains, "designs": result.designs, "working": result.working}
+        return {**counts, "found": [{**six_bar_data(each), "given": True} for each in result.found]}
+    return {
+        "rule": RULE,
+        "assumed": [{"message": words, "option": option} for words, option in result.assumed],
+        "chains": result.chains,
+        "designs": result.designs,
+        "working": result.working,
+        "seed": int(result.options.seed),
+        "options": {
+            name: each if isinstance(each, str) else int(each)
+            for name, each in asdict(result.options).items()
+        },
+        "free_poses": result.free_poses,
+        "found": [six_bar_data(each) for each in result.found],
+    }
 
 
 def failure(error: BurmesterError) -> dict[str, Any]:

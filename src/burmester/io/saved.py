@@ -25,7 +25,6 @@ import numpy as np
 from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import PP, Dyad
-from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_values import assumed_of, dyad_of, number, text_of
 from burmester.io.reading.file_content import read_source
@@ -37,7 +36,7 @@ from burmester.refinement.tolerance_boxes import counted_error
 from burmester.requirements.table import Violation
 from burmester.synthesis.given_linkage import OpenLink, require_linkage
 from burmester.synthesis.judgement import judged_again
-from burmester.synthesis.result import Candidate, Outcome, Synthesis
+from burmester.synthesis.result import Candidate, Outcome, Synthesis, chosen
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
@@ -87,36 +86,23 @@ class SavedResult(NamedTuple):
     synthesis: Synthesis | FunctionSynthesis
     refused: Mapping[str, InputError]
 
-    def choose(self, id: str | None = None) -> Any:
+    def choose(self, id: str | None = None, option: str = "--linkage") -> Any:
         """A linkage of any kind by its id, or the first; raises E150, E151."""
-        every = self.synthesis.candidates
-        if not every:
-            raise InputError(
-                "E151",
-                "there is no linkage in this result",
-                where=self.label,
-                help="give a task that has one; "
-                f"`burmester explain {self.synthesis.outcome.code}` says more",
-            )
         if id is not None and (error := self.refused.get(id.upper())) is not None:
             raise error
-        for each in every:
-            if id is None or each.id.lower() == id.lower():
-                return each
-        raise InputError(
-            "E151",
-            f"there is no linkage {id} in this result",
-            where=self.label,
-            why=f"it has {', '.join(each.id for each in every)}",
-            help=f"give --linkage {every[0].id}",
-        )
+        try:
+            every = list[Any](self.synthesis.candidates)
+            return chosen(every, id, self.synthesis.outcome, f"give {option}")
+        except InputError as error:
+            error.where = self.label
+            raise
 
-    def exported(self, id: str | None = None) -> Candidate:
+    def exported(self, id: str | None = None, option: str = "--linkage") -> Candidate:
         """The same as exports take it: of a function generator the coupler is the body."""
-        chosen: Candidate = self.choose(id)
+        found: Candidate = self.choose(id, option)
         if isinstance(self.synthesis, Synthesis):
-            return chosen
-        return self.synthesis.coupler_linkage(cast("FoundGenerator", chosen))
+            return found
+        return self.synthesis.coupler_linkage(cast("FoundGenerator", found))
 
 
 def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> SavedResult:
@@ -199,7 +185,7 @@ def _synthesis(tree: dict[str, Any], data: bytes, refused: dict[str, InputError]
         linkages,
         (*warnings, *_judged_otherwise(others, refused)),
         certificate=_certificate(tree.get("certificate"), dyads),
-        family=_family(tree.get("family"), linkages, problem),
+        family=_family(tree.get("family")) if linkages else None,
         search=_search(tree),
     )
 
@@ -555,27 +541,16 @@ def _certificate(given: Any, dyads: Sequence[FoundDyad]) -> Certificate | None:
     )
 
 
-def _family(
-    given: Any, linkages: Sequence[FoundLinkage], problem: SynthesisProblem
-) -> Family | None:
+def _family(given: Any) -> Family | None:
     """How linkages were chosen where the poses leave infinitely many, in the file's own words."""
-    if not isinstance(given, dict) or not linkages:
+    if not isinstance(given, dict):
         return None
     from burmester.families.family import Family
-    from burmester.linkages.from_dyads import target_of
     from burmester.verdicts.assumptions import Bound
 
-    target = target_of(problem)
-    counts = (given.get(key) for key in ("dyads", "pairs"))
-    dyads, pairs = (each if isinstance(each, int) else 0 for each in counts)
     return Family(
         text_of(given.get("rule")) or "",
-        LinkageBatch.of([each.linkage for each in linkages]).to_canonical(target.frames),
-        np.array([each.preferred_driver == "second" for each in linkages], dtype=np.intp),
-        np.stack([target.rows_at(each.error.places) for each in linkages]),
-        any(each.usable for each in linkages),
         tuple(Bound(*each) for each in assumed_of(given)),
         given.get("given_up") is True,
-        dyads,
-        pairs,
+        *(_count(given.get(key)) for key in ("dyads", "pairs")),
     )

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
 from burmester.dyads.selection import Fit, FoundDyad
-from burmester.errors import Advice
+from burmester.errors import Advice, InputError
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Method, SynthesisOptions
@@ -22,7 +22,7 @@ if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to l
     from burmester.sixbar.six_bars import SixBars
     from burmester.synthesis.loosening import Loosening
 
-__all__ = ["JUDGED", "Candidate", "Outcome", "Synthesis"]
+__all__ = ["JUDGED", "Candidate", "Outcome", "Synthesis", "chosen"]
 
 Candidate: TypeAlias = "FoundLinkage | FoundSixBar"  # what files and pictures are made of
 
@@ -120,3 +120,35 @@ class Synthesis:
     def determined(self) -> bool:
         """Whether a linkage works whose pivots the poses determine."""
         return any(each.usable and each.determined for each in self.linkages)
+
+
+class _Named(Protocol):
+    @property
+    def id(self) -> str: ...
+
+
+Named = TypeVar("Named", bound=_Named)
+
+
+def chosen(
+    every: Sequence[Named],
+    which: int | str | None,
+    outcome: Outcome,
+    cure: str = "choose one of them, such as",
+) -> Named:
+    """The one of an id, or at a place by rank, the first for None; raises E151.
+
+    cure: how one is chosen, before its id.
+    """
+    known = [each.id for each in every]
+    if isinstance(which, str):
+        if which.upper() in known:
+            return every[known.index(which.upper())]
+    elif -len(every) <= (which or 0) < len(every):
+        return every[which or 0]
+    raise InputError(
+        "E151",
+        f"there is no linkage {'' if which is None else f'{which} '}in this result",
+        why=f"it has {', '.join(known)}" if known else outcome.message,
+        help=f"{cure} {known[0]}" if known else outcome.help or "give other poses",
+    )
