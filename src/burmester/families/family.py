@@ -87,6 +87,7 @@ MOST_COMPARED: Final = 2000  # number of linkages that are compared with each ot
 VARIANTS: Final = 12  # number of draws of poses within their tolerances
 
 
+@final
 @dataclass(frozen=True, slots=True, eq=False)
 class Family:
     """How linkages were chosen from a family.
@@ -104,16 +105,15 @@ class Family:
     pairs: int
 
 
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class FoundFamily(Family):
-    """The best linkages of a family, the recommended one first, and how they were found.
+class FoundFamily(NamedTuple):
+    """The best linkages of a family, the recommended one first, and how they were chosen.
 
     batch: linkages (k,) in the frames of the target, the driver first unless the task has two
         limits; drivers: (k,), the sides that drive; rows: (k, N, 3), their places at the poses.
     works: whether they meet all conditions; else they are the nearest to doing so.
     """
 
+    family: Family
     batch: LinkageBatch
     drivers: NDArray[np.intp]
     rows: FloatArray
@@ -141,9 +141,11 @@ def best_of_family(problem: SynthesisProblem, target: Target) -> FoundFamily | N
         task = OpenTask.of(problem, target, assumed)
         found = _searched(task, assumed)
         if found is not None and found.works:
-            return replace(found, given_up=given_up)
+            return found._replace(family=replace(found.family, given_up=given_up))
         first = first or found
-    return None if first is None else replace(first, given_up=True)
+    if first is None:
+        return None
+    return first._replace(family=replace(first.family, given_up=True))
 
 
 def _searched(task: OpenTask, assumed: Assumptions) -> FoundFamily | None:
@@ -175,12 +177,9 @@ def _searched(task: OpenTask, assumed: Assumptions) -> FoundFamily | None:
         index[0] = index[0][: SHOWN - len(index[1])]
     chosen = [take(pool.trials, k) for pool, k in zip(pools, index, strict=True)]
     trials = concatenate(chosen)
+    dyads, pairs = (sum(getattr(pool, name) for pool in pools) for name in ("dyads", "pairs"))
     return FoundFamily(
-        rule_in_words(task.conditions),
-        assumed.bounds,
-        False,
-        sum(pool.dyads for pool in pools),
-        sum(pool.pairs for pool in pools),
+        Family(rule_in_words(task.conditions), assumed.bounds, False, dyads, pairs),
         driver_first(trials, task),
         np.zeros_like(trials.driver) if task.is_symmetric else trials.driver,
         task.rows(trials.offsets),

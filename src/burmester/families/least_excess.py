@@ -17,6 +17,7 @@ from burmester.families.evolution import improved
 from burmester.families.family import (
     PINNED,
     SLIDERS,
+    Family,
     FoundFamily,
     drawn_pool,
     driver_first,
@@ -149,12 +150,10 @@ def last_search(
     if near is None or near.excess[0] > 0:
         return before
     trials = take(near.trials, np.flatnonzero(near.excess == 0))
+    dyads, pairs = (0, 0) if before is None else (before.family.dyads, before.family.pairs)
+    rule = rule_in_words(stated.conditions)
     return FoundFamily(
-        rule_in_words(stated.conditions),
-        assumed.bounds,
-        False,
-        0 if before is None else before.dyads,
-        near.met + (0 if before is None else before.pairs),
+        Family(rule, assumed.bounds, False, dyads, near.met + pairs),
         driver_first(trials, stated),
         np.zeros_like(trials.driver) if stated.is_symmetric else trials.driver,
         stated.rows(trials.offsets),

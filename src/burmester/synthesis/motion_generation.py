@@ -215,14 +215,14 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     ]
     linkages = at_given_poses(members, problem)
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
-    outcome, advice = family_summary(problem, found, linkages)
+    outcome, advice = family_summary(problem, found.family, linkages)
     if problem.task.timing is not None:
         from burmester.synthesis.timed_poses import of_timed_drivers  # noqa: PLC0415  the same
 
         outcome = of_timed_drivers(problem, outcome)
-    more = [] if found.given_up else linkage_advice(problem.given, linkages, outcome.code)
+    more = [] if found.family.given_up else linkage_advice(problem.given, linkages, outcome.code)
     warnings = (*findings, *advice, *more)
-    return Synthesis(problem, outcome, dyads, linkages, warnings, family=found)
+    return Synthesis(problem, outcome, dyads, linkages, warnings, family=found.family)
 
 
 def _exceeded_by_rail(problem: SynthesisProblem) -> Advice:
