@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Set
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, final
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, Self, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.api.result import AnyResult, Result
 from burmester.api.synthesize import require_callable
-from burmester.errors import Advice, InputError
+from burmester.errors import InputError
 from burmester.functions.found_generator import FoundGenerator
 from burmester.io.function_result import function_data
 from burmester.io.reading.functions.function_options import (
@@ -27,7 +27,6 @@ from burmester.synthesis.function_generation import (
     coupler_synthesis,
     generate_function,
 )
-from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import AngleUnit
 from burmester.values import real_numbers
 
@@ -41,10 +40,8 @@ MOST_LINES = 8  # generators in the text of a result
 
 @final
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class FunctionGenerators(AnyResult[FoundGenerator]):
-    """What came of a function task: the generators by rank, to look at, save and hand over.
-
-    synthesis: all that came of the task.
+class FunctionGenerators(AnyResult[FoundGenerator], FunctionSynthesis):
+    """A `FunctionSynthesis` to look at, save and hand over: the generators by rank.
 
     Examples
     --------
@@ -56,46 +53,39 @@ class FunctionGenerators(AnyResult[FoundGenerator]):
     'double-rocker'
     """
 
-    synthesis: FunctionSynthesis
+    @classmethod
+    def of(cls, synthesis: FunctionSynthesis) -> Self:
+        """A synthesis that can be looked at and handed over."""
+        return cls(**{each.name: getattr(synthesis, each.name) for each in fields(synthesis)})
 
     @property
-    def outcome(self) -> Outcome:
-        """What came of the task, as a code and a sentence."""
-        return self.synthesis.outcome
-
-    @property
-    def warnings(self) -> tuple[Advice, ...]:
-        """What is to be told beside it."""
-        return self.synthesis.warnings
-
-    @property
-    def generators(self) -> tuple[FoundGenerator, ...]:
-        """All generators, the best one first."""
-        return self.synthesis.generators
+    def synthesis(self) -> FunctionSynthesis:
+        """The same, as a search returns it."""
+        return self
 
     @property
     def candidates(self) -> tuple[FoundGenerator, ...]:
         """All generators, the best one first."""
-        return self.synthesis.generators
+        return self.generators
 
     def coupler_motion(self, which: int | str = 0) -> Result:
         """A generator as a linkage that guides its coupler, to draw, animate and export."""
-        return Result.of(coupler_synthesis(self.synthesis.task, self[which]))
+        return Result.of(coupler_synthesis(self.task, self[which]))
 
     def to_dict(self) -> dict[str, Any]:
         """The object of `burmester synthesize --json`."""
-        return function_data(self.synthesis)
+        return function_data(self)
 
     def plot(self) -> Figure:
         """The structural error over the input, by Matplotlib."""
         from burmester import plot  # noqa: PLC0415  Matplotlib may be missing
 
         with plot.house_style():
-            return plot.structural_error_figure(self.synthesis)
+            return plot.structural_error_figure(self)
 
     def __repr__(self) -> str:
         lines = [self.outcome.message]
-        for each in self.synthesis.leading(MOST_LINES):
+        for each in self.leading(MOST_LINES):
             error = np.degrees(each.max_error)
             said = "works" if each.usable else each.defects[0].message
             lines.append(f"{each.id}  {each.type}: {error:.3g} deg at most, {said}")
@@ -204,4 +194,4 @@ def synthesize_function(
         rows = rows if angle_unit == "deg" else np.degrees(rows)
         task = task_of_pairs(rows[:, 0], rows[:, 1], None, settings)
     with shown(progress):
-        return FunctionGenerators(generate_function(task))
+        return FunctionGenerators.of(generate_function(task))

@@ -47,4 +47,4 @@ def read_result(source: str | os.PathLike[str]) -> Result[Any] | FunctionGenerat
     synthesis = saved.read_result(source).synthesis
     if isinstance(synthesis, Synthesis):
         return Result.of(synthesis)
-    return FunctionGenerators(synthesis)
+    return FunctionGenerators.of(synthesis)

@@ -7,6 +7,7 @@ import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, suppress
 from dataclasses import dataclass, field
+from itertools import chain
 from time import monotonic
 from typing import TYPE_CHECKING, Any, final
 
@@ -261,7 +262,7 @@ class _Job:
                 complete = first is None
                 if first is not None:
                     with closing(engine()) as started:
-                        every = _chained(first, parts)
+                        every = chain([first], parts)
                         dispatch = Dispatch(
                             started,
                             work,
@@ -315,8 +316,3 @@ class _Job:
             self.progress(
                 BatchProgress(self.tasks, self.before, self.total, seconds, dict(self.outcomes))
             )
-
-
-def _chained(first: Part, rest: Iterator[Part]) -> Iterator[Part]:
-    yield first
-    yield from rest

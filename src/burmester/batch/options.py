@@ -13,6 +13,8 @@ E134 a value that makes no sense, and what readers of task files raise
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any, Final, Literal, TypeAlias, final
@@ -94,20 +96,14 @@ class BatchOptions:
     def synthesis(self) -> SynthesisOptions:
         """How each task is solved."""
         given = {key: value for key, value in self.data.items() if key in OF_SYNTHESIS}
-        try:
+        with self._named():
             return SynthesisOptions(**given)
-        except InputError as error:
-            error.where = error.where or self.label
-            raise
 
     @property
     def functions(self) -> FunctionSettings:
         """What holds for each task of pairs of angles; raises E107 and E191."""
-        try:
+        with self._named():
             return settings_of_tree(self.data.get(FUNCTION, {}))
-        except InputError as error:
-            error.where = error.where or self.label
-            raise
 
     @property
     def six_bars(self) -> SixBarOptions | None:
@@ -126,8 +122,14 @@ class BatchOptions:
         for key in given:
             if key not in OF_SIX_BARS:
                 raise _unknown(key, document, OF_SIX_BARS, SIX_BARS)
-        try:
+        with self._named():
             return SixBarOptions(**given)
+
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        """A block whose errors say which file they are of."""
+        try:
+            yield
         except InputError as error:
             error.where = error.where or self.label
             raise

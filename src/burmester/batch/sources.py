@@ -54,18 +54,10 @@ def open_source(path: str) -> Source:
             now = os.stat(path)
             return (now.st_size, now.st_mtime_ns) == (before.st_size, before.st_mtime_ns)
 
-        if is_parquet_file(path):
-            return Source(
-                "table",
-                name,
-                digest,
-                lambda size: table_parts(path, size),
-                unchanged,
-                pairs=is_pair_table(path),
-            )
-        lines = os.path.splitext(path)[1].lower() in LINES or _begins_as_json(path)
-        cut = line_parts if lines else table_parts
-        kind = "JSON lines" if lines else "table"
+        lines = not is_parquet_file(path) and (
+            os.path.splitext(path)[1].lower() in LINES or _begins_as_json(path)
+        )
+        cut, kind = (line_parts, "JSON lines") if lines else (table_parts, "table")
         pairs = not lines and is_pair_table(path)
         return Source(kind, name, digest, lambda size: cut(path, size), unchanged, pairs=pairs)
     except (OSError, ValueError) as error:  # ValueError: a null character in the path

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any, final
 
 from burmester.batch.manifest import OF_MANIFEST, read_sealed
@@ -54,16 +54,7 @@ class Summary:
     @property
     def data(self) -> dict[str, Any]:
         """The same as plain data."""
-        return {
-            "folder": self.folder,
-            "complete": self.complete,
-            "parts": self.parts,
-            "tasks": self.tasks,
-            "outcomes": dict(self.outcomes),
-            "failed": list(self.failed),
-            "identity": dict(self.identity),
-            "notes": list(self.notes),
-        }
+        return asdict(self) | {"notes": list(self.notes)}
 
 
 def read_summary(folder: str | os.PathLike[str], notes: tuple[str, ...] = ()) -> Summary:

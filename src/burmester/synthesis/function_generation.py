@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Final, Literal, TypeAlias, final
+from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
@@ -59,7 +59,6 @@ COUPLER_PLACES: Final = 13  # of the coupler over the range of a function, for e
 FunctionMethod: TypeAlias = Literal["exact", "phases", "least squares", "minimax", "judged"]
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
 class FunctionSynthesis:
     """All that came of a function task.
