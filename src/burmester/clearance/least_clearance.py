@@ -24,7 +24,7 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.surroundings import Surroundings
 
-__all__ = ["Clearance", "clearance_between_poses", "distance_of_pair"]
+__all__ = ["Clearance", "clearance_between_poses"]
 
 TOLERANCE: Final = 2e-5  # of the size of what moves; the least clearance is known to so much
 FINE: Final = 1e-8  # the same where the coarser one leaves open whether the margin is kept
@@ -130,23 +130,6 @@ def clearance_between_poses(
         there.places[0],
         points,
     )
-
-
-def distance_of_pair(
-    linkage: Linkage,
-    body: Polygon | None,
-    around: Surroundings,
-    pair: tuple[str, str],
-    place: Displacement,
-) -> float:
-    """How far a part and an obstacle are apart at one place; nan where there are no such two.
-
-    linkage: driven by its first dyad; pair: the names of both, as `Clearance` has them.
-    """
-    for each in pairs_of(linkage, body, around):
-        if (each.part, each.obstacle) == pair:
-            return float(each.distances(place[None])[0])
-    return float("nan")
 
 
 def _size(frames: MotionFrames, body: Polygon | None) -> float:

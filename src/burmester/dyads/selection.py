@@ -246,12 +246,6 @@ class Found(NamedTuple):
             for k, both in enumerate(errors)
         ]
 
-    def of_those(self, mask: Mask) -> Found:
-        """Those of some tasks only, by a mask (T,)."""
-        rows, number = mask[self.task], np.cumsum(mask) - 1
-        kept = take(self._replace(left_out=self.task), rows)
-        return kept._replace(task=number[kept.task], left_out=self.left_out[mask])
-
 
 class _Rows(NamedTuple):
     """Dyads (k,) before they are put in order; place: of those of one task, which came first."""

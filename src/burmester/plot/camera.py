@@ -91,10 +91,6 @@ class Box:
         p = np.asarray(points, dtype=np.float64)
         return np.asarray((p - (self.low + self.high) / 2) * self.scale)
 
-    def from_box(self, points: FloatArray) -> FloatArray:
-        """What `to_box` undoes."""
-        return np.asarray(points / self.scale + (self.low + self.high) / 2)
-
     def forms(self, matrices: ArrayLike) -> FloatArray:
         """Quadrics (*, 4, 4) of the image space, as forms in (seen point, 1)."""
         back = np.diag([*(1 / self.scale), 1.0])

@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 __all__ = [
     "BLACK",
     "BLUE",
-    "DASHES",
     "GREEN",
     "GREY",
     "ORANGE",
@@ -56,7 +55,6 @@ GREEN: Final = "#009E73"
 VERMILION: Final = "#D55E00"
 PURPLE: Final = "#AA5A94"
 PALETTE: Final = (BLUE, ORANGE, GREEN, PURPLE)
-DASHES: Final = ("-", (0, (5, 2)), (0, (1, 1.5)), (0, (5, 2, 1, 2)))
 
 MOST_CHARACTERS: Final = 100  # of a text of others in a picture; one as wide as ten is cut
 SCREEN_DPI: Final = 80  # pixels per inch of a figure in a notebook; drawn twice as fine

@@ -25,11 +25,10 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["CHARTS", "ZEROS", "eigen_points"]
+__all__ = ["CHARTS", "eigen_points"]
 
 Exponents = tuple[int, int, int, int]  # of c, c*, m, m*
 
-ZEROS = 25  # common zeros of the derivatives, for a generic G
 NO_COEFFICIENT = 1e-12  # a coefficient of the polynomials below this is rounding
 CHARTS = 4  # pairs of linear forms, of which another is tried where zeros are lost
 

@@ -237,11 +237,6 @@ _DEEDS: dict[str, Callable[[Road, dict[str, Any], Any, Job], Answer]] = {
 }
 
 
-def _ids(given: Any) -> set[str]:
-    """The names in a list that the page sent."""
-    return {each for each in given if isinstance(each, str)} if isinstance(given, list) else set()
-
-
 def _json(data: object) -> Answer:
     return {"kind": "json"}, as_json(data)
 
