@@ -198,7 +198,7 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
     def export(
         self,
         path: str | os.PathLike[str],
-        linkage: int | str | None = None,
+        linkage: int | str = 0,
         *,
         to: str | None = None,
         force: bool = False,
@@ -208,16 +208,15 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
 
         The rest is as in `ResultLinkage.export`.  Raises E151, too.
         """
-        chosen = self[0 if linkage is None else linkage]
-        return chosen.export(path, to=to, force=force, **dimensions)
+        return self[linkage].export(path, to=to, force=force, **dimensions)
 
-    def plot(self, linkage: int | str | None = None, ax: Axes | None = None) -> Figure:
+    def plot(self, linkage: int | str = 0, ax: Axes | None = None) -> Figure:
         """Draw one linkage at its poses by Matplotlib: the first by rank, or the one named."""
-        return self[0 if linkage is None else linkage].plot(ax)
+        return self[linkage].plot(ax)
 
-    def animate(self, linkage: int | str | None = None, **how: Any) -> MovingPicture:
+    def animate(self, linkage: int | str = 0, **how: Any) -> MovingPicture:
         """One linkage on its way through the poses: the first by rank, or the one named."""
-        return self[0 if linkage is None else linkage].animate(**how)
+        return self[linkage].animate(**how)
 
     def to_dict(self) -> dict[str, Any]:
         """The object of `burmester synthesize --json`."""

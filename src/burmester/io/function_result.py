@@ -14,7 +14,7 @@ from burmester.fourbar.dyad import RR
 from burmester.functions.found_generator import FoundGenerator
 from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
-from burmester.io.linkage_data import number
+from burmester.io.linkage_data import number, pins_data
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.result import FUNCTION_SCHEMA, message_data
 from burmester.synthesis.function_generation import FunctionSynthesis
@@ -117,16 +117,7 @@ def _linkage(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
         "input_phase_deg": math.degrees(float(one.input_phase)) % 360,
         "output_phase_deg": math.degrees(float(one.output_phase)) % 360,
         "side": int(one.side),
-        "dyads": [
-            {
-                "kind": "RR",
-                "fixed_pivot": each.fixed_pivot.tolist(),
-                "moving_pivot": each.moving_pivot.tolist(),
-                "radius": float(each.radius),
-            }
-            for each in (dyads.first, dyads.second)
-            if isinstance(each, RR)
-        ],
+        "dyads": [pins_data(d) for d in (dyads.first, dyads.second) if isinstance(d, RR)],
         "structural_error_deg": {
             "max": _degrees(found.max_error),
             "rms": _degrees(found.rms_error),

@@ -33,6 +33,7 @@ __all__ = [
     "dyad_data",
     "linkage_data",
     "number",
+    "pins_data",
     "six_bar_data",
 ]
 
@@ -58,9 +59,7 @@ def dyad_data(found: FoundDyad, places: Displacement) -> dict[str, Any]:
         data["limits"] = found.limits
     match dyad:
         case RR():
-            data["fixed_pivot"] = dyad.fixed_pivot.tolist()
-            data["moving_pivot"] = dyad.moving_pivot.tolist()
-            data["radius"] = float(dyad.radius)
+            data |= pins_data(dyad)
         case PR():
             data["line"] = _line(dyad, places)
             data["moving_pivot"] = dyad.moving_pivot.tolist()
@@ -70,6 +69,16 @@ def dyad_data(found: FoundDyad, places: Displacement) -> dict[str, Any]:
         case PP():
             data["angle_deg"] = math.degrees(dyad.angle)
     return data
+
+
+def pins_data(dyad: RR) -> dict[str, Any]:
+    """The kind and the dimensions of a link between two pins."""
+    return {
+        "kind": "RR",
+        "fixed_pivot": dyad.fixed_pivot.tolist(),
+        "moving_pivot": dyad.moving_pivot.tolist(),
+        "radius": float(dyad.radius),
+    }
 
 
 def _line(dyad: PR | RP, places: Displacement) -> dict[str, Any]:

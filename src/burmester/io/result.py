@@ -22,7 +22,13 @@ from burmester.dyads.selection import Fit
 from burmester.errors import Advice, BurmesterError
 from burmester.fourbar.dyad import RR
 from burmester.geometry.regions import Line, Point, Region, Segment
-from burmester.io.linkage_data import dyad_data, linkage_data, number, six_bar_data
+from burmester.io.linkage_data import (
+    dyad_data,
+    linkage_data,
+    number,
+    pins_data,
+    six_bar_data,
+)
 from burmester.io.pose_data import crank_data, degrees_of, poses_data, tolerances_data
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
@@ -145,16 +151,7 @@ def _cognates(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:
     told = [
         {
             "type": each.type,
-            "dyads": [
-                {
-                    "kind": "RR",
-                    "fixed_pivot": side.fixed_pivot.tolist(),
-                    "moving_pivot": side.moving_pivot.tolist(),
-                    "radius": float(side.radius),
-                }
-                for side in (each.first, each.second)
-                if isinstance(side, RR)
-            ],
+            "dyads": [pins_data(d) for d in (each.first, each.second) if isinstance(d, RR)],
         }
         for each in cognates_of(found, synthesis.task)
         if each.links is not None
