@@ -19,8 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["linkage_figure"]
-
 SWEPT_PLACES = 49  # of the body along the motion; each is a thin outline
 MOST_PLACES = 12  # at which the linkage is drawn; a path has too many
 

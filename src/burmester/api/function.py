@@ -33,8 +33,6 @@ from burmester.values import real_numbers
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["FunctionGenerators", "synthesize_function"]
-
 MOST_LINES = 8  # generators in the text of a result
 
 

@@ -29,8 +29,6 @@ from burmester.tasks.options import Norm, SynthesisOptions
 from burmester.values import real_numbers, shown
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["judge"]
-
 Pivots: TypeAlias = tuple[ArrayLike, ArrayLike]
 Given: TypeAlias = Linkage | FoundLinkage | Sequence[Dyad | Pivots] | SixBar | FoundSixBar
 

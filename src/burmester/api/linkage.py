@@ -35,8 +35,6 @@ if TYPE_CHECKING:
     from burmester.synthesis.result import Candidate
     from burmester.tasks.motion_task import Task
 
-__all__ = ["Chosen", "ResultLinkage", "ResultSixBar"]
-
 
 class Chosen:
     """What a linkage of a result can do, four-bar or six-bar."""

@@ -11,8 +11,6 @@ from typing import final
 from burmester.api.python_words import in_python_words
 from burmester.io import files
 
-__all__ = ["MovingPicture"]
-
 
 @final
 @dataclass(frozen=True, slots=True)

@@ -8,8 +8,6 @@ from contextlib import contextmanager
 
 from burmester.errors import InputError
 
-__all__ = ["in_python_words"]
-
 _FLAG = re.compile(r"add --force\b")
 _TEXT = re.compile(r"--(?:length-)?(to|unit) (?!out\b)(\w+)")
 _NUMBER = re.compile(r"--(hole|width|thickness|gap|pose) ([\d.e+-]*\d)")

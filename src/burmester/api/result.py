@@ -36,8 +36,6 @@ if TYPE_CHECKING:
 
     from burmester.synthesis.function_generation import FunctionSynthesis
 
-__all__ = ["AnyResult", "Result"]
-
 LINES = 12  # of a `repr`, at most
 SENTENCES = 5  # of these, above the table; `outcome` and `warnings` have them all
 

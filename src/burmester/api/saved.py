@@ -10,8 +10,6 @@ from burmester.api.result import Result
 from burmester.io import saved
 from burmester.synthesis.result import Synthesis
 
-__all__ = ["read_result"]
-
 
 def read_result(source: str | os.PathLike[str]) -> Result[Any] | FunctionGenerators:
     """What `Result.save` or `burmester synthesize -o` wrote.

@@ -16,8 +16,6 @@ from burmester.synthesis import six_bars as road
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.options import SynthesisOptions
 
-__all__ = ["SixBarResult", "synthesize_six_bars"]
-
 if TYPE_CHECKING:
     SixBarResult: TypeAlias = Result[ResultSixBar]
 else:

@@ -19,8 +19,6 @@ from burmester.tasks.options import Method, Norm, Preference, SynthesisOptions
 from burmester.values import real_numbers
 from burmester.values import shown as shortly
 
-__all__ = ["require_callable", "synthesize", "task_of"]
-
 
 def synthesize(
     poses: Task | Displacement | ArrayLike,

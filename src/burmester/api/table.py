@@ -18,8 +18,6 @@ from burmester.verdicts.explanation import asked_for
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import listed
 
-__all__ = ["as_html", "as_line", "as_text", "dimensions_as_html", "plain_html"]
-
 HEADS = ("", "type", "dyads", "worst", "angle", "transm.", "ext.", "sens.", "")
 NUMBERS = range(3, 8)  # columns of numbers, set to the right
 

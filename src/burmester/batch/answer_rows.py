@@ -24,8 +24,6 @@ from burmester.batch.schema import (
 )
 from burmester.stacked import DyadRows, LinkageRows, StackedAnswers
 
-__all__ = ["Refusal", "refused_rows", "solved_rows", "stacked_rows"]
-
 WATT = "Watt I six-bar"
 
 

@@ -17,8 +17,6 @@ from burmester.batch.engines import Engine
 from burmester.batch.parts import Part
 from burmester.errors import BurmesterError
 
-__all__ = ["Dispatch", "Work"]
-
 Work: TypeAlias = Callable[[Part, Any, Mapping[int, str]], Any]
 
 AHEAD = 4  # for so many workers one more part is handed out than is worked on, and two at least

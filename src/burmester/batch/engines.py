@@ -19,8 +19,6 @@ from typing import Any, Protocol, final
 from burmester.batch.worker import begin, ready
 from burmester.errors import InputError
 
-__all__ = ["Cluster", "Engine", "Processes", "usual_workers"]
-
 START_S = 120.0  # for a worker to begin
 CONNECT_S = 10.0  # for a cluster to answer
 

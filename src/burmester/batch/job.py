@@ -25,8 +25,6 @@ from burmester.errors import InputError
 if TYPE_CHECKING:
     from burmester.batch.sample import Sample
 
-__all__ = ["PAIR_TASKS", "PART_TASKS", "BatchProgress", "run"]
-
 # Tasks of a part that take some second on one core.
 PART_TASKS: Mapping[Depth, int] = {"pencil": 50_000, "dyads": 1000, "linkages": 500, "full": 10}
 PAIR_TASKS = 100  # the same of tasks of pairs of angles

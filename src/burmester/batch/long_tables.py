@@ -29,8 +29,6 @@ from burmester.io.reading.trees.locations import close_match
 from burmester.printable import printable
 from burmester.wording import listed
 
-__all__ = ["COLUMNS", "is_pair_table", "is_parquet_file", "table_parts"]
-
 CRANKS = ("crank_deg", "crank_rad")
 COLUMNS = ("task", "x", "y", "angle_deg", "angle_rad", *CRANKS, "weight", "exact")
 PAIR_COLUMNS = ("task", "input_deg", "output_deg", "input_rad", "output_rad", "weight")

@@ -22,8 +22,6 @@ from burmester.errors import InputError
 from burmester.io.files import open_plain
 from burmester.printable import printable
 
-__all__ = ["OF_MANIFEST", "Manifest", "PartRecord", "digest_of", "read_sealed"]
-
 OF_RECORD: Mapping[str, type] = {
     "run": str, "part": int, "tasks": int, "bytes": int, "sha256": str,
     "outcomes": dict, "failed": list,

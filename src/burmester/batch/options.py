@@ -32,8 +32,6 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.wording import listed
 
-__all__ = ["DEPTHS", "BatchOptions", "Depth", "as_task"]
-
 Depth: TypeAlias = Literal["pencil", "dyads", "linkages", "full"]
 DEPTHS: Final[tuple[Depth, ...]] = ("pencil", "dyads", "linkages", "full")
 

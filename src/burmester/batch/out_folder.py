@@ -17,8 +17,6 @@ from burmester.errors import InputError
 from burmester.io import files
 from burmester.printable import printable
 
-__all__ = ["OutFolder"]
-
 LOCK = ".lock"
 SYNC_S = 1.0  # between two times that lines are brought down to the disk
 

@@ -40,8 +40,6 @@ from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.tasks.motion_task import Task
 
-__all__ = ["Plan", "WorkedPart", "versions", "work"]
-
 Counts: TypeAlias = NDArray[np.int32]
 Tasks: TypeAlias = TableTasks | TextTasks
 

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["DrawnTasks", "Part", "TableTasks", "Tasks", "TextTasks"]
-
 Names: TypeAlias = NDArray[np.int64] | tuple[str, ...]
 Indices: TypeAlias = Sequence[int] | NDArray[np.intp]
 

@@ -20,8 +20,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.stacked.datasheet import datasheet
 from burmester.stacked.random_linkages import RandomLinkages, SampleOptions, random_linkages
 
-__all__ = ["DRAWN", "Sample", "drawn_columns", "drawn_table", "sample_source"]
-
 _POSES = pa.list_(POSE)
 # What was drawn, behind the columns of every batch.
 DRAWN = pa.schema(

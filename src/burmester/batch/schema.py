@@ -15,23 +15,6 @@ import pyarrow as pa
 
 from burmester.stacked import StackedAnswers
 
-__all__ = [
-    "ANSWER",
-    "DYAD",
-    "DYAD_COLUMNS",
-    "GENERATOR_COLUMNS",
-    "LINKAGE",
-    "LINKAGE_COLUMNS",
-    "OUTCOMES",
-    "POSE",
-    "SCHEMA",
-    "SIX_BAR_COLUMNS",
-    "VERSION",
-    "WATT_COLUMNS",
-    "Columns",
-    "schema",
-]
-
 VERSION: Final = "burmester.batch/1"
 
 Columns: TypeAlias = Mapping[str, Any]

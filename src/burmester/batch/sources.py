@@ -14,8 +14,6 @@ from burmester.batch.task_texts import file_names, file_parts, files_digest, lin
 from burmester.errors import InputError
 from burmester.printable import printable
 
-__all__ = ["Source", "open_source"]
-
 LINES = (".jsonl", ".ndjson", ".jsonlines")
 
 

@@ -14,8 +14,6 @@ from burmester.io.files import open_plain
 from burmester.printable import printable
 from burmester.wording import listed, shortened
 
-__all__ = ["Summary", "read_summary"]
-
 MOST_NAMED = 5  # files that a note names
 
 

@@ -14,8 +14,6 @@ from typing import Any, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Digests", "TaskNames", "digests"]
-
 Digests: TypeAlias = NDArray[np.int64]
 
 

@@ -16,8 +16,6 @@ from burmester.batch.parts import Part, TextTasks
 from burmester.errors import InputError
 from burmester.printable import printable
 
-__all__ = ["SUFFIXES", "file_names", "file_parts", "files_digest", "line_parts"]
-
 SUFFIXES = (".csv", ".tsv", ".txt", ".json", ".toml", ".parquet", ".xlsx", ".svg", ".dxf")
 MOST_BYTES = 50_000_000  # of one task, as for `burmester synthesize`
 

@@ -13,8 +13,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing.connection import Connection
 
-__all__ = ["ONE_THREAD", "TIMED_OUT", "begin", "ready", "within"]
-
 # Matrices are small here: more threads would only wait for each other.
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1"}
 TIMED_OUT = 75  # exit code of a worker that ended itself as a part took too long

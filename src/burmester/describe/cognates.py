@@ -13,8 +13,6 @@ from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["cognate_lines", "cognates_of"]
-
 
 def cognates_of(found: FoundLinkage, task: Task) -> tuple[Linkage, ...]:
     """The other linkages whose coupler point traces the same curve, the driver's first.

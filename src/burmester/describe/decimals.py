@@ -23,8 +23,6 @@ from burmester.fourbar.pose_error import PoseError, error_frames
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ROUNDING, FloatArray
 
-__all__ = ["Decimals", "decimals_of_dyad", "decimals_of_linkage", "direction_deg", "figures_of"]
-
 GROWTH = 1.1  # times the promised error; the printed dimensions miss by no more
 FINEST = 1e-6  # lengths and radians; where "exact" is promised, printed dimensions miss by no more
 MOST_POSES = 500  # number of poses, with the greatest errors, for which printed linkages are moved

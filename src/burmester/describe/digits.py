@@ -11,20 +11,6 @@ from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure
 
-__all__ = [
-    "angle_error",
-    "degrees",
-    "dyad_error",
-    "fitted_decimals",
-    "fixed",
-    "length_text",
-    "links",
-    "position_error",
-    "short",
-    "sides",
-    "worst_errors",
-]
-
 
 def fitted_decimals(synthesis: Synthesis, dyad: Dyad) -> Decimals:
     """The decimals with which a dyad as fitted keeps its errors."""

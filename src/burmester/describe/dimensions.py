@@ -22,8 +22,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 from burmester.wording import figure
 
-__all__ = ["Dimension", "certain", "decimals_of", "dimensions", "dimensions_of"]
-
 Regions = tuple[DyadUncertainty, DyadUncertainty] | tuple[None, None]
 NOT_DETERMINED = "not determined"
 

@@ -13,8 +13,6 @@ from burmester.verdicts import explanation
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure, listed
 
-__all__ = ["improvements", "moved_pivots"]
-
 TOLD_CHANGE = 0.1  # relative; a smaller change of extent or sensitivity is not told
 
 

@@ -12,8 +12,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.quality import Quality
 from burmester.wording import figure, listed, spans
 
-__all__ = ["COLUMNS", "facts", "in_short", "quality_note"]
-
 COLUMNS = (
     "ext.: the diagonal of the box of all pivots, in spans of the motion; sens.: the position "
     "error at a pose per error of all pivots and lengths"

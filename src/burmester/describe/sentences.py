@@ -30,21 +30,6 @@ from burmester.verdicts.tracing import Tracing
 from burmester.verdicts.uncertainty import pose_sigma
 from burmester.wording import figure, in_unit, listed, spans, with_article
 
-__all__ = [
-    "NOTES",
-    "alternatives",
-    "best_sentences",
-    "clearance_note",
-    "dyads_title",
-    "footnotes",
-    "headline",
-    "notes",
-    "standard_note",
-    "type_doubt",
-    "type_note",
-    "uncertainty_note",
-]
-
 NOT_DETERMINED = (
     "Not determined: first order need not hold so far, with regions over 5 % of the motion's size "
     "or of the link, or 2.9°."

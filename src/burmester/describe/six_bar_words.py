@@ -18,21 +18,6 @@ from burmester.wording import figure, listed, with_article
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
-__all__ = [
-    "HEADS",
-    "distances",
-    "driver_name",
-    "errors",
-    "headline",
-    "joint_rows",
-    "length_rows",
-    "met",
-    "pose_heads",
-    "pose_rows",
-    "row",
-    "sentences",
-]
-
 HEADS = ("", "driver", "turns by", "transmits", "link ratio", "extent", "locks after", "kind")
 POSE_HEADS = ("pose", "off by", "turned by", "driver at", "transmits")
 OF_TOLERANCE = "of the tolerance"

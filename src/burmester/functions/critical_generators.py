@@ -27,17 +27,6 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.linear_algebra import solve_or_shortest
 from burmester.numerics.unique_rows import unique_index
 
-__all__ = [
-    "ENDS",
-    "CriticalGenerators",
-    "critical_generators",
-    "exponents",
-    "follow",
-    "gradient",
-    "residual_root",
-    "terms",
-]
-
 REAL_TOLERANCE = 1e-6  # relative; a point whose w differs less from its mirror image is real
 SAME_POINT = 1e-6  # relative, of w w'; ends nearer than this are one
 PREDICTION_TOLERANCE = 1e-2  # of a logarithm; a step whose prediction is farther off is shortened

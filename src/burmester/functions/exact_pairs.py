@@ -18,8 +18,6 @@ from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["ExactGenerators", "exact_generators", "generators_of_phases", "other_phases"]
-
 SINGULAR = 1e-9  # singular value of unit columns; below, infinitely many ratios fit the pairs
 REAL = 1e-7  # relative; a root of the cubic with less imaginary part is real
 LONGEST = 1e6  # ground links; a longer link is a slider up to rounding

@@ -22,13 +22,6 @@ from burmester.requirements.table import NOT_ASKED, shortcomings, standard
 from burmester.verdicts.requirement_check import figures_of
 from burmester.wording import figure, in_runs
 
-__all__ = [
-    "MET",
-    "FoundGenerator",
-    "found_generators",
-    "price_list",
-]
-
 CLOSE: Final = 3.0  # times the least error; a sound linkage as close as this comes first
 MET: Final = 1e-7  # radians; a pair missed by less is met exactly
 SAME_EXACT: Final = 1e-6  # of the logarithm of a link, and radians, through exact pairs

@@ -15,8 +15,6 @@ import numpy as np
 from burmester.functions.generator import Generator
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["generators_of_ratios", "ratios", "rows"]
-
 
 def rows(theta: FloatArray, phi: FloatArray) -> FloatArray:
     """The equation's terms (*, N, 4) at link angles (*, N): of R1, R2 and R3, and the right side.

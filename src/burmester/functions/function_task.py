@@ -17,14 +17,6 @@ from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.requirements import Requirements
 
-__all__ = [
-    "FUNCTION_SAMPLES",
-    "FunctionTask",
-    "SampledFunction",
-    "chebyshev_spacing",
-    "even_spacing",
-]
-
 FUNCTION_SAMPLES: Final = 361  # inputs at which a function is compared with what a linkage does
 Values: TypeAlias = Callable[[FloatArray], FloatArray]
 

@@ -18,8 +18,6 @@ from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.numerics.counted_draws import uniform_draws
 
-__all__ = ["FurtherStarts"]
-
 DRAWN: Final = 20_000
 SEED: Final = 20_001
 MOST_PAIRS: Final = 13  # at which they are compared

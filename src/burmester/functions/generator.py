@@ -21,8 +21,6 @@ from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import TYPES, Linkage, Links, grashof_numbers
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 
-__all__ = ["Generator"]
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)

@@ -15,8 +15,6 @@ from burmester.fourbar.linkage import GRASHOF_SUMS, TYPE_OF_SIGNS
 from burmester.functions.generator import Generator
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["MOST_SIZE", "SPARE", "KeptRequirements"]
-
 MOST_SIZE: Final = 10.0  # ground links; no link is longer, and none shorter than its inverse
 LEAST_TRANSMISSION: Final = np.radians(1.0)  # is kept always: who locks sooner is of no use
 SPARE: Final = 1e-6  # of each constraint: what is broken by less is kept

@@ -20,8 +20,6 @@ from burmester.functions.kept_requirements import KeptRequirements
 from burmester.functions.refinement import different, refined
 from burmester.requirements.links import LINK_RATIO
 
-__all__ = ["nearest_generators"]
-
 BETTER: Final = tuple(math.radians(each) for each in (20, 30, 40, 50, 60))  # transmission angles
 FURTHER_STARTS: Final = 16  # at each level
 LEVELLED: Final = 8  # optima of least squares at each level that minimax goes on from

@@ -16,8 +16,6 @@ from burmester.functions.function_task import FunctionTask
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import count, figure
 
-__all__ = ["pair_findings", "reversals"]
-
 MOST_REVERSALS: Final = 2  # of the output of a four-bar over a turn of its input
 NEIGHBOURS: Final = 4  # pairs that a pair is compared with, by the cubic through them
 FEWEST: Final = 8  # pairs; of fewer none stands out

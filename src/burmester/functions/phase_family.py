@@ -16,8 +16,6 @@ from burmester.functions.generator import Generator
 from burmester.requirements.table import keeps
 from burmester.verdicts.requirement_check import figures_of
 
-__all__ = ["PhaseFamily", "best_of_phases"]
-
 GRID: Final = 72  # phases within half a turn; half a turn more is the same link drawn backwards
 FINE_GRID: Final = 360  # the same where one phase is open only
 MOST_RATIO: Final = 10.0  # of the longest link to the shortest

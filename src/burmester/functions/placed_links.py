@@ -15,8 +15,6 @@ from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 
-__all__ = ["placed_links"]
-
 GRID: Final = 1440  # input phases in a turn
 KEPT: Final = 8  # places of the grid that are looked at closer
 FINER: Final = 41  # places of each finer grid, over two steps of the one before

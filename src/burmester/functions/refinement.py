@@ -25,8 +25,6 @@ from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.quadratic_program import SoftProgram
 from burmester.numerics.unique_rows import unique_index
 
-__all__ = ["at_bounds", "different", "refined"]
-
 AT_BOUND = 1e-3  # of the logarithm of the greatest size; a length as near to it is at it
 SAME_GENERATOR = 1e-4  # of a link, and radians; generators that differ less are one
 MAX_STEPS = 120  # taken or refused

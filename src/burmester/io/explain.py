@@ -23,8 +23,6 @@ if TYPE_CHECKING:
     from rich.console import Console
 from burmester.wording import listed
 
-__all__ = ["Page", "page", "pages", "show_all", "show_page"]
-
 MAX_TEXT_COLUMNS = 96  # columns of running text; longer lines are hard to read
 MIN_COMMON_CHARACTERS = 2  # characters that a suggested code shares with the one given
 

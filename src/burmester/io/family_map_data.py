@@ -21,8 +21,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.requirements.links import LINK_RATIO, LONGEST_LINK, SHORTEST_LINK
 from burmester.requirements.transmission import TRANSMISSION
 
-__all__ = ["family_map_data"]
-
 SCHEMA = "burmester.family_map/1"
 
 

@@ -19,8 +19,6 @@ from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.result import FUNCTION_SCHEMA, message_data
 from burmester.synthesis.function_generation import FunctionSynthesis
 
-__all__ = ["function_data", "function_task_data", "generator_of"]
-
 LINK_KEYS = ("input", "coupler", "output")
 LONGEST = 1e9  # ground links; no link is longer
 SAME_SHARE = 1e-9  # of the range; shares that differ less are the same spacing

@@ -21,8 +21,6 @@ from burmester.io.result import message_data
 from burmester.synthesis.function_generation import FunctionSynthesis
 from burmester.wording import count, figure, listed, with_article
 
-__all__ = ["function_check_data", "show_function", "show_function_check"]
-
 CHECK_SCHEMA: Final = "burmester.function-check/1"
 
 NARROW = 76  # columns; in a narrower terminal the table has fewer

@@ -29,14 +29,6 @@ if TYPE_CHECKING:
     from burmester.clearance.least_clearance import Clearance
     from burmester.sixbar.found import FoundSixBar
 
-__all__ = [
-    "dyad_data",
-    "linkage_data",
-    "number",
-    "pins_data",
-    "six_bar_data",
-]
-
 CONFIDENCE = 0.95
 
 

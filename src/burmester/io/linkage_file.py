@@ -39,8 +39,6 @@ from burmester.wording import in_unit
 if TYPE_CHECKING:
     from burmester.sixbar.kinds import SixBar
 
-__all__ = ["read_linkage"]
-
 KEYS = {"id", "kind", "fixed_pivot", "moving_pivot", "length", "radius", "line"}
 NO_LINKAGE = "this file holds no linkage"
 HELP = (

@@ -28,17 +28,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.tolerance_words import share_texts
 from burmester.wording import count, figure, in_unit
 
-__all__ = [
-    "closest_three",
-    "in_full",
-    "new_table",
-    "show_read",
-    "show_warnings",
-    "table_of",
-    "unusable",
-    "usable_table",
-]
-
 CLOSEST = 3  # linkages in the outcome, where none is usable
 LINKS = ("ground", "driver", "coupler", "follower")
 MOST_CUT = 3  # decimals that link lengths in the table may lose on a narrow screen

@@ -19,8 +19,6 @@ from burmester.printable import printable
 from burmester.synthesis.given_linkage import OpenLink
 from burmester.values import shown
 
-__all__ = ["assumed_of", "dyad_of", "fault", "number", "pair", "text_of"]
-
 MOST_TEXT = 10_000  # characters of a sentence
 
 LINE_KEYS = ({"point", "direction_deg"}, {"normal_deg", "offset"})

@@ -31,18 +31,6 @@ if TYPE_CHECKING:
 
     _Message: TypeAlias = BurmesterError | Advice | MotionKind
 
-__all__ = [
-    "LOCATION_HEAD",
-    "STYLES",
-    "draw",
-    "location_lines",
-    "message",
-    "note",
-    "print_trimmed",
-    "show",
-    "wrapped",
-]
-
 STYLES = {"error": "bold red", "warning": "bold yellow", "result": "bold"}
 MIN_COLUMNS = 24  # columns of a text, however narrow the terminal
 FULL_INDENT_COLUMNS = 56  # columns; in a narrower terminal text is indented by 4 columns only

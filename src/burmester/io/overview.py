@@ -27,8 +27,6 @@ from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
 from burmester.wording import count as count_of
 from burmester.wording import figure
 
-__all__ = ["check_data", "show"]
-
 SCHEMA = "burmester.check/1"
 LEAST_CLOSED = 6  # points of a path that may be closed
 NEAR_ENDS = 1.5  # steps between neighbours; ends of a path that are nearer nearly meet

@@ -12,8 +12,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances
 
-__all__ = ["crank_data", "degrees_of", "poses_data", "tolerances_data"]
-
 
 def poses_data(poses: Displacement) -> list[dict[str, float]]:
     """Poses (N,) as rows of a file; an angle given as 45.58 degrees is written as 45.58."""

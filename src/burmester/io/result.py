@@ -49,18 +49,6 @@ if TYPE_CHECKING:  # few results hold any of these
     from burmester.families.family import Family
     from burmester.sixbar.six_bars import SixBars
 
-__all__ = [
-    "failure",
-    "json_line",
-    "limits_data",
-    "message_data",
-    "motion_data",
-    "path_data",
-    "region_data",
-    "synthesis_data",
-    "task_data",
-]
-
 SCHEMA, FUNCTION_SCHEMA = "burmester.synthesis/1", "burmester.function/1"
 # What a result says of its search alone, and nothing gives again when it is read.
 SEARCH_KEYS = ("singular_values", "critical_points", "search")

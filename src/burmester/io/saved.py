@@ -54,12 +54,6 @@ if TYPE_CHECKING:
     from burmester.sixbar.six_bars import SixBars
     from burmester.synthesis.function_generation import FunctionSynthesis
 
-__all__ = [
-    "JUDGED_OTHERWISE",
-    "SavedResult",
-    "read_result",
-]
-
 HELP = "make it with `burmester synthesize POSES -o result.json`"
 JUDGED_OTHERWISE = "W244"
 MOST_DIGITS = 20  # of a whole number; no longer one is written, and Python reads 4,300 at most

@@ -40,8 +40,6 @@ if TYPE_CHECKING:
     from burmester.numerics.arrays import FloatArray
     from burmester.sixbar.kinds import SixBar
 
-__all__ = ["is_six_bar", "six_bar_of"]
-
 OWN: Final = ("coupler", "second_crank", "lengths")  # no other file of a linkage has them
 SAME: Final = 1e-3  # relative; a length that a person typed beside the joints agrees as well
 

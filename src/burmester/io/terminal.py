@@ -22,8 +22,6 @@ from burmester.wording import in_unit
 if TYPE_CHECKING:
     from burmester.sixbar.six_bars import SixBars
 
-__all__ = ["show_synthesis"]
-
 # Columns; in a narrower terminal both sides of a dyad are in one column, or its length as well.
 NARROW, SLIM = 64, 48
 WIDE = 72  # columns; on fewer tables of six-bars have their first columns only

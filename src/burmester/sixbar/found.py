@@ -21,8 +21,6 @@ from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
 
-__all__ = ["FoundSixBar"]
-
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FoundSixBar:

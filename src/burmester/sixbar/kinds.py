@@ -12,8 +12,6 @@ from typing import Final, TypeAlias
 from burmester.sixbar.watt import WattLinkage
 from burmester.stephenson.linkage import CLASSES, StephensonClass, StephensonLinkage
 
-__all__ = ["KINDS", "SixBar"]
-
 SixBar: TypeAlias = WattLinkage | StephensonLinkage
 
 KINDS: Final[Mapping[str, type[WattLinkage] | StephensonClass]] = {

@@ -15,8 +15,6 @@ from burmester.verdicts.explanation import in_short
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import count, listed
 
-__all__ = ["family_summary", "none_within_limits"]
-
 
 def family_summary(
     problem: SynthesisProblem, family: Family, linkages: Sequence[FoundLinkage]

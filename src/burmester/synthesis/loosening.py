@@ -24,8 +24,6 @@ from burmester.verdicts.explanation import below
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure, listed
 
-__all__ = ["Loosening", "loosened", "loosened_all_around"]
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)

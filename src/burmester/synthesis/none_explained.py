@@ -35,8 +35,6 @@ if TYPE_CHECKING:  # loaded for few poses only
     from burmester.families.open_task import OpenTask, Trials
     from burmester.verdicts.assumptions import Assumptions
 
-__all__ = ["explained"]
-
 Solve: TypeAlias = Callable[[Task, SynthesisOptions], Synthesis]
 
 FEW: Final = ("R308", "R309")  # outcomes of few poses

@@ -27,16 +27,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import only_too_far
 from burmester.wording import count, figure, listed
 
-__all__ = [
-    "dyad_advice",
-    "family",
-    "linkage_advice",
-    "offering_six_bars",
-    "sample_advice",
-    "summary",
-    "undetermined",
-]
-
 BETTER = 1.2  # ratio of two least transmission angles; from it on the better linkage is named
 LITTLE = math.radians(30)  # rotation of the body below which the outcome says "only"
 USUAL_TRANSMISSION = 40.0  # degrees; the least angle over the range that designers ask for

@@ -22,8 +22,6 @@ if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to l
     from burmester.sixbar.six_bars import SixBars
     from burmester.synthesis.loosening import Loosening
 
-__all__ = ["JUDGED", "Candidate", "Outcome", "Synthesis", "chosen"]
-
 Candidate: TypeAlias = "FoundLinkage | FoundSixBar"  # what files and pictures are made of
 
 # What came of a task: R300 usable linkages; R301 linkages, none of them usable; R302 too few

@@ -19,21 +19,6 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure
 
-__all__ = [
-    "HasError",
-    "asked_for",
-    "below",
-    "by_nearness",
-    "error_bounds",
-    "hints",
-    "in_short",
-    "meets_exactly",
-    "nearness",
-    "reasons",
-    "too_far_from",
-    "worst_miss",
-]
-
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
 MOST_TURN = math.pi / 2  # radians; a crank that is off by more is no crank at these angles
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint

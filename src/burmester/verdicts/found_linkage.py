@@ -21,8 +21,6 @@ from burmester.verdicts.uncertainty import DyadUncertainty
 if TYPE_CHECKING:  # it imports Shapely, which only tasks with surroundings need
     from burmester.clearance.least_clearance import Clearance
 
-__all__ = ["FoundLinkage", "Pair", "Side", "numbered_pair", "with_driver_first"]
-
 Pair: TypeAlias = tuple[FoundDyad, FoundDyad]
 Side: TypeAlias = Literal["first", "second"]
 

@@ -17,8 +17,6 @@ from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure, listed
 
-__all__ = ["in_words_of_tolerances", "most_used", "outside", "percent", "share_texts"]
-
 SHARE_DIGITS = 6  # decimals by which shares are compared: of equal ones the first is named
 MAX_NAMED = 3  # number of poses that a reason names; more are counted
 
