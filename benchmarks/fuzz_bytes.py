@@ -17,7 +17,6 @@ with atheris.instrument_imports(include=["burmester.io", "tomllib", "json"]):
     import burmester.io.reading.tables.csv_poses
     import burmester.io.reading.tables.parquet
     import burmester.io.reading.trees.documents
-    import burmester.io.reading.trees.limits_tree
     import burmester.io.reading.trees.requirements_tree  # noqa: F401
 
 from tests.oracles.file_verdicts import judged

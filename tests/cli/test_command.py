@@ -534,14 +534,14 @@ def imported(*arguments):
 def test_help_imports_next_to_nothing(arguments):
     loaded = imported(*arguments)
     assert "click" in loaded
-    assert not loaded & {"numpy", "rich", "pydantic", "scipy"}
+    assert not loaded & {"numpy", "rich", "scipy"}
 
 
 @pytest.mark.parametrize("source", ["a file", "case:ge2012-exact"])
 def test_the_main_job_does_without_what_it_does_not_need(poses, source):
     loaded = imported("synthesize", poses if source == "a file" else source)
     assert {"numpy", "rich"} <= loaded
-    assert not loaded & {"scipy", "pydantic", "matplotlib", "jsonschema", "shapely", "flint"}
+    assert not loaded & {"scipy", "matplotlib", "jsonschema", "shapely", "flint"}
     assert not loaded & {
         "numpy.ma",
         "numpy.random",

@@ -1,7 +1,7 @@
 """Requirements on the command line: every option, every refusal with its caret."""
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,6 +9,9 @@ import pytest
 
 from burmester import cli
 from burmester.io.reading.limits_text import limits_from_options
+from burmester.tasks.limits import Limits
+from burmester.tasks.option_table import LIMIT_OPTIONS
+from burmester.tasks.option_table import OPTIONS as OPTION_TABLE
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
 from tests.oracles.stated_requirements import CSV, NOTHING, POSES, SAID, SQUARE, reader, values
@@ -48,6 +51,14 @@ def run(monkeypatch, tmp_path):
 
 
 OPTIONS = SynthesisOptions(method="auto", normalise=True, norm="rms", certify=False)
+
+
+def test_the_table_has_every_option_of_a_synthesis_and_its_default():
+    assert {each.name for each in OPTION_TABLE} == {each.name for each in fields(SynthesisOptions)}
+    for each in OPTION_TABLE:
+        default = getattr(OPTIONS, each.name)
+        assert default == (each.known[0] if each.known else each.negated or default)
+    assert [each.name for each in LIMIT_OPTIONS] == [each.name for each in fields(Limits)]
 
 
 @pytest.mark.parametrize("name", SAID)
@@ -238,7 +249,7 @@ def test_following_the_help_works(run, capsys, name):
 
 @pytest.mark.parametrize(
     ("text", "meant"),
-    [("1,5", 1.5), ("40deg", 40), ("40 °", 40), ("2.5mm", 2.5), ("1_0", 10), ("1_234.5", None)],
+    [("1,5", 1.5), ("40deg", 40), ("40 °", 40), ("2.5mm", 2.5), ("1_234.5", None)],
 )
 def test_a_slip_in_a_number_is_told_the_number_meant(run, capsys, text, meant):
     assert run("--within", text).code == 2

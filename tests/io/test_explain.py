@@ -151,7 +151,7 @@ def test_an_explanation_loads_no_numpy():
     program = (
         "import sys\nfrom burmester import cli\n"
         "try:\n    cli.main(['explain', 'E103'])\nexcept SystemExit:\n    pass\n"
-        "rooms = {'numpy', 'pydantic', 'scipy', 'burmester.synthesis.motion_generation'}\n"
+        "rooms = {'numpy', 'scipy', 'burmester.synthesis.motion_generation'}\n"
         "print(sorted(rooms & set(sys.modules)))"
     )
     done = subprocess.run(

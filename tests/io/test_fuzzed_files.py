@@ -17,7 +17,8 @@ from hypothesis import strategies as st
 
 from burmester.cli import main
 from burmester.errors import InputError
-from burmester.io.reading import limits_text, requirements_text
+from burmester.io.reading import limits_text, option_text, requirements_text
+from burmester.io.reading.pose_table import Source
 from burmester.io.reading.poses import read_task
 from tests.oracles import fuzzed_files, plain_reader
 from tests.oracles.file_verdicts import check_refusal, judged
@@ -230,8 +231,8 @@ def test_texts_of_options_are_taken_or_refused(text):
         lambda: requirements_text.requirements_from_options(link_ratio=text),
         lambda: requirements_text.requirements_from_options(within=text),
         lambda: requirements_text.pose_sigma(text),
-        lambda: requirements_text.lengths("--stock", [text]),
-        lambda: requirements_text.positive_length("--round", text),
+        lambda: option_text.lengths_from_texts("--stock", [text]),
+        lambda: option_text.positive_from_text(Source("--round", text), text),
     ]
     for read in readers:
         try:

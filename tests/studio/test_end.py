@@ -150,7 +150,7 @@ SERVER = """
 import sys
 import burmester.cli.studio, burmester.studio.serve, burmester.studio.application
 import burmester.studio.access, burmester.studio.session, burmester.studio.autosave, uvicorn
-print(sorted({"numpy", "pydantic", "shapely", "rich"} & set(sys.modules)))
+print(sorted({"numpy", "shapely", "rich"} & set(sys.modules)))
 """
 
 

@@ -13,22 +13,22 @@ E134 a value that makes no sense, and what readers of task files raise
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 from typing import Any, Final, Literal, TypeAlias, final
 
 from burmester.errors import InputError
-from burmester.io.reading.functions.function_file import settings_of_tree
+from burmester.io.reading.functions.function_file import settings_of
 from burmester.io.reading.functions.function_options import FunctionSettings
 from burmester.io.reading.pose_table import PoseTable, Source, held_float
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.specification import TOP_KEYS
 from burmester.io.reading.trees.documents import read_toml
 from burmester.io.reading.trees.locations import Document, close_match
+from burmester.io.reading.trees.node import Field, Node
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.tasks.motion_task import Task
+from burmester.tasks.option_table import OPTIONS
 from burmester.tasks.options import SynthesisOptions
 from burmester.wording import listed
 
@@ -46,12 +46,9 @@ OF_SYNTHESIS: Final = tuple(
 )
 # What the command calls otherwise.
 ALIASES: Final = {
-    "angle_weight": "length_per_radian",
-    "round": "rounding_step",
-    "stock": "stock_lengths",
-    "raw": "normalise = false",
-    "time_limit": "",
-    "poses": "",
+    each.option[2:].replace("-", "_"): f"{each.name} = false" if each.negated else each.name
+    for each in OPTIONS
+    if each.name not in ("time_limit", "manufacturing_tolerance")
 }
 # Poses without which no task is read; nobody sees them.
 _POSES: Final = "\n[[poses]]\nx = {}\ny = 0\nangle = {}\n"
@@ -72,7 +69,7 @@ class BatchOptions:
     label: str = "the options"
 
     def __post_init__(self) -> None:
-        document = Document(Source(self.label, self.text), "TOML")
+        document = self.document
         for key in self.data:
             if key not in (*BESIDE, *OF_SYNTHESIS, FUNCTION, SIX_BARS):
                 raise _unknown(key, document)
@@ -86,6 +83,11 @@ class BatchOptions:
         _ = self.synthesis, self.beside, self.functions, self.six_bars
 
     @property
+    def document(self) -> Document:
+        """The text, for the places of what stands in it."""
+        return Document(Source(self.label, self.text), "TOML")
+
+    @property
     def data(self) -> dict[str, Any]:
         """The keys and values; raises E109."""
         return _parsed(self.text, self.label)
@@ -94,14 +96,18 @@ class BatchOptions:
     def synthesis(self) -> SynthesisOptions:
         """How each task is solved."""
         given = {key: value for key, value in self.data.items() if key in OF_SYNTHESIS}
-        with self._named():
+        try:
             return SynthesisOptions(**given)
+        except InputError as error:
+            error.where = error.where or self.label
+            raise
 
     @property
     def functions(self) -> FunctionSettings:
         """What holds for each task of pairs of angles; raises E107 and E191."""
-        with self._named():
-            return settings_of_tree(self.data.get(FUNCTION, {}))
+        if FUNCTION not in self.data:
+            return FunctionSettings()
+        return settings_of(Node(self.document, (), self.data))
 
     @property
     def six_bars(self) -> SixBarOptions | None:
@@ -109,28 +115,12 @@ class BatchOptions:
         given = self.data.get(SIX_BARS)
         if given is None:
             return None
-        document = Document(Source(self.label, self.text), "TOML")
+        help = f"write a line [{SIX_BARS}], and {listed(OF_SIX_BARS, 'or')} below it"
+        node = Node(self.document, (), self.data).at(SIX_BARS, help)
         if not isinstance(given, dict):
-            raise InputError(
-                "E107",
-                f"{SIX_BARS} is no table",
-                where=document.where(SIX_BARS, key=True),
-                help=f"write a line [{SIX_BARS}], and {listed(OF_SIX_BARS, 'or')} below it",
-            )
-        for key in given:
-            if key not in OF_SIX_BARS:
-                raise _unknown(key, document, OF_SIX_BARS, SIX_BARS)
-        with self._named():
-            return SixBarOptions(**given)
-
-    @contextmanager
-    def _named(self) -> Iterator[None]:
-        """A block whose errors say which file they are of."""
-        try:
-            yield
-        except InputError as error:
-            error.where = error.where or self.label
-            raise
+            raise node.fault("E107", "is no table", key=True)
+        values = node.table(dict.fromkeys(OF_SIX_BARS, Field(lambda each: each.value)))
+        return node.made(SixBarOptions, **values)
 
     @property
     def beside(self) -> PoseTable:
@@ -171,15 +161,10 @@ def _beside(text: str, label: str) -> PoseTable:
     return read_toml(Source(label, text + poses), (FUNCTION, SIX_BARS))
 
 
-def _unknown(
-    key: str,
-    document: Document,
-    known: tuple[str, ...] = (*OF_SYNTHESIS, *BESIDE, FUNCTION, SIX_BARS),
-    *above: str,
-) -> InputError:
-    """A key that is none of those known; above: the tables it stands in."""
-    plain = key.replace("-", "_")
-    where = document.where(*above, key, key=True)
+def _unknown(key: str, document: Document) -> InputError:
+    """A key that is none of those known."""
+    plain, known = key.replace("-", "_"), (*OF_SYNTHESIS, *BESIDE, FUNCTION, SIX_BARS)
+    where = document.where(key, key=True)
     if key == "time_limit":
         message = "a batch has no time limit for its tasks"
         why = "rows are the same on every machine, and a limit by the clock would change them"

@@ -264,7 +264,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
     """The judgement of a linkage that exists; None where none is given."""
     from dataclasses import replace
 
-    from burmester.io.reading.requirements_text import lengths
+    from burmester.io.reading.option_text import lengths_from_texts
     from burmester.io.saved import read_result
     from burmester.synthesis.function_generation import judge_generator, judge_links
 
@@ -275,7 +275,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
                 raise _contradiction(
                     f"--links and --{name} are given", f"leave --{name} out, or --links"
                 )
-        every = lengths("--links", [links])
+        every = lengths_from_texts("--links", [links])
         if len(every) != 4:
             raise _contradiction(
                 f"--links has {len(every)} numbers, and a four-bar has four links",

@@ -6,8 +6,7 @@ take their values.
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial, reduce
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -15,6 +14,7 @@ import click
 
 from burmester.cli.output import CONTENT
 from burmester.requirements.table import ASKED
+from burmester.tasks.option_table import LIMIT_OPTIONS, OPTIONS
 
 if TYPE_CHECKING:
     from burmester.fourbar.linkage import Linkage
@@ -22,6 +22,8 @@ if TYPE_CHECKING:
     from burmester.synthesis.given_linkage import GivenDyad
     from burmester.synthesis.result import Synthesis
     from burmester.tasks.motion_task import Task
+    from burmester.tasks.option_table import Option
+    from burmester.tasks.options import SynthesisOptions
 
 __all__ = [
     "JUDGEMENT",
@@ -40,6 +42,7 @@ __all__ = [
     "run_judgement",
     "run_six_bars",
     "run_synthesis",
+    "synthesis_options",
     "with_options",
 ]
 
@@ -83,13 +86,12 @@ class Number(click.FloatRange):
     ) -> float:
         """The double of a text; click takes 1_000, nan and 1e-400 as well."""
         if isinstance(value, str):
-            from burmester.io.reading.pose_table import plain_number, shown, unheld
+            from burmester.io.reading.pose_table import NUMBER, plain_number, shown, unheld
 
             plain, mark = plain_number(value.strip(), ",")
             if mark is None:
-                held = not re.fullmatch(r"[-+]?[0-9.]+[eE][-+]?[0-9]+", plain)
                 why = f"{shown(value)} is no number such as 12.5 or 3e-4"
-                self.fail(why if held else unheld(plain), param, ctx)
+                self.fail(unheld(plain) if NUMBER.fullmatch(plain) else why, param, ctx)
         return float(super().convert(value, param, ctx))
 
 
@@ -239,45 +241,14 @@ def _requirement(each: Requirement) -> Decorator:
     )
 
 
-_length: Decorator = _specification(
-    "--length",
-    metavar="MIN:MAX",
-    multiple=True,
-    help="Length of the link of an RR dyad; MIN or MAX may be left out.",
-)
+_LIMITS: dict[str, Decorator] = {
+    each.name: _specification(
+        f"--{each.name.replace('_', '-')}", metavar=each.metavar, multiple=True, help=each.help
+    )
+    for each in LIMIT_OPTIONS
+}
 SPECIFICATION: tuple[Decorator, ...] = (
-    _specification(
-        "--fixed-pivot",
-        metavar="REGION",
-        multiple=True,
-        help="Region of a fixed pivot, on the ground.",
-    ),
-    _specification(
-        "--moving-pivot",
-        metavar="REGION",
-        multiple=True,
-        help="Region of a moving pivot, on the body.",
-    ),
-    _length,
-    _specification(
-        "--kinds",
-        metavar="RR,PR,RP",
-        multiple=True,
-        help="Kinds of dyads allowed: links RR, sliders PR, slots RP.",
-    ),
-    _specification(
-        "--rail",
-        metavar="LINE",
-        multiple=True,
-        help='The rail of a slider on the ground, such as "direction:0+-2 through:0,0 '
-        'travel:box:0,-5:400,5"; each part may be left out.',
-    ),
-    _specification(
-        "--slot",
-        metavar="LINE",
-        multiple=True,
-        help="The same of a slot in the body, on the body.",
-    ),
+    *_LIMITS.values(),
     _specification(
         "--body",
         metavar="FILE[:PART]",
@@ -305,61 +276,25 @@ SPECIFICATION: tuple[Decorator, ...] = (
     *map(_requirement, ASKED),
 )
 
-MEASURE: tuple[Decorator, ...] = (
-    _method(
-        "--norm",
-        type=click.Choice(["rms", "worst"]),
-        default="rms",
-        show_default=True,
-        help="The error to minimise: root mean square, or the largest deviation (worst).",
-    ),
-    _method(
-        "--angle-weight",
-        "length_per_radian",
-        metavar="LENGTH",
-        help="The position error that counts as much as one radian of angle error; by default a "
-        "third of the travel per radian of turn, or the radius of gyration of the body.",
-    ),
-)
 
-TIME_LIMIT: Decorator = _method(
-    "--time-limit",
-    metavar="SECONDS",
-    help="Look no further after so many seconds: the answer is the best until then, and a warning "
-    "says what was not finished.  What every answer needs may take longer.",
+def _synthesis(each: Option) -> Decorator:
+    """The option of a synthesis."""
+    settings: dict[str, Any] = {"is_flag": True} if each.form == "flag" else {}
+    if each.known:
+        settings = {"type": click.Choice(each.known), "default": each.known[0]}
+        settings["show_default"] = True
+    if each.form == "lengths":
+        settings = {"multiple": True}
+    declared = _manufacturing if each.manufacturing else _method
+    return declared(each.option, each.name, metavar=each.metavar, help=each.help, **settings)
+
+
+_SYNTHESIS = {each.name: _synthesis(each) for each in OPTIONS}
+METHOD, MANUFACTURING = (
+    tuple(_SYNTHESIS[each.name] for each in OPTIONS if each.manufacturing is manufacturing)
+    for manufacturing in (False, True)
 )
-METHOD: tuple[Decorator, ...] = (
-    _method(
-        "--method",
-        type=click.Choice(["auto", "pencil", "complete", "exact"]),
-        metavar="METHOD",
-        default="auto",
-        show_default=True,
-        help="pencil: the paper's two dyads for 6 poses or more; complete: every locally best dyad "
-        "for 6 or more; exact: all dyads through 5; auto: complete for 6 or more, exact for 5.",
-    ),
-    *MEASURE,
-    _method(
-        "--prefer",
-        type=click.Choice(["transmission", "size", "accuracy"]),
-        default="transmission",
-        show_default=True,
-        help="What the recommended linkage of two to four poses is best at.",
-    ),
-    _method(
-        "--nine-point-starts",
-        is_flag=True,
-        help="Open paths: look from the linkages through nine of the points as well.",
-    ),
-    _method("--certify", is_flag=True, help="Prove with interval arithmetic what can be proved."),
-    _method(
-        "--raw",
-        is_flag=True,
-        help="Fit the numbers as given, as the paper does: frames and unit are not normalised, and "
-        "the result depends on them.",
-    ),
-    TIME_LIMIT,
-)
+OF_JUDGEMENT = ("norm", "length_per_radian", "time_limit", "manufacturing_tolerance")
 
 OF_SIX_BARS = {"chains": "--chains", "seed": "--seed", "kind": "--six-bar-kind"}
 SIX_BARS: tuple[Decorator, ...] = (
@@ -391,36 +326,12 @@ SIX_BARS: tuple[Decorator, ...] = (
     ),
 )
 
-MANUFACTURING: tuple[Decorator, ...] = (
-    _manufacturing(
-        "--tolerance",
-        "manufacturing_tolerance",
-        metavar="LENGTH",
-        help="Manufacturing tolerance of pivots and lengths; report the resulting error.",
-    ),
-    _manufacturing(
-        "--round",
-        "rounding_step",
-        metavar="STEP",
-        help="Round lengths and pivots to multiples of STEP, and check the linkage again.",
-    ),
-    _manufacturing(
-        "--stock",
-        "stock_lengths",
-        metavar="L1,L2,...",
-        multiple=True,
-        help="Available link lengths; the nearest are used, and the linkage is checked again.",
-    ),
-)
-
-
 # What a linkage that exists is judged by; its --length is that of its links.
 JUDGEMENT = (
     LINKAGE,
     POSES,
-    tuple(each for each in SPECIFICATION if each is not _length),
-    (*MEASURE, TIME_LIMIT),
-    MANUFACTURING[:1],
+    tuple(each for each in SPECIFICATION if each is not _LIMITS["length"]),
+    tuple(_SYNTHESIS[name] for name in OF_JUDGEMENT),
 )
 
 
@@ -452,8 +363,7 @@ def read_poses(poses: str, **given: Any) -> Task:
 
     further: dict[str, Any] = {}
     if "length" in given:
-        names = ("fixed_pivot", "moving_pivot", "length", "kinds", "rail", "slot")
-        limits = {name: given[name] for name in names}
+        limits = {name: given[name] for name in _LIMITS}
         requirements = text.requirements_from_options(**given)
         specification = limits_from_options(**limits)._replace(requirements=requirements)
         outlines = OutlineOptions(given["body"], given["keep_out"], given["link_width"])
@@ -477,23 +387,9 @@ def read_poses(poses: str, **given: Any) -> Task:
 def run_synthesis(poses: str, **given: Any) -> Synthesis:
     """The synthesis for the file POSES, by the options of all groups."""
     from burmester.cli.progress_line import working
-    from burmester.io.reading import requirements_text as text
     from burmester.synthesis.motion_generation import synthesize
-    from burmester.tasks.options import SynthesisOptions
 
-    further = _lengths(given)
-    if given["stock_lengths"]:
-        further["stock_lengths"] = text.lengths("--stock", given["stock_lengths"])
-    options = SynthesisOptions(
-        given["method"],
-        given["norm"],
-        normalise=not given["raw"],
-        certify=given["certify"],
-        nine_point_starts=given["nine_point_starts"],
-        prefer=given["prefer"],
-        time_limit=_time_limit(given),
-        **further,
-    )
+    options = synthesis_options(given)
     with working("reading the poses"):
         return synthesize(read_poses(poses, **given), options)
 
@@ -503,11 +399,10 @@ def run_six_bars(poses: str, **given: Any) -> Synthesis:
     from burmester.cli.progress_line import working
     from burmester.sixbar.six_bars import SixBarOptions
     from burmester.synthesis.six_bars import synthesize_six_bars
-    from burmester.tasks.options import SynthesisOptions
 
     _refuse_options(_NOT_FOR_SIX_BARS, "--six-bars")
     numbers = {name: given[name] for name in OF_SIX_BARS if given[name] is not None}
-    options = SynthesisOptions(time_limit=_time_limit(given))
+    options = synthesis_options({"time_limit": given["time_limit"]})
     with working("reading the poses"):
         return synthesize_six_bars(read_poses(poses, **given), SixBarOptions(**numbers), options)
 
@@ -553,11 +448,10 @@ def run_judgement(
     )
     from burmester.mechanisms.contract import Mechanism
     from burmester.synthesis.judgement import judge_linkage
-    from burmester.tasks.options import SynthesisOptions
 
     require_one_source(poses, linkage, dyad, id)
     lengths, limits = lengths_and_limits(given.pop("length"), typed=bool(dyad))
-    options = SynthesisOptions(norm=given["norm"], time_limit=_time_limit(given), **_lengths(given))
+    options = synthesis_options(given)
     with working("reading the poses"):
         task = read_poses(poses, length=limits, **given)
         if linkage is None:
@@ -567,54 +461,26 @@ def run_judgement(
             if isinstance(given_one, Mechanism):
                 from burmester.synthesis.six_bar_judgement import judge_six_bar
 
-                _refuse_options(_NOT_FOR_JUDGED_SIX_BARS, "take a four-bar")
+                _refuse_options(("improve", "norm", "manufacturing_tolerance"), "take a four-bar")
                 return judge_six_bar(task, given_one, options)
             one = given_one
         return judge_linkage(task, one, options, improve=given["improve"])
 
 
-def _time_limit(given: dict[str, Any]) -> float | None:
-    """The seconds of --time-limit; None where it is not given."""
-    from burmester.io.reading import requirements_text as text
+def synthesis_options(given: Mapping[str, Any]) -> SynthesisOptions:
+    """How a task is solved, by the texts of options."""
+    from burmester.io.reading.option_text import option_value
+    from burmester.tasks.options import SynthesisOptions
 
-    seconds = given["time_limit"]
-    return None if seconds is None else text.positive_seconds("--time-limit", seconds)
-
-
-def _lengths(given: dict[str, Any]) -> dict[str, Any]:
-    """The options that are a length, by their names in `SynthesisOptions`."""
-    from burmester.io.reading import requirements_text as text
-
-    return {
-        keyword: text.positive_length(option, given[keyword])
-        for keyword, option in _LENGTH_OPTIONS.items()
-        if given.get(keyword) is not None
-    }
+    stated = [each for each in OPTIONS if given.get(each.name) is not None]
+    return SynthesisOptions(**{each.name: option_value(each, given[each.name]) for each in stated})
 
 
 _NOT_FOR_SIX_BARS = (
-    "method",
-    "norm",
-    "length_per_radian",
-    "prefer",
-    "certify",
-    "nine_point_starts",
-    "raw",
-    "manufacturing_tolerance",
-    "rounding_step",
-    "stock_lengths",
-    "family_map",
-    "require_determined",
-    "everything",
-    "dyads",
+    *(each.name for each in OPTIONS if each.name != "time_limit"),
+    *("family_map", "require_determined", "everything", "dyads"),
 )
-_NOT_FOR_JUDGED_SIX_BARS = ("improve", "norm", "manufacturing_tolerance")
 _ROWS = (
     "columns", "sheet", "points", "plane", "drop", "every", "first", "last", "closed", "convention",
     "absolute_crank", "within_crank_deg",
 )  # fmt: skip
-_LENGTH_OPTIONS = {
-    "length_per_radian": "--angle-weight",
-    "manufacturing_tolerance": "--tolerance",
-    "rounding_step": "--round",
-}

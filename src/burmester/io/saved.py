@@ -188,7 +188,10 @@ def _functions(tree: dict[str, Any], refused: dict[str, InputError]) -> Function
     """The same of a function task."""
     from burmester.functions.found_generator import found_generators
     from burmester.io.function_result import generator_of
-    from burmester.io.reading.functions.function_file import task_of_tree
+    from burmester.io.reading.functions.function_file import task_of
+    from burmester.io.reading.pose_table import Source
+    from burmester.io.reading.trees.locations import Document
+    from burmester.io.reading.trees.node import Node
     from burmester.synthesis.function_generation import FunctionMethod, FunctionSynthesis
 
     if tree.get("schema") != FUNCTION_SCHEMA:
@@ -202,7 +205,7 @@ def _functions(tree: dict[str, Any], refused: dict[str, InputError]) -> Function
     if method is None:
         why = f"it is {shown(tree.get('method'))}"
         raise _unlike("$.method of this result cannot be used", why)
-    task = task_of_tree(stated.get("function"))
+    task = task_of(Node(Document(Source("the result", ""), "JSON", ("task",)), (), stated))
     found: list[FoundGenerator] = []
     others = list[str]()
     for id, each in _by_id(tree, "linkages"):

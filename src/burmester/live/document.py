@@ -17,16 +17,16 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.geometry.regions import Polygon, Region, box
-from burmester.io.pose_data import crank_data, degrees_of, tolerances_data
+from burmester.geometry.regions import Polygon, box
+from burmester.io.pose_data import degrees_of
+from burmester.io.reading.option_text import option_value
 from burmester.io.reading.outlines.outline_file import FROM_PAGE
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.requirements_text import positive_length
-from burmester.io.reading.stated_requirements import requirements_data
-from burmester.io.result import limits_data, path_data, region_data
+from burmester.io.result import task_data
 from burmester.live.plain import plain
-from burmester.tasks.limits import KINDS, Limits
+from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
+from burmester.tasks.option_table import OPTIONS
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances, nominal_values
 
@@ -44,8 +44,11 @@ MOST_POSES = 100_000  # of a document
 NAME = "task.json"  # what a document is called where a message says its place
 
 _OF_POSES = ("poses", "path", "crank", "angle_unit", "length_unit", "pose_sigma", "tolerance")
-_WORDS = {"method": "method", "norm": "norm", "prefer": "prefer"}
-_LENGTHS = {"angle-weight": "length_per_radian", "tolerance": "manufacturing_tolerance"}
+_OPTIONS = {  # of the studio
+    each.option.removeprefix("--"): each
+    for each in OPTIONS
+    if each.known or each.name in ("length_per_radian", "manufacturing_tolerance")
+}
 
 
 def task_of(document: object) -> Task:
@@ -118,77 +121,47 @@ def options_of(options: object, time_limit: float | None = None) -> SynthesisOpt
         raise InputError("E100", "the options are no object", help='give {"method": "auto"}')
     found: dict[str, Any] = {}
     for name, value in given.items():
-        if name in _WORDS:
-            found[_WORDS[name]] = value
-        elif name in _LENGTHS:
-            if value is not None:
-                found[_LENGTHS[name]] = positive_length(f"--{name}", str(value))
-        else:
-            known = ", ".join((*_WORDS, *_LENGTHS))
-            raise InputError(
-                "E100", f"there is no option {str(name)[:40]!r}", help=f"the studio has {known}"
-            )
+        if name not in _OPTIONS:
+            message, help = f"there is no option {str(name)[:40]!r}", "the studio has "
+            raise InputError("E100", message, help=help + ", ".join(_OPTIONS))
+        if value is not None:
+            option = _OPTIONS[name]
+            text = value if option.known else str(value)
+            found[option.name] = option_value(option, text)
     return SynthesisOptions(**found, time_limit=time_limit)
 
 
 def document_of(task: Task) -> dict[str, Any]:
     """A task as a document: read again it is the same task."""
-    document: dict[str, Any] = {"angle_unit": "deg", "poses": _poses(task)}
-    if task.length_unit is not None:
-        document = {"length_unit": task.length_unit, **document}
-    if (usual := _usual_tolerance(task)) is not None:
+    stated, usual, blank = task_data(task), _usual_tolerance(task), _blank_angles(task)
+    document: dict[str, Any] = {} if task.length_unit is None else {"length_unit": task.length_unit}
+    document["angle_unit"] = "deg"
+    document["poses"] = [
+        _pose(each, blank=blank[number], usual=usual is not None)
+        for number, each in enumerate(stated["poses"])
+    ]
+    if usual is not None:
         document["tolerance"] = usual
-    if task.timing is not None:
-        meant = crank_data(document["poses"], task.timing)
-        document |= plain({**meant, "poses": document["poses"]})
-    if task.path is not None:
-        document["path"] = plain(path_data(task.path))
-    if task.body is not None:
-        document["body"] = plain(task.body.vertices.tolist())
-    if task.surroundings is not None:
-        around = task.surroundings
-        document["keep_out"] = [
-            ({"name": each.name} if each.name else {}) | _shape(each.polygon)
-            for each in around.keep_out
-        ]
-        document["surroundings"] = plain(
-            {
-                "link_width": around.link_width,
-                "margin": around.margin,
-                "body_in_plane": around.body_in_plane,
-            }
-        )
-    if task.limits:
-        document["limits"] = [_limits(each) for each in task.limits]
-    if task.requirements.has_any:
-        asked = requirements_data(task.requirements)
-        if task.requirements.footprint is not None:
-            asked["footprint"] = _shape(task.requirements.footprint)
-        document["requirements"] = plain(asked)
-    return _with_digits(document, task)
+    document |= {key: stated[key] for key in _BESIDE_POSES if key in stated}
+    for each in document.get("limits", ()):
+        if len(each["kinds"]) == len(KINDS):
+            del each["kinds"]
+    return _with_digits(dict(plain(_with_boxes(document))), task)
 
 
-def _poses(task: Task) -> list[dict[str, Any]]:
-    usual, blank = _usual_tolerance(task), _blank_angles(task)
-    stated = [] if task.tolerances is None else tolerances_data(task.tolerances)
-    poses = []
-    for number, (x, y) in enumerate(task.poses.translation.tolist()):
-        pose: dict[str, Any] = {"x": plain(x), "y": plain(y)}
-        if not blank[number]:
-            pose["angle"] = plain(degrees_of(float(task.poses.angle[number])))
-        if task.names is not None and task.names[number]:
-            pose["name"] = task.names[number]
-        if task.weights is not None and task.weights[number] != 1:
-            pose["weight"] = plain(float(task.weights[number]))
-        if task.exact is not None and task.exact[number]:
-            pose["exact"] = True
-        if stated:
-            own = stated[number]
-            pose |= plain(
-                {"free": own["free"]} if usual and "free" in own else {} if usual else own
-            )
-        poses.append(pose)
-    return poses
+_BESIDE_POSES = ("crank", "path", "body", "keep_out", "surroundings", "limits", "requirements")
+_NOT_STATED = {"name": "", "weight": 1, "exact": False}
+
+
+def _pose(stated: dict[str, Any], *, blank: bool, usual: bool) -> dict[str, Any]:
+    """A pose; blank: without its angle; usual: without its tolerance."""
+    pose = {"x": stated["x"], "y": stated["y"]}
+    if not blank:
+        pose["angle"] = stated["angle_deg"]
+    for key in (*_NOT_STATED, *(() if usual else ("tolerance",)), "free", "crank_deg"):
+        if key in stated and stated[key] != _NOT_STATED.get(key):
+            pose[key] = stated[key]
+    return pose
 
 
 def _blank_angles(task: Task) -> list[bool]:
@@ -217,21 +190,21 @@ def _usual_tolerance(task: Task) -> dict[str, Any] | None:
     return {"x": plain(x), "y": plain(y), "angle_deg": plain(angle)}
 
 
-def _limits(limits: Limits) -> dict[str, Any]:
-    data = limits_data(limits, _shape)
-    if len(data["kinds"]) == len(KINDS):
-        del data["kinds"]
-    return dict(plain(data))
-
-
-def _shape(region: Region) -> dict[str, Any]:
-    """A region by its shape; a polygon that is what a box makes is a box."""
-    if isinstance(region, Polygon):
-        ends = region.vertices.min(axis=0).tolist(), region.vertices.max(axis=0).tolist()
+def _with_boxes(tree: Any) -> Any:
+    """A tree whose polygons that a box makes are boxes."""
+    if isinstance(tree, list):
+        return [_with_boxes(each) for each in tree]
+    if not isinstance(tree, dict):
+        return tree
+    tree = {key: _with_boxes(each) for key, each in tree.items()}
+    if "polygon" in tree:
+        corners = np.array(tree["polygon"])
+        ends = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
         same = box(*ends)
-        if isinstance(same, Polygon) and np.array_equal(same.vertices, region.vertices):
-            return {"box": plain(list(ends))}
-    return dict(plain(region_data(region)))
+        if isinstance(same, Polygon) and np.array_equal(same.vertices, corners):
+            del tree["polygon"]
+            tree["box"] = list(ends)
+    return tree
 
 
 def _with_digits(document: dict[str, Any], task: Task) -> dict[str, Any]:

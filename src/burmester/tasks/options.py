@@ -5,22 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final, Literal, TypeAlias, final, get_args
+from typing import final
 
 import numpy as np
 
 from burmester.errors import InputError
 from burmester.tasks.motion_task import MOST
+from burmester.tasks.option_table import OPTIONS, Method, Norm, Preference
 from burmester.values import shown
 from burmester.wording import listed
 
 __all__ = ["Method", "Norm", "Preference", "SynthesisOptions"]
-
-Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
-Norm: TypeAlias = Literal["rms", "worst"]
-Preference: TypeAlias = Literal["transmission", "size", "accuracy"]
-
-_LENGTHS: Final = ("length_per_radian", "manufacturing_tolerance", "rounding_step")
 
 
 @final
@@ -82,26 +77,21 @@ class SynthesisOptions:
     nine_point_starts: bool = False
 
     def __post_init__(self) -> None:
-        _require_word("method", self.method, get_args(Method))
-        _require_word("norm", self.norm, get_args(Norm))
-        _require_word("prefer", self.prefer, get_args(Preference))
-        for name in ("normalise", "certify", "nine_point_starts"):
-            if not isinstance(getattr(self, name), bool | np.bool_):
-                raise InputError(
-                    "E134",
-                    f"{name} is {shown(getattr(self, name))}, neither True nor False",
-                    help=f"give {name}=True or {name}=False",
-                )
-        for name in _LENGTHS:
-            if (value := getattr(self, name)) is not None:
-                object.__setattr__(self, name, _length(name, value))
-        stock: Sequence[object] = self.stock_lengths
-        if isinstance(stock, str) or not np.iterable(stock):
-            stock = (stock,)
-        lengths = tuple(_length("stock_lengths", value) for value in stock)
-        object.__setattr__(self, "stock_lengths", lengths)
-        if self.time_limit is not None:
-            object.__setattr__(self, "time_limit", _seconds("time_limit", self.time_limit))
+        for each in OPTIONS:
+            value = getattr(self, each.name)
+            if each.form == "word":
+                _require_word(each.name, value, each.known)
+            elif each.form == "flag" and not isinstance(value, bool | np.bool_):
+                message = f"{each.name} is {shown(value)}, neither True nor False"
+                help = f"give {each.name}=True or {each.name}=False"
+                raise InputError("E134", message, help=help)
+            elif each.form == "lengths":
+                stock = (value,) if isinstance(value, str) or not np.iterable(value) else value
+                stock = tuple(_length(each.name, length) for length in stock)
+                object.__setattr__(self, each.name, stock)
+            elif each.form in ("length", "seconds") and value is not None:
+                checked = (_length if each.form == "length" else _seconds)(each.name, value)
+                object.__setattr__(self, each.name, checked)
 
     @property
     def refines(self) -> bool:

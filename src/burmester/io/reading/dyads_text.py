@@ -20,11 +20,12 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.io.reading.limits_text import (
+from burmester.io.reading.option_text import (
     ANY,
-    number_from_text,
+    numbers_from_text,
     option_fault,
     option_text,
+    positive_from_text,
 )
 from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
@@ -65,8 +66,10 @@ def dyads_from_options(
             "poses), or not at all",
         )
     for k, text in zip(links, lengths, strict=False):
-        length, link = _length(Source("--length", text)), dyads[k]
-        if length is not None and isinstance(link, OpenLink):
+        link = dyads[k]
+        if text.strip() != ANY and isinstance(link, OpenLink):
+            help = "give a length above zero, or any where it follows from the poses"
+            length = positive_from_text(Source("--length", text), text, help=help, code="E153")
             dyads[k] = RR(link.fixed_pivot, link.moving_pivot, np.asarray(length))
     return dyads[0], dyads[1]
 
@@ -140,17 +143,15 @@ def _dyad(source: Source) -> GivenDyad:
     parts = source.text.split(":")
     if len(parts) != 2:
         message = f"{shown(source.text)} is not what is on the ground and what is on the body"
-        raise option_fault(source, message, DYAD_HELP, code="E153", why=_why_parts(len(parts)))
+        found = "no colon" if len(parts) == 1 else f"{len(parts) - 1} colons"
+        why = f"it has {found}, and one stands between the two"
+        raise option_fault(source, message, DYAD_HELP, code="E153", why=why)
     ground, body = parts
     sliding = [part.strip().startswith(LINE) for part in parts]
     at = len(ground) + 1
     if all(sliding):
-        raise option_fault(
-            source,
-            "a dyad with two lines has no pivot",
-            "give a pivot on the ground or on the body",
-            code="E153",
-        )
+        help = "give a pivot on the ground or on the body"
+        raise option_fault(source, "a dyad with two lines has no pivot", help, code="E153")
     if sliding[0]:
         return PR(*_line(source, ground, 0), _point(source, body, at))
     fixed = _point(source, ground, 0)
@@ -159,61 +160,20 @@ def _dyad(source: Source) -> GivenDyad:
     return OpenLink(fixed, _point(source, body, at))
 
 
-def _why_parts(number: int) -> str:
-    found = "no colon" if number == 1 else f"{number - 1} colons"
-    return f"it has {found}, and one stands between the two"
-
-
 def _point(source: Source, text: str, at: int) -> FloatArray:
     """The point in a part of the text that begins at this place."""
-    return _numbers(source, text, at, 2, "a point X,Y")
+    return np.array(numbers_from_text(source, text, at, "a point X,Y", DYAD_HELP, code="E153"))
 
 
 def _line(source: Source, text: str, at: int) -> tuple[FloatArray, FloatArray]:
     """The line in a part of the text that begins at this place."""
     start = text.index(LINE) + len(LINE)
     what = "a direction and a point DEG,X,Y"
-    angle, x, y = _numbers(source, text[start:], at + start, 3, what).tolist()
+    angle, *point = numbers_from_text(
+        source, text[start:], at + start, what, DYAD_HELP, code="E153"
+    )
     if abs(angle) > 360:
         help = "give the direction of the line in degrees, from -180 to 180"
-        raise option_fault(
-            source,
-            f"a direction of {angle:g}° is more than a turn",
-            help,
-            at=at + start,
-            width=len(text[start:].partition(",")[0]),
-            code="E153",
-        )
-    return line_through(np.array([x, y]), angle)
-
-
-def _numbers(source: Source, text: str, at: int, number: int, what: str) -> FloatArray:
-    cells = text.split(",")
-    if len(cells) != number:
-        found = f"{count(len(cells), 'number')}, and {number} are needed"
-        why = f"it has {found if text.strip() else 'no number'}; a comma is no decimal mark"
-        raise option_fault(
-            source,
-            f"{shown(text)} is not {what}",
-            DYAD_HELP,
-            at=at,
-            width=len(text),
-            code="E153",
-            why=why,
-        )
-    values = []
-    for cell in cells:
-        values.append(number_from_text(source, cell, at, "E153"))
-        at += len(cell) + 1
-    return np.array(values)
-
-
-def _length(source: Source) -> float | None:
-    """The length in a text; None where it follows from the poses."""
-    if source.text.strip() == ANY:
-        return None
-    value = number_from_text(source, source.text, 0, "E153")
-    if not value > 0:
-        help = "give a length above zero, or any where it follows from the poses"
-        raise option_fault(source, f"a link of length {value:g}", help, code="E153")
-    return value
+        message = f"a direction of {angle:g}° is more than a turn"
+        raise option_fault(source, message, help, at=at + start, code="E153")
+    return line_through(np.array(point), angle)

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
-from burmester.io.reading.limits_text import number_from_text, option_text
+from burmester.io.reading.option_text import number_from_text, option_text
 from burmester.io.reading.pose_table import Source
 from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.tasks.surroundings import KeepOut, Surroundings

@@ -17,10 +17,11 @@ from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, bo
 from burmester.io.reading.stated_requirements import StatedRequirement, one_line
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Kind, Limits
+from burmester.tasks.option_table import LIMIT_OPTIONS
 from burmester.tasks.rails import Rail
 
 __all__ = [
-    "LIMIT_KEYS",
+    "LIMITS",
     "SHAPES",
     "TABLES",
     "TOP_KEYS",
@@ -41,12 +42,7 @@ TABLES = (
 )  # fmt: skip
 TOP_KEYS = ("poses", "angle_unit", "length_unit", *TABLES)
 
-# `limits`, and keys that may stand beside the poses by mistake, where they would limit nothing.
-LIMIT_KEYS = (
-    "limits", "limit", "exact", "fixed_pivot", "moving_pivot", "length", "kinds", "rail", "slot",
-)  # fmt: skip
-
-_FIELDS = ("fixed_pivot", "moving_pivot", "length", "kinds", "rail", "slot")
+LIMITS = tuple(each.name for each in LIMIT_OPTIONS)
 
 # What a dyad with a rail and one with a slot have none of, and their kinds.
 _LACKING: Mapping[str, tuple[str, ...]] = {
@@ -82,26 +78,22 @@ class Specification(NamedTuple):
 
     def merged(self, other: Specification) -> Specification:
         """Both together; raises E108 where they limit the same quantity."""
-        for name in _FIELDS:
+        for name in LIMITS:
             if getattr(self, name) and getattr(other, name):
-                what = name.replace("_", " ")
-                twice = {"kinds": "the kinds are given twice", "rail": "the rail is given twice"}
-                twice["slot"] = "the slot is given twice"
+                message = f"the {name.replace('_', ' ')} {'are' if name == 'kinds' else 'is'} given"
                 raise InputError(
                     "E108",
-                    twice.get(name, f"the {what} is limited twice"),
+                    f"{message} twice",
                     where=one_line(self.where.get(name, ""), other.where.get(name, "")),
                     help="leave one of the two out",
                 )
+        limits: dict[str, Any] = {
+            name: getattr(self, name) + getattr(other, name) for name in LIMITS
+        }
         return Specification(
-            self.fixed_pivot + other.fixed_pivot,
-            self.moving_pivot + other.moving_pivot,
-            self.length + other.length,
-            self.kinds + other.kinds,
-            self.rail + other.rail,
-            self.slot + other.slot,
-            {**self.where, **other.where},
-            self.requirements + other.requirements,
+            **limits,
+            where={**self.where, **other.where},
+            requirements=self.requirements + other.requirements,
         )
 
     def limits(self) -> tuple[Limits, ...]:
@@ -120,7 +112,7 @@ class Specification(NamedTuple):
     @property
     def locations(self) -> str:
         """The locations of the limits, and of the requirements that they may contradict."""
-        locations = [self.where.get(name, "") for name in _FIELDS if getattr(self, name)]
+        locations = [self.where.get(name, "") for name in LIMITS if getattr(self, name)]
         fields = ("types", "driver", "footprint")
         return one_line(*locations, *(r.where for r in self.requirements if r.field in fields))
 
@@ -130,7 +122,7 @@ class Specification(NamedTuple):
         other = self._lines(1 - dyad)
         lacking = {name for line in lines for name in _LACKING[line]}
         out: dict[str, Any] = {}
-        for name in _FIELDS:
+        for name in LIMITS:
             values: Sequence[Any] = getattr(self, name)
             if not values or name in _LACKING:
                 continue

@@ -14,7 +14,6 @@ from burmester.tasks.requirements import Requirements
 
 __all__ = [
     "FILE_KEYS",
-    "REQUIREMENT_KEYS",
     "StatedRequirement",
     "checked_requirement",
     "combined_requirements",
@@ -23,9 +22,6 @@ __all__ = [
 ]
 
 FILE_KEYS = tuple(each.name for each in ASKED)  # under `requirements` in a file
-
-# `requirements`, and keys that may stand beside the poses by mistake, where they require nothing.
-REQUIREMENT_KEYS = ("requirements", "requirement", *FILE_KEYS)
 
 
 class StatedRequirement(NamedTuple):

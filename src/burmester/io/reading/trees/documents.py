@@ -6,30 +6,43 @@
 
 from __future__ import annotations
 
-import functools
 import json
 import re
 from collections.abc import Callable
 from decimal import Decimal, InvalidOperation
-from typing import Any
+from functools import partial
+from typing import Any, Final
 
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import PoseTable, Source, held_float, shown
-from burmester.io.reading.trees.locations import LONG, SHORT, UNCLOSED, Document, duplicate_key
+from burmester.io.reading.trees.locations import Document, duplicate_key
 
-__all__ = ["read_json", "read_toml"]
+__all__ = ["json_tree", "read_json", "read_toml", "toml_tree"]
 
-MAX_KEYS = 1000  # keys of a table, and tables: no task has as many
-MAX_KEY_PARTS = 100  # parts of a dotted TOML key; the parsing time grows as their square
-_PART = rf"(?:[\w-]++|{SHORT})"
-_HEAD_OR_KEY = re.compile(  # the lines of TOML in which tables and keys begin
-    r"^[ \t]*(?:(\[\[?[^][,\n]*\]\]?)[ \t]*(?:#|$)|[\w\"'.-][^=\n]*=)", re.MULTILINE
-)
-_KEYS = re.compile(rf"{LONG}|#[^\n]*+|({_PART}(?:[ \t]*\.[ \t]*{_PART})*)|{UNCLOSED}")
+# A dotted key of TOML with so many parts takes the parser seconds: the square of their number.
+_LONG_KEY: Final = re.compile(r"(?:[\w\"'-]{1,99}[ \t]*\.[ \t]*){100}")
 
 
 def read_json(source: Source) -> PoseTable:
     """A list of poses, an object with "poses", or what `--json` prints; raises E103 to E110."""
+    from burmester.io.reading.trees.pose_tree import read_tree
+
+    return read_tree(*json_tree(source), '{"angle_unit": "deg", "poses": [[0.5, 2, 30], ...]}')
+
+
+def read_toml(source: Source, others: tuple[str, ...] = ()) -> PoseTable:
+    """`poses = [[x, y, angle], ...]` or tables `[[poses]]`; raises E103 to E110.
+
+    others: names of further tables, which are not looked at.
+    """
+    from burmester.io.reading.trees.pose_tree import read_tree
+
+    example = 'angle_unit = "deg" above poses = [[0.5, 2, 30], ...]'
+    return read_tree(*toml_tree(source, others), example)
+
+
+def json_tree(source: Source) -> tuple[Any, Document]:
+    """The tree in a text in JSON, its numbers as Decimal; raises E103, E108 and E109."""
 
     def refuse(constant: str) -> Any:
         tokens = re.finditer(r'"[^"\\]*(?:\\.[^"\\]*)*"|-?Infinity|NaN', source.text)
@@ -38,95 +51,36 @@ def read_json(source: Source) -> PoseTable:
         raise InputError("E103", f"{constant} is not a finite number", where=where, help=help)
 
     def distinct_keys(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        if len(pairs) > MAX_KEYS:
-            raise _many_keys(source.label)
         tree = dict(pairs)
         if len(tree) < len(pairs):
-            raise _twice(source, pairs)
+            raise _twice(source, [key for key, _ in pairs])
         return tree
 
-    parse = functools.partial(
+    parse = partial(
         json.loads,
-        parse_float=functools.partial(_exact, source),
-        parse_int=functools.partial(_exact, source),
+        parse_float=partial(_exact, source),
+        parse_int=partial(_exact, source),
         parse_constant=refuse,
         object_pairs_hook=distinct_keys,
     )
-    tree = _tree(Document(source, "JSON"), parse)
-    from burmester.io.reading.trees.pose_tree import read_tree
-
-    example = '{"angle_unit": "deg", "poses": [[0.5, 2, 30], ...]}'
-    return read_tree(tree, Document(source, "JSON"), example)
+    document = Document(source, "JSON")
+    return _tree(document, parse), document
 
 
-def read_toml(source: Source, others: tuple[str, ...] = ()) -> PoseTable:
-    """`poses = [[x, y, angle], ...]` or tables `[[poses]]`; raises E103 to E110.
-
-    others: names of further tables, which are not looked at.
-    """
+def toml_tree(source: Source, others: tuple[str, ...] = ()) -> tuple[Any, Document]:
+    """The tree in a text in TOML, its numbers as Decimal or int; raises E103 and E109."""
     import tomllib
 
+    if found := _LONG_KEY.search(source.text):
+        where, why = source.where(found.start(), 1), "a task needs no more than three"
+        help = "delete the parts that are not needed, with their dots"
+        message = "a key has more than 100 parts, with dots between them"
+        raise InputError("E109", message, where=where, why=why, help=help)
     document = Document(source, "TOML", others=others)
-    _require_few_keys(source)
-    _require_short_keys(source)
-    tree = _tree(
-        document, functools.partial(tomllib.loads, parse_float=functools.partial(_exact, source))
-    )
-    _require_narrow(tree, source.label)
-    from burmester.io.reading.trees.pose_tree import read_tree
-
-    return read_tree(tree, document, 'angle_unit = "deg" above poses = [[0.5, 2, 30], ...]')
-
-
-def _require_few_keys(source: Source) -> None:
-    """Refuse more keys and tables than a task has, before the parser takes seconds: E107."""
-    if source.text.count("=") + source.text.count("[") <= MAX_KEYS:
-        return
-    heads: set[str] = set()
-    keys = 0
-    for found in _HEAD_OR_KEY.finditer(source.text):
-        keys = 0 if found[1] else keys + 1
-        if found[1]:
-            heads.add(found[1])
-        if max(keys, len(heads)) > MAX_KEYS:
-            raise _many_keys(source.where(found.start()))
-
-
-def _require_narrow(tree: Any, label: str) -> None:
-    """The same of a tree, for tables that are written in one line."""
-    stack = [tree]
-    while stack:
-        each = stack.pop()
-        if isinstance(each, dict):
-            if len(each) > MAX_KEYS:
-                raise _many_keys(label)
-            stack += each.values()
-        elif isinstance(each, list):
-            stack += each
-
-
-def _many_keys(where: str) -> InputError:
-    message, why = "there are too many keys", f"a task has no table of more than {MAX_KEYS}"
-    return InputError("E107", message, where=where, why=why, help="delete those that are none")
-
-
-def _require_short_keys(source: Source) -> None:
-    """Refuse keys with more parts than the parser handles in seconds: E109."""
-    if all(line.count(".") < MAX_KEY_PARTS for line in source.text.split("\n")):
-        return
-    for found in _KEYS.finditer(source.text):
-        if found[1] and found[1].count(".") >= MAX_KEY_PARTS:
-            count = len(re.findall(_PART, found[1]))
-            if count > MAX_KEY_PARTS:
-                where = source.where(found.start(), len(found[1]))
-                why = f"at most {MAX_KEY_PARTS} are read, and a task needs no more than three"
-                help = "delete the parts that are not needed, with their dots"
-                message = f"a key has {count} parts, with dots between them"
-                raise InputError("E109", message, where=where, why=why, help=help)
+    return _tree(document, partial(tomllib.loads, parse_float=partial(_exact, source))), document
 
 
 def _tree(document: Document, parse: Callable[[str], Any]) -> Any:
-    """The tree that a parser makes of a text, or E109."""
     source, language = document.source, document.language
     at: int | None = None
     report = ""
@@ -143,30 +97,16 @@ def _tree(document: Document, parse: Callable[[str], Any]) -> Any:
             before = source.text.split("\n")[: int(found[1]) - 1]
             at = sum(len(line) + 1 for line in before) + int(found[2]) - 1
         elif not position:  # an integer of more digits than Python reads, in TOML
-            raise _too_long(source) from None
+            digits = re.search(r'(?<![\w"])[-+]?[0-9][0-9_]{4300,}(?![\w"])', source.text)
+            start, end = digits.span() if digits else (0, 1)
+            message = f"a number of {end - start} digits is not a finite number"
+            where, help = source.where(start, end - start), "give a number, or delete the pose"
+            raise InputError("E103", message, where=where, help=help) from None
     from burmester.io.reading.trees.syntax_faults import syntax_fault
 
     fault = syntax_fault(language, source.text, at, report)
-    raise InputError(
-        "E109",
-        f"this is not {language}",
-        where=source.where(fault.start, fault.width),
-        why=fault.why,
-        help=fault.help,
-    )
-
-
-def _too_long(source: Source) -> InputError:
-    """E103, for an integer of more digits than are read."""
-    from burmester.io.reading.trees.syntax_faults import long_integer
-
-    start, end = long_integer(source.text) or (0, 1)
-    message = f"a number of {end - start} digits is not a finite number"
-    why = (
-        f"{source.text[start : start + 10]}... is beyond 1.8e308, the largest representable number"
-    )
-    help = "give a number, or delete the pose"
-    return InputError("E103", message, where=source.where(start, end - start), why=why, help=help)
+    where = source.where(fault.start, fault.width)
+    raise InputError("E109", f"this is not {language}", where=where, why=fault.why, help=fault.help)
 
 
 def _exact(source: Source, number: str) -> Decimal:
@@ -183,10 +123,9 @@ def _exact(source: Source, number: str) -> Decimal:
         return Decimal(float(number))
 
 
-def _twice(source: Source, pairs: list[tuple[str, Any]]) -> InputError:
+def _twice(source: Source, keys: list[str]) -> InputError:
     """E108, for an object of JSON in which a key stands twice."""
-    known: set[str] = set()
-    key = next(key for key, _ in pairs if key in known or known.add(key))  # type: ignore[func-returns-value]
+    key = next(key for k, key in enumerate(keys) if key in keys[:k])
     where, why = None, None
     if found := duplicate_key(source.text):
         (first, _), (start, end) = found

@@ -12,21 +12,17 @@ from collections.abc import Iterable, Iterator
 from typing import Literal, NamedTuple, TypeAlias
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import Source, shown
+from burmester.io.reading.pose_table import NUMERIC, Source, shown
 
 __all__ = [
     "LONG",
     "SHORT",
-    "STRING",
-    "UNCLOSED",
     "Document",
     "Language",
     "Path",
     "close_match",
-    "deepest_bracket",
     "dotted",
     "duplicate_key",
-    "last_statement",
     "span_of",
 ]
 
@@ -41,11 +37,7 @@ LONG = (  # up to two quotes may stand before those that end it
 )
 SHORT = r'"[^"\\\n]*(?:\\.[^"\\\n]*)*"|' r"'[^'\n]*'"
 STRING = f"{LONG}|{SHORT}"
-# texts without an end: gone through once, as it would take the square of their length to try
-# each of their quotes
-UNCLOSED = r'"{3}[^"\\]*(?:(?:\\[\s\S]|"{1,2}(?!"))[^"\\]*)*|' + r"'{3}[^']*(?:'{1,2}(?!')[^']*)*|"
-UNCLOSED += r'"[^"\\\n]*(?:\\.[^"\\\n]*)*|' + r"'[^'\n]*"
-_TOKEN = re.compile(rf"{STRING}|{UNCLOSED}|#[^\n]*|[\[\]{{}}]")
+_TOKEN = re.compile(rf"{STRING}|#[^\n]*|[\[\]{{}}]")
 _BLANK = re.compile(r"(?:\s|#[^\n]*)*")
 _SCALAR = re.compile(rf"{STRING}|[^\s,\]}}#][^,\]}}#\n]*+")
 _KEY = re.compile(rf"{STRING}|[\w-]++")
@@ -85,10 +77,6 @@ class Document(NamedTuple):
         if not piece or not piece.isprintable():
             return shown(value)
         return piece if len(piece) <= 40 else f"{piece[:37]}..."
-
-    def is_key(self, text: object, *path: str | int) -> bool:
-        """Whether a faulty text is a key in the table at a path, and not the value there."""
-        return isinstance(text, str) and self.shown(None, *path)[:1] in ("{", "[")
 
     def again(self, error: InputError, *path: str | int) -> InputError:
         """An error that knows nothing of files, with the path and the place of its cause."""
@@ -186,6 +174,8 @@ def _inside(text: str, at: int, path: Path, key: bool) -> tuple[int, int] | None
     while path:
         step, span, implied = path[0], None, None
         opening, at = text[at], _blank(text, at + 1)
+        if opening == "[" and step in NUMERIC:  # a pose in brackets
+            step = NUMERIC.index(str(step))
         if opening not in "[{" or (opening == "[") != isinstance(step, int):
             return None
         index = 0
@@ -279,28 +269,3 @@ def duplicate_key(text: str) -> tuple[tuple[int, int], tuple[int, int]] | None:
                 twice[-1] = twice[-1] or (objects[-1][word], span)
             objects[-1].setdefault(word, span)
     return None
-
-
-def last_statement(text: str, end: int) -> tuple[int, int] | None:
-    """The key or head of the last statement of a TOML text, valid so far, that begins above."""
-    span = None
-    try:
-        for parts, own, value in _statements(text):
-            start = parts[own][1] if value is not None else text.rfind("[", 0, parts[-1][1] + 1)
-            if start >= end:
-                break
-            names = [part for part in parts[own:] if isinstance(part[0], str)]
-            span = names[0][1], names[-1][2]
-    except (AttributeError, IndexError, ValueError):
-        pass
-    return span
-
-
-def deepest_bracket(text: str) -> tuple[int, int]:
-    """The depth of the deepest bracket of a text that need not be valid, and its place."""
-    depth, found = 0, (0, 0)
-    for token in _TOKEN.finditer(text):
-        depth += {"[": 1, "{": 1, "]": -1, "}": -1}.get(token[0], 0)
-        if depth > found[0]:
-            found = depth, token.start()
-    return found

@@ -1,4 +1,4 @@
-"""Poses in the tree of a JSON or TOML file, and the keys beside them.
+"""A task in the tree of a JSON or TOML file: its poses, and the keys beside them.
 
 At the top of a task other keys may stand (title, author, notes ...) and are not looked at, unless
 they are known ones misspelt, belong elsewhere, or are tables of TOML.
@@ -7,41 +7,70 @@ they are known ones misspelt, belong elsewhere, or are tables of TOML.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from decimal import Decimal
-from typing import Any
+from collections.abc import Callable, Sequence
+from functools import partial
+from typing import Any, Final
 
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import POINTS, CrankOptions, PoseTable, Rows
-from burmester.io.reading.specification import LIMIT_KEYS, TABLES, TOP_KEYS, Specification
-from burmester.io.reading.stated_requirements import REQUIREMENT_KEYS
+from burmester.io.reading.pose_table import NUMERIC, POINTS, CrankOptions, PoseTable, Rows
+from burmester.io.reading.specification import LIMITS, TABLES, TOP_KEYS, Specification
+from burmester.io.reading.stated_requirements import FILE_KEYS
 from burmester.io.reading.stated_surroundings import StatedSurroundings
-from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES, DefaultTolerance
+from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
 from burmester.io.reading.trees.locations import Document, close_match
-from burmester.io.reading.trees.path_tree import read_crank, read_path
-from burmester.io.reading.trees.plain_poses import POINT_KEYS, XY_ANGLE_KEYS, plain_poses
+from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.io.reading.trees.tolerance_tree import (
+    ANGLE_KEYS,
+    FREE,
+    TOLERANCE,
+    bounds_of,
+    read_tolerance,
+)
 from burmester.tasks.pose_tolerances import COMPONENTS
+from burmester.tasks.traced_path import TracedPath
 from burmester.wording import listed
 
 __all__ = ["read_tree"]
 
-_ANGLE_KEYS = {"angle": None, "angle_deg": "deg", "angle_rad": "rad"}
-_TRACKED_KEYS = frozenset({*POINT_KEYS, *POINTS})
+Pose = dict[str, Any]  # what a pose states, numbers as printed
 
-_MISPLACED = {  # keys that may stand beside the poses by mistake: the help
+POINT_KEYS: Final = {"p": ("px", "py"), "q": ("qx", "qy")}
+_NUMBER: Final = Field(Node.digits)
+_COMMON: Final[Fields] = {
+    "weight": _NUMBER,
+    "exact": Field(Node.flag, "write true or false"),
+    "name": Field(Node.text, "write a text in quotes"),
+    "tolerance": TOLERANCE,
+    "free": FREE,
+    "crank_deg": _NUMBER,
+    "crank_rad": _NUMBER,
+}
+_POINT: Final = Field(lambda node: [each.digits() for each in node.items(2, 2)])
+_XY_ANGLE: Final[Fields] = dict.fromkeys(("x", "y", *ANGLE_KEYS), _NUMBER)
+_POINTS: Final[Fields] = dict.fromkeys(POINTS, _NUMBER) | dict.fromkeys(POINT_KEYS, _POINT)
+_ALSO = "weight, exact, name, tolerance and free"
+_XY_ANGLE_HELP = f"a pose has x, y, angle_deg or angle_rad (or angle, with angle_unit), {_ALSO}"
+_POINTS_HELP = f"a pose has px, py, qx and qy (or p and q with two numbers each), {_ALSO}"
+
+_UNDER_LIMITS, _UNDER_REQUIREMENTS = "write it under limits", "write it under requirements"
+_MISPLACED: Final = {  # keys that may stand beside the poses by mistake: the help
+    **dict.fromkeys(LIMITS, _UNDER_LIMITS),
+    **dict.fromkeys(FILE_KEYS, _UNDER_REQUIREMENTS),
+    "limit": "write limits in its place",
+    "requirement": "write requirements in its place",
+    "exact": "write it into a pose",
     **dict.fromkeys(("weight", "weights"), "write each weight into its pose, as weight"),
-    **dict.fromkeys(("names",), "write each name into its pose, as name"),
+    "names": "write each name into its pose, as name",
     **dict.fromkeys(
-        ("x", "y", "angle", "angles", "angle_deg", "angle_rad", *POINT_KEYS, *POINTS),
-        "write the numbers into the poses, one by one",
+        ("angles", *_XY_ANGLE, *_POINTS), "write the numbers into the poses, one by one"
     ),
     **dict.fromkeys(("unit", "units"), "write angle_unit for angles, length_unit for lengths"),
-    **dict.fromkeys(("free",), 'write it into the poses, or tolerance = { angle = "free" } here'),
+    "free": 'write it into the poses, or tolerance = { angle = "free" } here',
     **dict.fromkeys(("tolerances", "tol"), "write tolerance"),
     **dict.fromkeys(("crank_deg", "crank_rad"), "write the crank angle of each pose into it"),
-    **dict.fromkeys(("sigma",), "write pose_sigma with position and angle_deg"),
+    "sigma": "write pose_sigma with position and angle_deg",
     **dict.fromkeys(
         ("link_width", "margin", "body_in_plane"), "write it into the table surroundings"
     ),
@@ -57,287 +86,322 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         tree, document = {"poses": tree}, document._replace(bare=True)
     elif isinstance(tree, dict) and "poses" not in tree and isinstance(tree.get("task"), dict):
         tree, document = tree["task"], document._replace(root=("task",))
-    specification = _specification(tree, document) if isinstance(tree, dict) else Specification()
-    tracked = _tracked(document, tree)
-    whole, poses = plain_poses(tree) or _validated(document, tree, example, tracked)
-    unit: str | None = None
-    if tracked:
-        columns, where = _points(document, poses), ""
-    else:
-        angles, unit = _angles(document, whole, poses)
-        columns = {axis: [_written(getattr(pose, axis)) for pose in poses] for axis in ("x", "y")}
-        columns["angle"] = [_written(angle) for angle in angles]
-        where = _where_unit(document, whole, poses)
-    if any(pose.weight is not None for pose in poses):  # a pose without one counts once
-        columns["weight"] = ["1" if pose.weight is None else str(pose.weight) for pose in poses]
-    numeric = list(columns)
-    if any(pose.name is not None for pose in poses):
-        columns["name"] = [pose.name or "" for pose in poses]
-    if any(pose.exact for pose in poses):
-        columns["exact"] = ["x" if pose.exact else "" for pose in poses]
-    columns |= _tolerances(document, poses, unit)
-    crank, crank_unit = _crank(document, poses)
-    columns |= crank
-    rows = Rows.read(columns)
-    for i, j in np.argwhere(~np.isfinite(rows.values)):  # 1e400 is a finite Decimal
-        if columns[numeric[j]][i] == "nan":  # it is free
-            continue
-        number = columns[numeric[j]][i]
-        from burmester.io.reading.trees.pose_model import pose_fault
+    whole = Node(document, (), tree, f"write {example}")
+    if not isinstance(tree, dict):
+        raise whole.fault("E104", f"does not fit: {whole.shown}")
+    _require_known(whole)
+    top = {key: whole.at(key) for key in TOP_KEYS if tree.get(key) is not None}
 
-        fault = {"type": "finite_number", "loc": ("poses", int(i), numeric[j]), "input": number}
-        raise pose_fault(document, tree, example, tracked, fault)
+    def read(key: str, reader: Callable[[Node], Any], default: Any = None) -> Any:
+        return reader(top[key]) if key in top else default
+
+    specification = Specification()
+    if "limits" in top:
+        from burmester.io.reading.trees.limits_tree import read_limits
+
+        specification = read_limits(top["limits"])
+    if "requirements" in top:
+        from burmester.io.reading.trees.requirements_tree import read_requirements
+
+        requirements = read_requirements(top["requirements"])
+        specification = specification._replace(requirements=requirements)
+    if "poses" not in top:
+        raise whole.missing("poses")
+    stated_unit = read("angle_unit", _angle_unit)
+    rows, unit, crank_unit, where = _rows(top["poses"], stated_unit)
+    length_unit = read("length_unit", Node.text) or None
+    body, surroundings, drawn = None, StatedSurroundings(), document.source.notes
+    if not {"body", "keep_out", "surroundings"}.isdisjoint(top):
+        from burmester.io.reading.trees.surroundings_tree import read_body, read_surroundings
+
+        body, notes = read("body", lambda node: read_body(node, length_unit), (None, ()))
+        surroundings, others = read_surroundings(
+            top.get("keep_out"), top.get("surroundings"), length_unit
+        )
+        drawn += notes + others
 
     def locate_row(row: int | None) -> str:
         if row is None:
             return document.where("poses", key=True)
         return document.where("poses", row)
 
-    given = whole.pose_sigma
-    body, surroundings, drawn = None, StatedSurroundings(), document.source.notes
-    length_unit = whole.length_unit or None
-    if tree.get("body") is not None:
-        from burmester.io.reading.trees.body_tree import read_body
-
-        body, notes = read_body(tree, document, length_unit)
-        drawn += notes
-    if not {"keep_out", "surroundings"}.isdisjoint(tree):
-        from burmester.io.reading.trees.surroundings_tree import read_surroundings
-
-        surroundings, notes = read_surroundings(tree, document, length_unit)
-        drawn += notes
     return PoseTable(
         rows,
         length_unit=length_unit,
         angle_unit=unit,
         where=where,
-        say_unit=f"write {example}",
+        say_unit=whole.help,
         specification=specification,
         body=body,
         surroundings=surroundings,
-        tolerance=_default_tolerance(tree, document, unit),
-        pose_sigma=given and (given.position, math.radians(given.angle_deg)),
+        tolerance=read("tolerance", lambda node: read_tolerance(node, unit)),
+        pose_sigma=read("pose_sigma", _pose_sigma),
         locate_row=locate_row,
         notes=drawn,
-        path=read_path(tree, document) if tree.get("path") is not None else None,
+        path=read("path", _path),
         crank_unit=crank_unit,
-        crank=read_crank(tree, document) if tree.get("crank") is not None else CrankOptions(),
+        crank=read("crank", _crank, CrankOptions()),
     )
 
 
-def _validated(
-    document: Document, tree: Any, example: str, tracked: bool
-) -> tuple[Any, Sequence[Any]]:
-    """What stands beside the poses, and the poses, whatever they state; raises E103 to E110."""
-    from burmester.io.reading.trees.pose_model import validated
+def _require_known(whole: Node) -> None:
+    """Refuse what stands beside the poses and is misspelt, or belongs elsewhere."""
+    for key, value in whole.value.items():
+        if key in (*TOP_KEYS, *whole.document.others):
+            continue
+        inside = value if isinstance(value, list) else []
+        message = "is not known"
+        if key in _MISPLACED:
+            message = "stands beside the poses, where it has no effect"
+            help = f"{_MISPLACED[key]}, or delete it"
+        elif near := close_match(key, TOP_KEYS):
+            help = f"write {near} in its place"
+        elif whole.document.language == "TOML" and dict in map(type, (value, *inside)):
+            named, where = whole.document.named(key), whole.document.where(key, key=True)
+            help = f"delete it; the tables of a task are {listed(TABLES)}"
+            if near := close_match(key, TABLES, 0.5):
+                help = f"write {near} if that is meant, or delete it; tables are {listed(TABLES)}"
+            raise InputError("E107", f"the table {named} is not known", where=where, help=help)
+        else:
+            continue
+        raise whole.at(key).fault("E107", message, help, key=True)
 
-    return validated(document, tree, example, tracked)
+
+def _angle_unit(node: Node) -> str:
+    if node.value not in ("deg", "rad"):
+        message = f"is {node.shown}, not an angle unit"
+        raise node.fault("E110", message, 'write "deg" or "rad"')
+    return str(node.value)
 
 
-def _written(number: Decimal | None) -> str:
-    """A number as text; nan for a component that is free and has none."""
-    return "nan" if number is None else str(number)
+def _pose_sigma(node: Node) -> tuple[float, float]:
+    """Standard deviations of positions and of angles, in radians; raises E103 to E107."""
+    node = node._replace(help="give pose_sigma both, position and angle_deg, with 0 or more")
+    given = node.table(dict.fromkeys(("position", "angle_deg"), Field(Node.number)))
+    for key in ("position", "angle_deg"):
+        if key not in given:
+            raise node.missing(key)
+        if given[key] < 0:
+            raise node.at(key).fault("E104", "is below zero")
+    return given["position"], math.radians(given["angle_deg"])
 
 
-def _tolerances(document: Document, poses: Sequence[Any], unit: str | None) -> dict[str, list[str]]:
+def _path(node: Node) -> TracedPath:
+    """How points are traced; raises E186."""
+    help = "write path = { closed = true }, or path = { crank_deg = [0, 20, 40, ...] } in TOML"
+    angles = Field(lambda node: np.radians([each.number() for each in node.items()]))
+    given = _table_186(node._replace(help=help), {"closed": Field(Node.flag), "crank_deg": angles})
+    return node.made(TracedPath, given.get("closed", False), given.get("crank_deg"))
+
+
+def _crank(node: Node) -> CrankOptions:
+    """How the crank angles of poses are meant; raises E186."""
+    help = "write crank = { absolute = true, within_deg = 0.5 }, or one of the two"
+    node = node._replace(help=help)
+    fields = {"absolute": Field(Node.flag), "within_deg": Field(Node.number)}
+    given = _table_186(node, fields)
+    within = given.get("within_deg")
+    if within is not None and within <= 0:
+        raise node.at("within_deg").fault("E186", "is no angle above zero")
+    return CrankOptions(given.get("absolute", False), within and math.radians(within))
+
+
+def _table_186(node: Node, fields: Fields) -> dict[str, Any]:
+    try:
+        return node.table(fields)
+    except InputError as error:
+        error.code = "E186"
+        raise
+
+
+# --- poses
+
+
+def _rows(poses: Node, stated_unit: str | None) -> tuple[Rows, str | None, str | None, str]:
+    """The rows, the units of their angles and of the crank's, and where the former is stated."""
+    nodes = poses.items()
+    tracked, unit = _tracked(nodes), None
+    fields, help = (_POINTS, _POINTS_HELP) if tracked else (_XY_ANGLE, _XY_ANGLE_HELP)
+    read = partial(_pose, fields=_COMMON | fields)
+    stated = [read(node._replace(help=help)) for node in nodes]
+    columns: dict[str, list[str]]
+    if tracked:
+        columns, where = _points(nodes, stated), ""
+    else:
+        columns = {axis: [pose.get(axis, "nan") for pose in stated] for axis in ("x", "y")}
+        columns["angle"], unit = _angles(nodes, stated, stated_unit)
+        where = _where_unit(poses, stated, stated_unit)
+    if any("weight" in pose for pose in stated):  # a pose without one counts once
+        columns["weight"] = [pose.get("weight", "1") for pose in stated]
+    if any("name" in pose for pose in stated):
+        columns["name"] = [pose.get("name", "") for pose in stated]
+    if any(pose.get("exact") for pose in stated):
+        columns["exact"] = ["x" if pose.get("exact") else "" for pose in stated]
+    columns |= _tolerances(nodes, stated, unit)
+    crank, crank_unit = _crank_column(nodes, stated)
+    return Rows.read(columns | crank), unit, crank_unit, where
+
+
+def _pose(node: Node, fields: Fields) -> Pose:
+    """What a pose states, with x and y or as much as is not free; raises E103 to E107."""
+    if isinstance(node.value, list):
+        if (count := len(node.value)) != 3:
+            help = "write [x, y, angle], with a point for the decimal mark of a number"
+            why = "a comma separates the numbers and is no decimal mark" if count > 3 else None
+            message = f"has {count} number{'s' * (count != 1)}, not 3"
+            raise node.fault("E106", message, help, why=why)
+        node = node._replace(value=dict(zip(NUMERIC, node.value, strict=False)))
+    given = node.table(fields)
+    for key in ("x", "y") if "x" in fields else ():
+        if key not in given and key not in _free(given):
+            if key in node.value:
+                node.at(key).number()  # null is none
+            help = f"write it into the pose; {node.help}. "
+            help += f'A component that is free is named by free = ["{key}"]'
+            raise node.missing(key, help)
+    return given
+
+
+def _free(pose: Pose) -> set[str]:
+    """The components that `free` names, or whose tolerance says so."""
+    bounds = zip(COMPONENTS, bounds_of(pose.get("tolerance", {}), None), strict=True)
+    return {*pose.get("free", ()), *(each for each, bound in bounds if math.isinf(bound))}
+
+
+def _tracked(nodes: Sequence[Node]) -> bool:
+    """Whether the poses are two points each; raises E108 where some are and some are not."""
+    first: tuple[bool, int] | None = None
+    why = "a pose is given by x, y and an angle, or by two points p and q of the body"
+    help = "give all poses in one way"
+    for i, node in enumerate(nodes):
+        keys = node.value if isinstance(node.value, dict) else ()
+        of_points, of_angle = (
+            [key for key in fields if key in keys] for fields in (_POINTS, _XY_ANGLE)
+        )
+        message, at, key = "", node.path, False
+        if of_points and of_angle:
+            message = f"pose {i + 1} has {of_points[0]} and {of_angle[0]}"
+            at, key = (*node.path, of_angle[0]), True
+        elif of_points or of_angle or (isinstance(node.value, list) and len(node.value) == 3):
+            first = first or (bool(of_points), i)
+            if first[0] != bool(of_points):
+                forms = ("x, y and an angle", "two points")
+                message = f"pose {first[1] + 1} is {forms[first[0]]}, pose {i + 1} is "
+                message += forms[not first[0]]
+        if message:
+            where = node.document.where(*at, key=key)
+            raise InputError("E108", message, where=where, why=why, help=help)
+    return first is not None and first[0]
+
+
+def _points(nodes: Sequence[Node], poses: Sequence[Pose]) -> dict[str, list[str]]:
+    """The columns px, py, qx and qy; raises E105 and E108 where a point is not given once."""
+    columns: dict[str, list[str]] = {role: [] for role in POINTS}
+    for i, (node, pose) in enumerate(zip(nodes, poses, strict=True)):
+        for point, roles in POINT_KEYS.items():
+            given = [role for role in roles if role in pose]
+            if point in pose and given:
+                where = node.document.where(*node.path, given[0], key=True)
+                message, help = f"pose {i + 1} has {point} and {given[0]}", f"delete {given[0]}"
+                raise InputError("E108", message, where=where, help=f"{help}, or {point}")
+            if point not in pose and len(given) < 2:
+                lacking = next((role for role in roles if given and role not in given), point)
+                help = f"give {roles[0]} and {roles[1]}, or {point} with two numbers in brackets"
+                raise node.missing(lacking, help)
+            pair = pose.get(point) or [pose[role] for role in roles]
+            for role, value in zip(roles, pair, strict=True):
+                columns[role].append(value)
+    return columns
+
+
+def _where_unit(poses: Node, stated: Sequence[Pose], unit: str | None) -> str:
+    """Where the angles' unit is stated, or should be."""
+    if unit:
+        return poses.document.where("angle_unit")
+    for key in ("angle_deg", "angle_rad"):
+        if stated and key in stated[0]:
+            return poses.document.where("poses", 0, key, key=True)
+    return poses.document.where("poses", key=True)
+
+
+def _angles(
+    nodes: Sequence[Node], poses: Sequence[Pose], stated: str | None
+) -> tuple[list[str], str | None]:
+    """The angles and their unit, if every pose has one angle and all are in one unit.
+
+    nan for an angle that is free.
+    """
+    units = {stated} - {None}
+    angles: list[str] = []
+    for i, (node, pose) in enumerate(zip(nodes, poses, strict=True)):
+        given = [key for key in ANGLE_KEYS if key in pose]
+        if not given and "angle" in _free(pose):
+            angles.append("nan")
+            continue
+        if len(given) != 1:
+            message = f"pose {i + 1} has {' and '.join(given) or 'no angle'}"
+            help = "give every pose one angle, as angle_deg or as angle_rad"
+            if given:
+                where = node.document.where(*node.path, given[1], key=True)
+                raise InputError("E108", message, where=where, help=help)
+            help += ', or free = ["angle"] where it does not count'
+            raise InputError("E105", message, where=node.place, help=help)
+        angles.append(pose[given[0]])
+        units.add(ANGLE_KEYS[given[0]] or stated)
+        if len(units) > 1:
+            why = None
+            if stated:
+                why = f'angle_unit is "{stated}", pose {i + 1} has {given[0]}'
+            elif i:
+                why = f"pose {i + 1} has {given[0]}, the pose before has not"
+            where = node.place
+            if ANGLE_KEYS[given[0]]:
+                where = node.document.where(*node.path, given[0], key=True)
+            message = "the angles are stated in different units"
+            help = "state one unit: angle_deg in every pose, or angle_rad in every pose"
+            raise InputError("E110", message, where=where, why=why, help=help)
+    return angles, next(iter(units), None)
+
+
+def _tolerances(
+    nodes: Sequence[Node], poses: Sequence[Pose], unit: str | None
+) -> dict[str, list[str]]:
     """The columns of what the poses state of their tolerances; none where no pose does."""
-    if all(pose.tolerance is None and pose.free is None for pose in poses):
+    if not any("tolerance" in pose or "free" in pose for pose in poses):
         return {}
     columns: dict[str, list[str]] = {"free": [], "tol_axes": []}
-    for i, pose in enumerate(poses):
-        free, path = pose.free_components(), ("poses", i, "tolerance")
-        columns["free"].append(" ".join(free))
-        columns["tol_axes"].append((pose.tolerance and pose.tolerance.axes) or "")
-        bounds = (math.nan,) * 3
-        if pose.tolerance is not None:
-            pose.tolerance.require_one_angle(document, *path)
-            bounds = pose.tolerance.bounds(unit)
-        for component, role, bound in zip(COMPONENTS, TOLERANCE_ROLES, bounds, strict=True):
-            if component in (pose.free or ()) and math.isfinite(bound):
-                raise InputError(
-                    "E136",
-                    f"{document.named(*path)}: a tolerance of {bound:g} for {component}, which "
-                    "free names",
-                    where=document.where(*path),
-                    why="a component within a tolerance is not free",
-                    help=f"take {component} out of free, or out of the tolerance",
+    for node, pose in zip(nodes, poses, strict=True):
+        given = pose.get("tolerance", {})
+        columns["free"].append(" ".join(_free(pose)))
+        columns["tol_axes"].append(given.get("axes", ""))
+        for name, role, bound in zip(
+            COMPONENTS, TOLERANCE_ROLES, bounds_of(given, unit), strict=True
+        ):
+            if name in pose.get("free", ()) and math.isfinite(bound):
+                raise node.at("tolerance").again(
+                    InputError(
+                        "E136",
+                        f"a tolerance of {bound:g} for {name}, which free names",
+                        why="a component within a tolerance is not free",
+                        help=f"take {name} out of free, or out of the tolerance",
+                    )
                 )
             columns.setdefault(role, []).append(repr(bound))
     return columns
 
 
-def _crank(document: Document, poses: Sequence[Any]) -> tuple[dict[str, list[str]], str | None]:
+def _crank_column(
+    nodes: Sequence[Node], poses: Sequence[Pose]
+) -> tuple[dict[str, list[str]], str | None]:
     """The column of crank angles and its unit; none where no pose has one.  Raises E108."""
-    keys = [
-        key for key in ("crank_deg", "crank_rad") if any(getattr(p, key) is not None for p in poses)
-    ]
+    keys = [key for key in ("crank_deg", "crank_rad") if any(key in pose for pose in poses)]
     if not keys:
         return {}, None
     if len(keys) > 1:
-        pose = next(k for k, each in enumerate(poses) if each.crank_rad is not None)
-        raise InputError(
-            "E108",
-            "the crank angles are stated in different units",
-            where=document.where("poses", pose, "crank_rad", key=True),
-            help="state one unit: crank_deg in every pose, or crank_rad in every pose",
-        )
-    unit = keys[0].removeprefix("crank_")
-    return {"crank": [_written(getattr(pose, keys[0])) for pose in poses]}, unit
-
-
-def _default_tolerance(tree: Any, document: Document, unit: str | None) -> DefaultTolerance | None:
-    """The tolerance of all poses that state none."""
-    if not isinstance(tree, dict) or "tolerance" not in tree:
-        return None
-    from burmester.io.reading.trees.tolerance_model import read_tolerance
-
-    return read_tolerance(tree, document, unit)
-
-
-def _specification(tree: dict[str, Any], document: Document) -> Specification:
-    """The limits and requirements beside the poses."""
-    _require_known(document, tree)
-    specification = Specification()
-    if not tree.keys().isdisjoint(LIMIT_KEYS):
-        from burmester.io.reading.trees.limits_tree import read_limits
-
-        specification = read_limits(tree, document)
-    if not tree.keys().isdisjoint(REQUIREMENT_KEYS):
-        from burmester.io.reading.trees.requirements_tree import read_requirements
-
-        specification = specification._replace(requirements=read_requirements(tree, document))
-    return specification
-
-
-def _require_known(document: Document, tree: dict[str, Any]) -> None:
-    """Refuse what stands beside the poses and is misspelt, or belongs elsewhere."""
-    for key, value in tree.items():
-        if key in (*TOP_KEYS, *LIMIT_KEYS, *REQUIREMENT_KEYS, *document.others):
-            continue
-        if key in _MISPLACED:
-            message = f"{document.named(key)} stands beside the poses, where it has no effect"
-            help = f"{_MISPLACED[key]}, or delete it"
-        elif near := close_match(key, TOP_KEYS):
-            message, help = f"{document.named(key)} is not known", f"write {near} in its place"
-        elif document.language == "TOML" and dict in (type(value), *map(type, _items(value))):
-            message = f"the table {document.named(key)} is not known"
-            near = close_match(key, TABLES, 0.5)
-            help = f"write {near} if that is meant, or delete it; tables are {listed(TABLES)}"
-            help = help if near else f"delete it; the tables of a task are {listed(TABLES)}"
-        else:
-            continue
-        raise InputError("E107", message, where=document.where(key, key=True), help=help)
-
-
-def _items(value: Any) -> list[Any]:
-    return value if isinstance(value, list) else []
-
-
-def _tracked(document: Document, tree: Any) -> bool:
-    """Whether the poses are two points each; raises E108 where some are and some are not."""
-    poses = tree.get("poses") if isinstance(tree, dict) else None
-    form: tuple[str, int] | None = None
-    for i, pose in enumerate(poses if isinstance(poses, list) else ()):
-        if isinstance(pose, dict):
-            points, xy_angle = (
-                not _TRACKED_KEYS.isdisjoint(pose),
-                not XY_ANGLE_KEYS.isdisjoint(pose),
-            )
-            if points and xy_angle:
-                of_points, of_angle = (
-                    min(keys & pose.keys()) for keys in (_TRACKED_KEYS, XY_ANGLE_KEYS)
-                )
-                message = f"pose {i + 1} has {of_points} and {of_angle}"
-                raise _two_forms(document, message, i, of_angle)
-            given = "points" if points else "angle" if xy_angle else ""
-        else:
-            given = "angle" if isinstance(pose, list) and len(pose) == 3 else ""
-        if given and form and form[0] != given:
-            first, last = ("two points", "x, y and an angle")[:: 1 if given == "angle" else -1]
-            message = f"pose {form[1] + 1} is {first}, pose {i + 1} is {last}"
-            raise _two_forms(document, message, i)
-        form = form or ((given, i) if given else None)
-    return form is not None and form[0] == "points"
-
-
-def _two_forms(document: Document, message: str, pose: int, key: str | None = None) -> InputError:
-    path: tuple[str | int, ...] = ("poses", pose, *([key] if key else []))
-    where = document.where(*path, key=key is not None)
-    why = "a pose is given by x, y and an angle, or by two points p and q of the body"
-    return InputError("E108", message, where=where, why=why, help="give all poses in one way")
-
-
-def _points(document: Document, poses: Sequence[Any]) -> dict[str, list[str]]:
-    """The columns px, py, qx and qy; raises E105 and E108 where a point is not given once."""
-    columns: dict[str, list[str]] = {role: [] for role in POINTS}
-    for i, pose in enumerate(poses):
-        for point, roles in POINT_KEYS.items():
-            pair = getattr(pose, point)
-            single = {role: getattr(pose, role) for role in roles}
-            given = [role for role, value in single.items() if value is not None]
-            if pair is not None and given:
-                message = f"pose {i + 1} has {point} and {given[0]}"
-                where = document.where("poses", i, given[0], key=True)
-                raise InputError(
-                    "E108", message, where=where, help=f"delete {given[0]}, or {point}"
-                )
-            if pair is None and len(given) < 2:
-                lacking = next((role for role in roles if given and role not in given), point)
-                message = f"{document.named('poses', i, lacking)} is missing"
-                x, y = roles
-                help = f"give {x} and {y}, or {point} with two numbers in brackets"
-                where = document.where("poses", i)
-                raise InputError("E105", message, where=where, help=help)
-            for role, value in zip(roles, pair or single.values(), strict=True):
-                columns[role].append(str(value))
-    return columns
-
-
-def _where_unit(document: Document, whole: Any, poses: Sequence[Any]) -> str:
-    """Where the angles' unit is stated, or should be."""
-    if whole.angle_unit:
-        return document.where("angle_unit")
-    for key in ("angle_deg", "angle_rad"):
-        if poses and getattr(poses[0], key) is not None:
-            return document.where("poses", 0, key, key=True)
-    return document.where("poses", key=True)
-
-
-def _angles(
-    document: Document, whole: Any, poses: Sequence[Any]
-) -> tuple[list[Decimal | None], str | None]:
-    """The angles and their unit, if every pose has one angle and all are in one unit.
-
-    None for an angle that is free.
-    """
-    units = {whole.angle_unit} - {None}
-    angles: list[Decimal | None] = []
-    for i, pose in enumerate(poses):
-        given = [key for key in _ANGLE_KEYS if getattr(pose, key) is not None]
-        if not given and "angle" in pose.free_components():
-            angles.append(None)
-            continue
-        if len(given) != 1:
-            code = "E108" if given else "E105"
-            message = f"pose {i + 1} has {' and '.join(given) or 'no angle'}"
-            help = "give every pose one angle, as angle_deg or as angle_rad"
-            if not given:
-                help += ', or free = ["angle"] where it does not count'
-            where = document.where("poses", i)
-            if given:
-                where = document.where("poses", i, given[1], key=True)
-            raise InputError(code, message, where=where, help=help)
-        angles.append(getattr(pose, given[0]))
-        units.add(_ANGLE_KEYS[given[0]] or whole.angle_unit)
-        if len(units) > 1:
-            message = "the angles are stated in different units"
-            why = None
-            if whole.angle_unit:
-                why = f'angle_unit is "{whole.angle_unit}", pose {i + 1} has {given[0]}'
-            elif i:
-                why = f"pose {i + 1} has {given[0]}, the pose before has not"
-            help = "state one unit: angle_deg in every pose, or angle_rad in every pose"
-            keyed = {"key": True} if isinstance(_ANGLE_KEYS[given[0]], str) else {}
-            where = document.where("poses", i, *([given[0]] if keyed else []), **keyed)
-            raise InputError("E110", message, where=where, why=why, help=help)
-    return angles, next(iter(units), None)
+        node = next(n for n, pose in zip(nodes, poses, strict=True) if "crank_rad" in pose)
+        message = "the crank angles are stated in different units"
+        help = "state one unit: crank_deg in every pose, or crank_rad in every pose"
+        where = node.document.where(*node.path, "crank_rad", key=True)
+        raise InputError("E108", message, where=where, help=help)
+    column = [pose.get(keys[0], "nan") for pose in poses]
+    return {"crank": column}, keys[0].removeprefix("crank_")

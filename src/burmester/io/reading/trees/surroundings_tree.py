@@ -1,161 +1,121 @@
-"""Surroundings in the tree of a task: the list `keep_out` and the table `surroundings`.
+"""Outlines in the tree of a task: `body`, the list `keep_out` and the table `surroundings`.
 
-    [[keep_out]]
-    name = "bumper"
-    box = [[X, Y], [X, Y]]
+body = [[X, Y], [X, Y], [X, Y]]
+body = "lid.dxf"
+body = { file = "lid.svg", id = "lid" }
 
-    [surroundings]
-    link_width = 8
+[[keep_out]]
+name = "bumper"
+box = [[X, Y], [X, Y]]
 
-Imported on first use, as pydantic is slow to import.
+[surroundings]
+link_width = 8
 """
 
 from __future__ import annotations
 
-from typing import Annotated, Any
-
-import numpy as np
-from pydantic import Field, TypeAdapter, ValidationError
+from typing import Any, Final
 
 from burmester.errors import Advice, InputError
-from burmester.geometry.regions import Polygon, box
+from burmester.geometry.regions import Polygon
+from burmester.io.reading.outlines.outline_file import OutlineFile, folder_of, read_outline
 from burmester.io.reading.stated_surroundings import StatedSurroundings
-from burmester.io.reading.trees.body_tree import drawn_outline, outline_file
-from burmester.io.reading.trees.limits_tree import Model, Number, Pair, TwoPairs, model_fault
-from burmester.io.reading.trees.locations import Document, Path, close_match
+from burmester.io.reading.trees.limits_tree import SHAPE_FIELDS, read_region
+from burmester.io.reading.trees.node import Field, Fields, Node
 from burmester.tasks.surroundings import KeepOut, Surroundings
 
-__all__ = ["SURROUNDINGS_KEYS", "read_surroundings"]
+__all__ = ["read_body", "read_surroundings"]
 
-SURROUNDINGS_KEYS = ("keep_out", "surroundings")  # beside the poses
-
-_SHAPES = ("polygon", "box", "file")
-
-
-class _Region(Model):
-    name: str | None = None
-    polygon: Annotated[list[Pair], Field(min_length=3)] | None = None
-    box: TwoPairs | None = None
-    file: str | None = None
-    layer: str | None = None
-    id: str | None = None
-
-
-class _Surroundings(Model):
-    link_width: Number | None = None
-    margin: Number | None = None
-    body_in_plane: bool | None = None
-
-
-_REGIONS: TypeAdapter[list[_Region]] = TypeAdapter(list[_Region])
-_REGION = (
+_AREAS: Final[Fields] = {name: SHAPE_FIELDS[name] for name in ("polygon", "box")}
+_OUTLINE: Final[Fields] = {name: Field(Node.text) for name in ("name", "file", "layer", "id")} | {
+    name: Field(lambda node: node) for name in _AREAS
+}
+_SURROUNDINGS: Final[Fields] = {
+    "link_width": Field(Node.number),
+    "margin": Field(Node.number),
+    "body_in_plane": Field(Node.flag),
+}
+_BODY_HELP = (
+    "body is a list of corners in order around it, in M: [[X, Y], [X, Y], [X, Y]] or more; "
+    'or a drawing: "lid.dxf", or file and layer, or file and id'
+)
+_REGION_HELP = (
     "a keep-out region has one of polygon, three corners or more [[X, Y], [X, Y], [X, Y]]; box, "
     "two corners [[X, Y], [X, Y]]; or file, a drawing, with layer or id; and a name, if you like"
 )
-_TABLE = (
+_SURROUNDINGS_HELP = (
     "surroundings has the keys link_width and margin with a length each, and body_in_plane, true "
     "or false; or some of them"
 )
 
 
+def read_body(node: Node, length_unit: str | None) -> tuple[Polygon, tuple[Advice, ...]]:
+    """The outline at `body`, and how a drawing was read.
+
+    Raises E103 to E107 as for limits, E108 (a layer and an id), E131, and what drawings raise.
+    """
+    node = node._replace(help=_BODY_HELP)
+    if isinstance(node.value, list):
+        return node.made(Polygon, node.points(3)), ()
+    if isinstance(node.value, str):
+        return _drawn(node, {"file": node.text()}, node, length_unit)
+    given = node.table({key: _OUTLINE[key] for key in ("file", "layer", "id")})
+    if "file" not in given:
+        raise node.fault("E105", "names no file")
+    return _drawn(node, given, node, length_unit)
+
+
 def read_surroundings(
-    tree: dict[str, Any], document: Document, length_unit: str | None
+    keep_out: Node | None, around: Node | None, length_unit: str | None
 ) -> tuple[StatedSurroundings, tuple[Advice, ...]]:
-    """The surroundings in the tree of a task, and how drawings were read.
+    """The surroundings at `keep_out` and `surroundings`, and how drawings were read.
 
     Raises E103 to E107 as for limits, E108 (a region of two shapes), E131, E176, and what drawings
     raise.
     """
-    given = tree.get("keep_out")
-    regions = [given] if isinstance(given, dict) else given
-    single = regions is not given
-    keep_out: list[KeepOut] = []
+    regions, values, place = [], {}, keep_out or around
     notes: tuple[Advice, ...] = ()
-    if regions is not None:
-        try:
-            tables = _REGIONS.validate_python(regions)
-        except ValidationError as error:
-            raise _region_fault(document, error, single) from None
-        for k, table in enumerate(tables):
-            at: Path = ("keep_out",) if single else ("keep_out", k)
-            region, read_as = _region(table, document, at, length_unit)
-            keep_out.append(region)
-            notes += read_as
-    try:
-        whole = _Surroundings.model_validate(tree.get("surroundings") or {})
-    except ValidationError as error:
-        fault: Any = error.errors(include_url=False)[0]
-        help = _TABLE
-        if fault["type"] == "extra_forbidden":
-            help = _instead(str(fault["loc"][-1]), tuple(_Surroundings.model_fields), _TABLE)
-        path = ("surroundings", *fault["loc"])
-        raise model_fault(document, path, fault, "a text", help) from None
-    values = whole.model_dump(exclude_none=True)
-    for key, value in values.items():
-        try:
-            Surroundings(**{key: value})
-        except InputError as error:
-            raise document.again(error, "surroundings", key) from None
-    where = document.where("keep_out" if keep_out else "surroundings", key=True)
-    return StatedSurroundings(tuple(keep_out), values, where), notes
+    for node in keep_out._replace(help=_REGION_HELP).one_or_more() if keep_out else ():
+        region, read_as = _keep_out(node, length_unit)
+        regions.append(region)
+        notes += read_as
+    if around is not None:
+        values = around._replace(help=_SURROUNDINGS_HELP).table(_SURROUNDINGS)
+        for key, value in values.items():
+            around.at(key).made(Surroundings, **{key: value})
+    where = place.document.where(*place.path, key=True) if place else ""
+    return StatedSurroundings(tuple(regions), values, where), notes
 
 
-def _region(
-    table: _Region, document: Document, at: Path, length_unit: str | None
-) -> tuple[KeepOut, tuple[Advice, ...]]:
+def _keep_out(node: Node, length_unit: str | None) -> tuple[KeepOut, tuple[Advice, ...]]:
     """One region; contradictions are refused here, where its location is known."""
-    given = [key for key in _SHAPES if getattr(table, key) is not None]
-    if len(given) != 1:
-        code, what = ("E108", " and ".join(given)) if given else ("E105", "no shape")
-        message = f"{document.named(*at)} has {what}"
-        raise InputError(code, message, where=document.where(*at), help=_REGION)
-    (shape,) = given
-    part = next((key for key in ("layer", "id") if getattr(table, key) is not None), None)
-    if part and shape != "file":
-        message = f"{document.named(*at, part)} is for a drawing, and there is a {shape}"
-        where, help = document.where(*at, part, key=True), f"delete {part}, or name a file"
-        raise InputError("E108", message, where=where, help=help)
+    given = node.table(_OUTLINE)
+    shape, _ = node.only({key: given[key] for key in ("polygon", "box", "file") if key in given})
+    part = next((key for key in ("layer", "id") if key in given), None)
     notes: tuple[Advice, ...] = ()
-    if table.file is not None:
-        file = outline_file(table.file, table.layer, table.id, document, at)
-        polygon, notes = drawn_outline(file, document, (*at, "file"), length_unit)
+    if shape == "file":
+        polygon, notes = _drawn(node, given, node.at("file"), length_unit)
+    elif part:
+        message = f"is for a drawing, and there is a {shape}"
+        raise node.at(part).fault("E108", message, f"delete {part}, or name a file", key=True)
     else:
-        polygon = _typed(table, shape, document, at)
-    try:
-        return KeepOut(polygon, table.name), notes
-    except InputError as error:
-        raise document.again(error, *at) from None
-
-
-def _typed(table: _Region, shape: str, document: Document, at: Path) -> Polygon:
-    """A region of corners."""
-    try:
-        if table.polygon is not None:
-            return Polygon(np.array(table.polygon))
-        low, high = np.array(table.box)
-        region = box(low.tolist(), high.tolist())
+        region = read_region(node._replace(value={shape: node.value[shape]}), _AREAS)
         if not isinstance(region, Polygon):
-            raise InputError(
-                "E176",
-                "a keep-out box has no inside",
-                why=f"it is {region}",
-                help="give it a width and a height",
-            )
-    except InputError as error:
-        raise document.again(error, *at, shape) from None
-    return region
+            why, help = f"it is {region}", "give it a width and a height"
+            no_inside = InputError("E176", "a keep-out box has no inside", why=why, help=help)
+            raise node.document.again(no_inside, *node.path, shape)
+        polygon = region
+    return node.made(KeepOut, polygon, given.get("name")), notes
 
 
-def _region_fault(document: Document, error: ValidationError, single: bool) -> InputError:
-    """The error for a fault reported by pydantic."""
-    fault: Any = error.errors(include_url=False)[0]
-    keys = fault["loc"][1:] if single else fault["loc"]
-    help = _REGION
-    if fault["type"] == "extra_forbidden":
-        help = _instead(str(keys[-1]), tuple(_Region.model_fields), _REGION)
-    return model_fault(document, ("keep_out", *keys), fault, "a text", help)
-
-
-def _instead(key: str, known: tuple[str, ...], help: str) -> str:
-    near = close_match(key, known)
-    return f"write {near} in its place; {help}" if near else help
+def _drawn(
+    node: Node, given: dict[str, Any], at: Node, length_unit: str | None
+) -> tuple[Polygon, tuple[Advice, ...]]:
+    """The outline in a drawing that a table names, with the place of its name in errors."""
+    if "layer" in given and "id" in given:
+        why, help = "a drawing in DXF has layers, one in SVG ids", "leave one of the two out"
+        raise node.fault("E108", "has layer and id", help, why=why, key="id")
+    file = OutlineFile(given["file"], given.get("layer", given.get("id")))
+    folder = at.made(folder_of, node.document.source.label)
+    outline, note = at.made(read_outline, file, folder, length_unit)
+    return outline, (note,)

@@ -1,0 +1,139 @@
+"""The table of how a synthesis may be told to proceed: what each face calls an option, and help.
+
+Limits and requirements are asked of linkages; requirements have a table of their own.
+"""
+
+from __future__ import annotations
+
+from typing import Final, Literal, NamedTuple, TypeAlias, get_args
+
+__all__ = ["LIMIT_OPTIONS", "OPTIONS", "LimitOption", "Method", "Norm", "Option", "Preference"]
+
+Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
+Norm: TypeAlias = Literal["rms", "worst"]
+Preference: TypeAlias = Literal["transmission", "size", "accuracy"]
+Form: TypeAlias = Literal["word", "length", "lengths", "seconds", "flag"]
+
+
+class Option(NamedTuple):
+    """One option of `SynthesisOptions`, by its name there and in a batch's file.
+
+    known: the words that may be given, the first of them where none is.  option: of the command,
+    which says no where `negated`.
+    """
+
+    name: str
+    form: Form
+    option: str
+    help: str
+    metavar: str | None = None
+    known: tuple[str, ...] = ()
+    negated: bool = False
+    manufacturing: bool = False
+
+
+OPTIONS: Final = (
+    Option(
+        "method",
+        "word",
+        "--method",
+        "pencil: the paper's two dyads for 6 poses or more; complete: every locally best dyad "
+        "for 6 or more; exact: all dyads through 5; auto: complete for 6 or more, exact for 5.",
+        "METHOD",
+        get_args(Method),
+    ),
+    Option(
+        "norm",
+        "word",
+        "--norm",
+        "The error to minimise: root mean square, or the largest deviation (worst).",
+        known=get_args(Norm),
+    ),
+    Option(
+        "length_per_radian",
+        "length",
+        "--angle-weight",
+        "The position error that counts as much as one radian of angle error; by default a "
+        "third of the travel per radian of turn, or the radius of gyration of the body.",
+        "LENGTH",
+    ),
+    Option(
+        "prefer",
+        "word",
+        "--prefer",
+        "What the recommended linkage of two to four poses is best at.",
+        known=get_args(Preference),
+    ),
+    Option(
+        "nine_point_starts",
+        "flag",
+        "--nine-point-starts",
+        "Open paths: look from the linkages through nine of the points as well.",
+    ),
+    Option("certify", "flag", "--certify", "Prove with interval arithmetic what can be proved."),
+    Option(
+        "normalise",
+        "flag",
+        "--raw",
+        "Fit the numbers as given, as the paper does: frames and unit are not normalised, and "
+        "the result depends on them.",
+        negated=True,
+    ),
+    Option(
+        "time_limit",
+        "seconds",
+        "--time-limit",
+        "Look no further after so many seconds: the answer is the best until then, and a warning "
+        "says what was not finished.  What every answer needs may take longer.",
+        "SECONDS",
+    ),
+    Option(
+        "manufacturing_tolerance",
+        "length",
+        "--tolerance",
+        "Manufacturing tolerance of pivots and lengths; report the resulting error.",
+        "LENGTH",
+        manufacturing=True,
+    ),
+    Option(
+        "rounding_step",
+        "length",
+        "--round",
+        "Round lengths and pivots to multiples of STEP, and check the linkage again.",
+        "STEP",
+        manufacturing=True,
+    ),
+    Option(
+        "stock_lengths",
+        "lengths",
+        "--stock",
+        "Available link lengths; the nearest are used, and the linkage is checked again.",
+        "L1,L2,...",
+        manufacturing=True,
+    ),
+)
+
+
+class LimitOption(NamedTuple):
+    """One limit on a dyad, by its name in `Limits` and in files; given once or for each dyad."""
+
+    name: str
+    metavar: str
+    help: str
+
+
+LIMIT_OPTIONS: Final = (
+    LimitOption("fixed_pivot", "REGION", "Region of a fixed pivot, on the ground."),
+    LimitOption("moving_pivot", "REGION", "Region of a moving pivot, on the body."),
+    LimitOption(
+        "length", "MIN:MAX", "Length of the link of an RR dyad; MIN or MAX may be left out."
+    ),
+    LimitOption("kinds", "RR,PR,RP", "Kinds of dyads allowed: links RR, sliders PR, slots RP."),
+    LimitOption(
+        "rail",
+        "LINE",
+        'The rail of a slider on the ground, such as "direction:0+-2 through:0,0 '
+        'travel:box:0,-5:400,5"; each part may be left out.',
+    ),
+    LimitOption("slot", "LINE", "The same of a slot in the body, on the body."),
+)
