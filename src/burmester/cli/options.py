@@ -25,27 +25,6 @@ if TYPE_CHECKING:
     from burmester.tasks.option_table import Option
     from burmester.tasks.options import SynthesisOptions
 
-__all__ = [
-    "JUDGEMENT",
-    "MANUFACTURING",
-    "METHOD",
-    "POSES",
-    "POSES_HELP",
-    "SIX_BARS",
-    "SPECIFICATION",
-    "Number",
-    "SectionOption",
-    "Sectioned",
-    "pose_arguments",
-    "read_poses",
-    "require_six_bars",
-    "run_judgement",
-    "run_six_bars",
-    "run_synthesis",
-    "synthesis_options",
-    "with_options",
-]
-
 Decorator: TypeAlias = Callable[[Any], Any]
 
 POSES_HELP = """\b

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
@@ -236,17 +235,15 @@ def path_data(path: TracedPath) -> dict[str, Any]:
     return data
 
 
-def limits_data(
-    limits: Limits, shape: Callable[[Region], dict[str, Any]] | None = None
-) -> dict[str, Any]:
-    """Limits as files hold them, regions by `shape`; `region_data` where it is not given."""
-    data, shape = dict[str, Any](), shape or region_data
+def limits_data(limits: Limits) -> dict[str, Any]:
+    """Limits as files hold them."""
+    data = dict[str, Any]()
     for name in ("fixed_pivot", "moving_pivot"):
         if (region := getattr(limits, name)) is not None:
-            data[name] = shape(region)
+            data[name] = region_data(region)
     for name in ("rail", "slot"):
         if (rail := getattr(limits, name)) is not None:
-            data[name] = _rail(rail, shape)
+            data[name] = _rail(rail)
     bounds = {"least": limits.length[0], "most": limits.length[1]}
     if limits.has_length:
         data["length"] = {end: value for end, value in bounds.items() if 0 < value < math.inf}
@@ -264,8 +261,8 @@ def region_data(region: Region) -> dict[str, Any]:
     return {"polygon": region.vertices.tolist()}
 
 
-def _rail(rail: Rail, shape: Callable[[Region], dict[str, Any]]) -> dict[str, Any]:
-    """A rail or slot as files hold it, its regions by `shape`."""
+def _rail(rail: Rail) -> dict[str, Any]:
+    """A rail or slot as files hold it."""
     data: dict[str, Any] = {}
     if rail.direction_deg is not None:
         data["direction_deg"] = rail.direction_deg
@@ -273,7 +270,7 @@ def _rail(rail: Rail, shape: Callable[[Region], dict[str, Any]]) -> dict[str, An
             data["tolerance_deg"] = rail.tolerance_deg
     for name in ("through", "travel"):
         if (region := getattr(rail, name)) is not None:
-            data[name] = shape(region)
+            data[name] = region_data(region)
     return data
 
 

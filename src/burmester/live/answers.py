@@ -16,8 +16,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.branches import branches_of
 from burmester.web.data import scene_of
 
-__all__ = ["FRAMES", "LiveAnswers"]
-
 FRAMES: Final = (61, 361)  # of a way of a followed linkage: as a rule, and at most
 IN_TURN: Final = 2  # linkages that are judged at each step beside those that are shown
 

@@ -30,16 +30,6 @@ from burmester.tasks.option_table import OPTIONS
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances, nominal_values
 
-__all__ = [
-    "MOST_POSES",
-    "TaskReader",
-    "document_of",
-    "options_of",
-    "read_file",
-    "task_file",
-    "task_of",
-]
-
 MOST_POSES = 100_000  # of a document
 NAME = "task.json"  # what a document is called where a message says its place
 

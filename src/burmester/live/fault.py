@@ -8,8 +8,6 @@ from typing import Any
 
 from burmester.errors import BurmesterError
 
-__all__ = ["fault_data"]
-
 
 def fault_data(error: Exception) -> dict[str, Any]:
     """An error as a message; one that is no `BurmesterError` is a fault of burmester itself."""

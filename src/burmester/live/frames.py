@@ -32,8 +32,6 @@ from burmester.verdicts.explanation import reasons
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.branches import Branches
 
-__all__ = ["Drawn", "drawn_of", "followed_frame", "frame"]
-
 WAY = ("x", "y", "angle", "drive", "transmission")
 
 

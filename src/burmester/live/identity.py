@@ -17,8 +17,6 @@ from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import scene_of
 
-__all__ = ["matched", "standing"]
-
 # Sizes of what is compared.  A linkage that moved along with the poses is off by some thousandths
 # from where a search finds it; two linkages of one answer are a tenth and more apart.
 SAME: Final = 0.02

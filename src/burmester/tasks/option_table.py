@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from typing import Final, Literal, NamedTuple, TypeAlias, get_args
 
-__all__ = ["LIMIT_OPTIONS", "OPTIONS", "LimitOption", "Method", "Norm", "Option", "Preference"]
-
 Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
 Norm: TypeAlias = Literal["rms", "worst"]
 Preference: TypeAlias = Literal["transmission", "size", "accuracy"]

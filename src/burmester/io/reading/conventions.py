@@ -12,8 +12,6 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.io.reading.pose_table import PoseTable, Source, shown
 
-__all__ = ["CONVENTIONS", "convention_names", "in_convention", "with_stated_unit"]
-
 # What each changes, as `check` says it.
 CONVENTIONS = {
     "clockwise": "angles negated",

@@ -32,8 +32,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.given_linkage import GivenDyad, OpenLink
 from burmester.wording import count
 
-__all__ = ["dyads_from_options", "lengths_and_limits", "line_through", "require_one_source"]
-
 LINE: Final = "line@"
 DYAD_HELP = (
     "write FX,FY:MX,MY for a link (fixed pivot in F, moving pivot in M), "

@@ -24,8 +24,6 @@ from burmester.io.reading.specification import LengthRange, OptionalKinds, Speci
 from burmester.tasks.limits import KINDS
 from burmester.tasks.rails import Rail
 
-__all__ = ["limits_from_options"]
-
 RAIL_HELP = (
     "write direction:DEG or direction:DEG+-DEG, through:REGION and travel:REGION, or some of them, "
     'such as "direction:0+-2 through:0,0", or any'

@@ -19,18 +19,6 @@ from burmester.io.reading.specification import SHAPES
 from burmester.tasks.option_table import Option
 from burmester.wording import count
 
-__all__ = [
-    "ANY",
-    "lengths_from_texts",
-    "number_from_text",
-    "numbers_from_text",
-    "option_fault",
-    "option_text",
-    "option_value",
-    "positive_from_text",
-    "region_from_text",
-]
-
 ANY = "any"
 REGION_HELP = "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
 

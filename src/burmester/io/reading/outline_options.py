@@ -16,8 +16,6 @@ from burmester.io.reading.pose_table import Source
 from burmester.io.reading.stated_surroundings import StatedSurroundings
 from burmester.tasks.surroundings import KeepOut, Surroundings
 
-__all__ = ["OutlineOptions"]
-
 
 class OutlineOptions(NamedTuple):
     """--body, --keep-out and --link-width as given."""

@@ -22,8 +22,6 @@ from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance
 from burmester.requirements.requirement import Requirement
 from burmester.requirements.table import ASKED
 
-__all__ = ["pose_sigma", "pose_tolerance", "requirements_from_options"]
-
 FOOTPRINT_HELP = "write box:X,Y:X,Y from lower left to upper right, or polygon:X,Y:X,Y:X,Y, or any"
 
 

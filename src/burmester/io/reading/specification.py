@@ -20,17 +20,6 @@ from burmester.tasks.limits import Kind, Limits
 from burmester.tasks.option_table import LIMIT_OPTIONS
 from burmester.tasks.rails import Rail
 
-__all__ = [
-    "LIMITS",
-    "SHAPES",
-    "TABLES",
-    "TOP_KEYS",
-    "LengthRange",
-    "OptionalKinds",
-    "OptionalRegion",
-    "Specification",
-]
-
 LengthRange: TypeAlias = tuple[float, float]
 OptionalRegion: TypeAlias = Region | None  # None leaves a dyad free
 OptionalKinds: TypeAlias = frozenset[Kind] | None

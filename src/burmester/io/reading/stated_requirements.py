@@ -12,15 +12,6 @@ from burmester.errors import InputError
 from burmester.requirements.table import ASKED
 from burmester.tasks.requirements import Requirements
 
-__all__ = [
-    "FILE_KEYS",
-    "StatedRequirement",
-    "checked_requirement",
-    "combined_requirements",
-    "one_line",
-    "requirements_data",
-]
-
 FILE_KEYS = tuple(each.name for each in ASKED)  # under `requirements` in a file
 
 

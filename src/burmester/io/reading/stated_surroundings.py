@@ -8,8 +8,6 @@ from typing import Any, NamedTuple
 
 from burmester.tasks.surroundings import KeepOut, Surroundings
 
-__all__ = ["StatedSurroundings", "surroundings_data"]
-
 
 class StatedSurroundings(NamedTuple):
     """Surroundings as stated: regions, the other fields of `Surroundings`, and where."""

@@ -23,16 +23,6 @@ from burmester.tasks.pose_tolerances import (
     nominal_values,
 )
 
-__all__ = [
-    "FREE_WORDS",
-    "TOLERANCE_ROLES",
-    "DefaultTolerance",
-    "StatedTolerances",
-    "combined_tolerances",
-    "free_components",
-    "with_nominal_values",
-]
-
 # The columns of numbers, and those of words; by the components that they belong to.
 TOLERANCE_ROLES = ("tol_x", "tol_y", "tol_angle")
 FREE_WORDS = ("free", "inf", "infinity", "∞")  # in place of a tolerance

@@ -34,8 +34,6 @@ from burmester.io.reading.trees.documents import json_tree, toml_tree
 from burmester.io.reading.trees.node import Field, Fields, Node
 from burmester.io.reading.trees.requirements_tree import REQUIREMENT_FIELDS
 
-__all__ = ["read_function", "settings_of", "task_of"]
-
 _NUMBER: Final = Field(Node.number)
 _SETTINGS: Final[Fields] = {
     "input_phase_deg": _NUMBER,

@@ -13,15 +13,6 @@ from burmester.io.reading.file_content import decode_text, is_archive, is_parque
 from burmester.io.reading.pose_table import SHEET_HEAD, Source
 from burmester.io.reading.tables.columns import has_poses
 
-__all__ = [
-    "ANGLE_COLUMNS",
-    "has_pairs",
-    "header_of",
-    "is_function",
-    "is_function_text",
-    "source_of",
-]
-
 ANGLE_COLUMNS: Final = re.compile(r"(input|output)_(deg|rad)")
 
 

@@ -30,8 +30,6 @@ from burmester.requirements.types import TYPE, TYPES
 from burmester.tasks.requirements import Requirements
 from burmester.wording import listed
 
-__all__ = ["KEPT", "FunctionSettings", "Spacing", "task_of_function", "task_of_pairs"]
-
 KEPT: Final = (TRANSMISSION, LINK_RATIO, TYPE)  # what can be asked of generators
 Spacing: TypeAlias = Literal["chebyshev", "even"]
 SAMPLES: Final = 61  # of a function whose number of pairs is not given

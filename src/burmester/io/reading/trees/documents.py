@@ -17,8 +17,6 @@ from burmester.errors import InputError
 from burmester.io.reading.pose_table import PoseTable, Source, held_float, shown
 from burmester.io.reading.trees.locations import Document, duplicate_key
 
-__all__ = ["json_tree", "read_json", "read_toml", "toml_tree"]
-
 # A dotted key of TOML with so many parts takes the parser seconds: the square of their number.
 _LONG_KEY: Final = re.compile(r"(?:[\w\"'-]{1,99}[ \t]*\.[ \t]*){100}")
 

@@ -18,8 +18,6 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.rails import Rail
 from burmester.wording import listed
 
-__all__ = ["SHAPE_FIELDS", "read_limits", "read_region"]
-
 
 def _points(count: int | None, node: Node) -> Any:
     return [node.pair()] if count == 1 else node.points(count or 3, count)

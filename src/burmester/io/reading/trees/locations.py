@@ -14,18 +14,6 @@ from typing import Literal, NamedTuple, TypeAlias
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import NUMERIC, Source, shown
 
-__all__ = [
-    "LONG",
-    "SHORT",
-    "Document",
-    "Language",
-    "Path",
-    "close_match",
-    "dotted",
-    "duplicate_key",
-    "span_of",
-]
-
 Path: TypeAlias = tuple[str | int, ...]
 Language: TypeAlias = Literal["JSON", "TOML"]
 _Part: TypeAlias = tuple[str | int, int, int]  # a key or an index, and where it stands

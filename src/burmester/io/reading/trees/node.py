@@ -12,8 +12,6 @@ from burmester.io.reading.specification import LIMITS, TOP_KEYS
 from burmester.io.reading.stated_requirements import FILE_KEYS
 from burmester.io.reading.trees.locations import Document, Path, close_match
 
-__all__ = ["Field", "Fields", "Node"]
-
 T = TypeVar("T")
 NUMBER_HELP = "write a number without quotes, with a point for its decimal mark"
 

@@ -32,8 +32,6 @@ from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.traced_path import TracedPath
 from burmester.wording import listed
 
-__all__ = ["read_tree"]
-
 Pose = dict[str, Any]  # what a pose states, numbers as printed
 
 POINT_KEYS: Final = {"p": ("px", "py"), "q": ("qx", "qy")}

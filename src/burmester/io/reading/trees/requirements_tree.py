@@ -17,8 +17,6 @@ from burmester.requirements.requirement import Form, Requirement
 from burmester.requirements.table import ASKED
 from burmester.wording import listed
 
-__all__ = ["REQUIREMENT_FIELDS", "read_requirements"]
-
 _AREAS: Final[Fields] = {name: SHAPE_FIELDS[name] for name in ("box", "polygon")}
 _READ: Final[dict[Form | None, Callable[[Node], Any]]] = {
     "number": Node.number,

@@ -24,8 +24,6 @@ from burmester.io.reading.trees.limits_tree import SHAPE_FIELDS, read_region
 from burmester.io.reading.trees.node import Field, Fields, Node
 from burmester.tasks.surroundings import KeepOut, Surroundings
 
-__all__ = ["read_body", "read_surroundings"]
-
 _AREAS: Final[Fields] = {name: SHAPE_FIELDS[name] for name in ("polygon", "box")}
 _OUTLINE: Final[Fields] = {name: Field(Node.text) for name in ("name", "file", "layer", "id")} | {
     name: Field(lambda node: node) for name in _AREAS

@@ -11,8 +11,6 @@ from typing import Final, NamedTuple
 
 from burmester.io.reading.trees.locations import LONG, SHORT, Language
 
-__all__ = ["SyntaxFault", "syntax_fault"]
-
 MAX_EXCERPT: Final = 40  # characters of the file that a message quotes
 
 

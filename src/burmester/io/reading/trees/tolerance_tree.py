@@ -15,8 +15,6 @@ from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance
 from burmester.io.reading.trees.node import Field, Fields, Node
 from burmester.tasks.pose_tolerances import COMPONENTS
 
-__all__ = ["ANGLE_KEYS", "FREE", "TOLERANCE", "bounds_of", "read_tolerance"]
-
 ANGLE_KEYS: Final = {"angle": None, "angle_deg": "deg", "angle_rad": "rad"}
 
 
