@@ -24,7 +24,8 @@ from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import generators_of_phases
 from burmester.functions.function_task import FunctionTask, SampledFunction, even_spacing
-from burmester.functions.further_starts import FurtherStarts
+from burmester.functions.nearest_generators import FurtherStarts
+from burmester.numerics.bundles import concatenate
 from burmester.synthesis.function_generation import generate_function
 from burmester.tasks.requirements import Requirements
 
@@ -172,7 +173,7 @@ def witnessed(task, starts, rng, *, every=1):
     same = same.with_better_side(task.inputs, task.outputs)
     wanted = task.requirements
     asked = wanted.transmission, wanted.link_ratio, task.types
-    same = type(same).joined([same, FurtherStarts.of(task).near(*asked, 16)])
+    same = concatenate([same, FurtherStarts.of(task).near(*asked, 16)])
     begins = [
         (np.array([np.log(g.input_link), np.log(g.coupler), np.log(g.output_link), g.input_phase,
                    g.output_phase]), float(g.side))

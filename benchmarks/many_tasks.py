@@ -27,8 +27,7 @@ import numpy as np  # noqa: E402  after the number of threads
 
 from burmester.linkages.from_dyads import linkages_from_dyads  # noqa: E402
 from burmester.stacked import SampleOptions, TaskStack, random_linkages, stacked_answers  # noqa: E402
-from burmester.synthesis.dyad_search import search_dyads  # noqa: E402
-from burmester.synthesis.method import with_method  # noqa: E402
+from burmester.synthesis.dyad_search import search_dyads, with_method  # noqa: E402
 from burmester.tasks.motion_class import classify_motion  # noqa: E402
 from burmester.tasks.options import SynthesisOptions  # noqa: E402
 from burmester.tasks.problem import SynthesisProblem  # noqa: E402

@@ -20,8 +20,7 @@ from tests.oracles.small_turns import moved_by_rounding, small_turn, verdicts
 from burmester import Displacement, Task
 from burmester.diagnosis.checks import diagnose
 from burmester.fourbar.dyad import RR
-from burmester.synthesis.dyad_search import search_dyads
-from burmester.synthesis.method import with_method
+from burmester.synthesis.dyad_search import search_dyads, with_method
 from burmester.synthesis.outcome import dyad_advice
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem

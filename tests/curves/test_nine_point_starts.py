@@ -4,11 +4,11 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from burmester.curves import nine_point_starts as module
 from burmester.curves.crank_linkages import CrankLinkages
-from burmester.curves.nine_point_starts import nine_point_starts
 from burmester.curves.path_fit import PathSearch
 from burmester.numerics.arrays import even_numbers
+from burmester.synthesis import path_linkages as module
+from burmester.synthesis.path_linkages import nine_point_starts
 from tests.oracles.coupler_curves import dyads_of, random_crank, traced
 
 

@@ -7,8 +7,7 @@ import pytest
 
 from burmester import synthesize
 from burmester.describe.dimensions import dimensions
-from burmester.families.family import recommended_first
-from burmester.families.front import far_apart, front
+from burmester.families.family import far_apart, front, recommended_first
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Segment, box

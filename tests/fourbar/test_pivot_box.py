@@ -9,8 +9,7 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.instantaneous import mechanical_advantage
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.pivot_box import extent, pivot_box
-from burmester.fourbar.reserve import reserve
+from burmester.fourbar.pivot_box import extent, pivot_box, reserve
 from burmester.geometry.displacement import Displacement
 from tests.oracles.ranges import KINDS, DrivenRange
 

@@ -10,8 +10,9 @@ from benchmarks.function_requirements import TABLE, drawn, task_of, witnessed
 
 from burmester.functions.exact_pairs import exact_generators
 from burmester.functions.function_task import FunctionTask
-from burmester.functions.further_starts import FurtherStarts
 from burmester.functions.kept_requirements import KeptRequirements
+from burmester.functions.nearest_generators import FurtherStarts
+from burmester.numerics.bundles import concatenate
 from burmester.synthesis.function_generation import generate_function
 from tests.oracles import function_loops
 from tests.oracles.generators import drawn as drawn_generator
@@ -125,7 +126,7 @@ def test_of_mirror_images_through_exact_pairs_one_is_listed():
 @pytest.mark.parametrize("types", [None, frozenset({"double-rocker"})])
 def test_constraints_are_what_they_say_and_so_are_their_derivatives(types):
     one = [drawn_generator(seed)[0] for seed in range(20)]
-    every = type(one[0]).joined(one)
+    every = concatenate(one)
     kept = KeptRequirements(np.full(20, 35 * DEG), np.full(20, 3.0), types)
     values, slopes = kept.constraints(every, 0.0, 1.2)
     keeps = (every.least_transmission(0.0, 1.2) >= 35 * DEG) & (every.link_ratio <= 3.0)

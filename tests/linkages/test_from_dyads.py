@@ -8,8 +8,7 @@ from burmester import Displacement, read_task
 from burmester.linkages.from_dyads import linkages_from_dyads
 from burmester.progress import shown
 from burmester.refinement.target import Target
-from burmester.synthesis.dyad_search import search_dyads
-from burmester.synthesis.method import with_method
+from burmester.synthesis.dyad_search import search_dyads, with_method
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task

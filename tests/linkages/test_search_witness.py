@@ -16,8 +16,7 @@ from benchmarks.search_witness import WORSE, compared, ratio_of, task_of
 from burmester import PR, RR, Displacement, Task, judge
 from burmester.geometry.regions import box
 from burmester.linkages.from_dyads import linkages_from_dyads
-from burmester.synthesis.dyad_search import search_dyads
-from burmester.synthesis.method import with_method
+from burmester.synthesis.dyad_search import search_dyads, with_method
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.outcome import summary
 from burmester.tasks.limits import Limits

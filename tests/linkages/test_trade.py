@@ -6,7 +6,7 @@ import pytest
 from burmester import Displacement, Task, synthesize
 from burmester.linkages.evaluation import Evaluation
 from burmester.linkages.from_dyads import target_of
-from burmester.linkages.trade import trades
+from burmester.linkages.sound_linkages import trades
 from tests.oracles.hard_tasks import noisy_task
 
 

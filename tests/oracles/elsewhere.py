@@ -8,8 +8,7 @@ import numpy as np
 
 from burmester import Displacement, Task, best_dyads, critical_dyads
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.synthesis.dyad_search import search_dyads
-from burmester.synthesis.method import with_method
+from burmester.synthesis.dyad_search import search_dyads, with_method
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem

@@ -5,8 +5,8 @@ import pytest
 from scipy.optimize import least_squares
 
 from burmester.geometry.displacement import Displacement
-from burmester.sixbar.added_dyads import added_dyads, with_first_dyad
-from burmester.sixbar.three_r_chain import ThreeRChain
+from burmester.sixbar.added_dyads import ThreeRChain, added_dyads, with_first_dyad
+from burmester.sixbar.watt import WATT_I
 from tests.sixbar.tasks import BENT, REACH
 
 CHAINS = [
@@ -83,4 +83,11 @@ def test_every_bar_keeps_its_length_at_the_poses(chain):
     chains, poses, side = chain_of(chain)
     added = added_dyads(chains, poses, side)
     assert 0 < len(added.task) <= 9
-    assert added.linkages.through(poses[added.task], added.joints).max() < 1e-10
+    linkages, there, at = added.linkages, added.joints, poses[added.task]
+    ends = np.array([[WATT_I.joints.index(joint) for joint in bar] for bar in WATT_I.bars]).T
+    off = np.abs(there[..., ends[0]] - there[..., ends[1]]) - linkages.lengths()[:, None]
+    assert np.abs(off).max() < 1e-10
+    on_ground = linkages.fixed_first[:, None], linkages.fixed_second[:, None]
+    on_body = (at.act(each[:, None]) for each in (linkages.body_joint, linkages.link_joint))
+    for joint, place in zip("ABEH", (*on_ground, *on_body), strict=True):
+        assert np.abs(there[..., WATT_I.joints.index(joint)] - place @ [1, 1j]).max() < 1e-10

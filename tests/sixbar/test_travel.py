@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from burmester.geometry.displacement import Displacement
-from burmester.sixbar.added_dyads import added_dyads
-from burmester.sixbar.motion import Sides, drive_of, joints_at, sides_of
-from burmester.sixbar.three_r_chain import ThreeRChain
+from burmester.mechanisms.contract import drive_of
+from burmester.sixbar.added_dyads import ThreeRChain, added_dyads
 from burmester.sixbar.travel import first_loop_works, least_transmission, travel
+from burmester.sixbar.watt import WATT_I, Sides, joints_at, sides_of
 from tests.sixbar.tasks import REACH, TURNING, task
 
 STEPS = 1800
@@ -38,7 +38,7 @@ def _circles(p, r, q, s, side):
 def followed(joints, driver, drives):
     """Both loops closed on the sides of the first pose, at drives; nan where they are open."""
     a, b, c, d, e, g, h = joints[0]
-    if driver == "first":
+    if driver == "A":
         side = np.sign(((d - c) / (b - c)).imag)
         now_c = a + abs(c - a) * np.exp(1j * drives)
         now_d = _circles(now_c, abs(d - c), b, abs(d - b), side)
@@ -54,7 +54,7 @@ def followed(joints, driver, drives):
 
 def works_step_by_step(joints, driver):
     """Whether the poses are met in order on one piece without a gap: None where too near to say."""
-    start = drive_of(joints[0], driver)
+    start = drive_of(WATT_I, joints[0], driver)
     turns = np.arange(STEPS + 1) * 2 * np.pi / STEPS
     size = np.abs(joints).max()
     verdicts = []
@@ -64,7 +64,7 @@ def works_step_by_step(joints, driver):
         end = int(open_.argmax()) if open_.any() else STEPS
         met = []
         for pose in joints:
-            asked = (way * (drive_of(pose, driver) - start)) % (2 * np.pi)
+            asked = (way * (drive_of(WATT_I, pose, driver) - start)) % (2 * np.pi)
             asked = 0.0 if asked > 2 * np.pi - 1e-9 else asked
             there = followed(joints, driver, np.array([start + way * asked]))[:, 0]
             if not np.abs(there - pose[[4, 6]]).max() < 1e-6 * size:
@@ -78,7 +78,7 @@ def works_step_by_step(joints, driver):
     return any(verdicts)
 
 
-@pytest.mark.parametrize("driver", ["first", "second"])
+@pytest.mark.parametrize("driver", ["A", "B"])
 @pytest.mark.parametrize("rows", [REACH, TURNING])
 def test_one_branch_and_order_are_those_of_the_motion(rows, driver):
     added = designs(rows, 3, 500)
@@ -95,7 +95,7 @@ def test_one_branch_and_order_are_those_of_the_motion(rows, driver):
     assert not (works & ~first_loop_works(joints[..., :5], driver)).any()
 
 
-@pytest.mark.parametrize("driver", ["first", "second"])
+@pytest.mark.parametrize("driver", ["A", "B"])
 def test_the_room_beside_the_poses_ends_where_a_loop_opens(driver):
     added = designs(REACH, 5)
     way = travel(added.linkages, added.joints, driver)
@@ -110,7 +110,7 @@ def test_the_room_beside_the_poses_ends_where_a_loop_opens(driver):
             assert (np.isnan(there).any(axis=-1) == is_open).all()
 
 
-@pytest.mark.parametrize("driver", ["first", "second"])
+@pytest.mark.parametrize("driver", ["A", "B"])
 def test_the_least_transmission_angle_is_that_of_a_fine_sampling(driver):
     added = designs(REACH, 7)
     way = travel(added.linkages, added.joints, driver)
@@ -120,7 +120,7 @@ def test_the_least_transmission_angle_is_that_of_a_fine_sampling(driver):
         drives = np.linspace(way.drive[k].min(), way.drive[k].max(), 4001)
         e, h = followed(added.joints[k], driver, drives)
         a, b, c, d, _, g, _ = added.joints[k, 0]
-        if driver == "first":
+        if driver == "A":
             now_c = a + abs(c - a) * np.exp(1j * drives)
             side = np.sign(((d - c) / (b - c)).imag)
             tip = _circles(now_c, abs(d - c), b, abs(d - b), side)

@@ -8,8 +8,7 @@ import pytest
 from burmester.errors import InputError
 from burmester.linkages.from_dyads import linkages_from_dyads
 from burmester.stacked import LinkageRows, StackedAnswers, TaskStack, stacked_answers
-from burmester.synthesis.dyad_search import search_dyads
-from burmester.synthesis.method import with_method
+from burmester.synthesis.dyad_search import search_dyads, with_method
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem

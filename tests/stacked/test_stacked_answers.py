@@ -16,8 +16,7 @@ from burmester.stacked import (
     joined,
     stacked_answers,
 )
-from burmester.synthesis.dyad_search import search_dyads
-from burmester.synthesis.method import with_method
+from burmester.synthesis.dyad_search import search_dyads, with_method
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.outcome import dyad_advice
 from burmester.tasks.motion_class import classify_motion

@@ -29,8 +29,9 @@ def linkage(own, name=THIRD, carries=None):
         lower=length(own.fg),
     )
     carries = carries or kind.skeleton.moving[-2]
-    plain = StephensonLinkage(kind, carries, chain, np.array([0j, 1]), np.array([0j, 1]))
+    name = kind.skeleton.name
+    plain = StephensonLinkage(name, carries, chain, np.array([0j, 1]), np.array([0j, 1]))
     lengths = dict(zip(kind.skeleton.bars, plain.lengths(), strict=True))
     ends = [kind.skeleton.links[link][:2] for link in (kind.skeleton.ground, carries)]
     ground, body = (np.array([0j, lengths[bar]]) for bar in ends)
-    return StephensonLinkage(kind, carries, chain, ground, body)
+    return StephensonLinkage(name, carries, chain, ground, body)

@@ -6,8 +6,7 @@ import numpy as np
 
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
-from burmester.synthesis.motion_generation import synthesize
-from burmester.synthesis.within_digits import tolerances_of_digits
+from burmester.synthesis.motion_generation import synthesize, tolerances_of_digits
 from burmester.tasks.motion_task import Task
 from tests.oracles import witness
 from tests.oracles.tolerance_boxes import least_shares

@@ -6,7 +6,7 @@ import pytest
 from burmester.fourbar.dyad import PR
 from burmester.fourbar.linkage import Linkage, Links
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.verdicts.possible_types import links_covariance, possible_types
+from burmester.verdicts.uncertainty import links_covariance, possible_types
 from tests.oracles.refits import numbers_of
 from tests.oracles.witness import random_four_bar
 

@@ -15,8 +15,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from burmester.clearance.moving_parts import lugs, shortened
-from burmester.clearance.shapes import area, distances, moved, segments
+from burmester.clearance.moving_parts import area, distances, lugs, moved, segments, shortened
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray

@@ -8,11 +8,12 @@ moving pivots.  The width of the bars is taken off the distances of their middle
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Final, NamedTuple, final
+from typing import Final, NamedTuple, TypeAlias, final
 
 import numpy as np
+import shapely
+from numpy.typing import NDArray
 
-from burmester.clearance.shapes import area, distances, moved, segments
 from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
@@ -20,7 +21,20 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.surroundings import Surroundings
 
-__all__ = ["BAR_NAMES", "BODY", "Ways", "bars_of", "pairs_of", "shortened"]
+__all__ = [
+    "BAR_NAMES",
+    "BODY",
+    "Ways",
+    "area",
+    "bars_of",
+    "distances",
+    "moved",
+    "pairs_of",
+    "segments",
+    "shortened",
+]
+
+Geometries: TypeAlias = NDArray[np.object_]
 
 BODY: Final = "the body"
 BAR_NAMES: Final = ("the driver", "the follower", "the coupler")
@@ -179,3 +193,23 @@ def bars_of(linkage: Linkage, places: Displacement) -> FloatArray:
             out[:, :, number, 0] = dyad.fixed_pivot[:, None] if isinstance(dyad, RR) else pin
     out[:, :, 2, 0], out[:, :, 2, 1] = out[:, :, 0, 1], out[:, :, 1, 1]
     return out
+
+
+def area(polygon: Polygon) -> shapely.Polygon:
+    """The inside and the edge of a polygon."""
+    return shapely.Polygon(polygon.vertices)
+
+
+def moved(polygon: Polygon, places: Displacement) -> Geometries:
+    """A polygon of M in F, at places (n,); all of its places are finite."""
+    return np.asarray(shapely.polygons(places[:, None].act(polygon.vertices)))
+
+
+def segments(ends: FloatArray) -> Geometries:
+    """Segments between ends (n, 2, 2), points where both ends are one."""
+    return np.asarray(shapely.linestrings(ends))
+
+
+def distances(ones: Geometries, others: Geometries | shapely.Geometry) -> FloatArray:
+    """How far shapes are apart, (n,); 0 where they touch or overlap."""
+    return np.asarray(shapely.distance(ones, others), dtype=np.float64)

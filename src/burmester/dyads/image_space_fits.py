@@ -126,22 +126,7 @@ def larochelle(poses: Displacement, start: RR) -> NormalFit:
 
     Formula `manifold-distance` of the theory.
 
-    Parameters
-    ----------
-    poses : Displacement, (N,)
-        N >= 5 poses, best in canonical frames.
-    start : RR, (*,)
-        Start values; leading axes are fits of their own.
-
-    Returns
-    -------
-    NormalFit
-        Where each start value has led.
-
-    Raises
-    ------
-    InputError
-        E121 (fewer than 5 poses), E103 (a number that is not finite).
+    Parameters, result and errors as of `algebraic_fit`.
 
     Notes
     -----
@@ -168,22 +153,7 @@ def ravani_roth(poses: Displacement, start: RR) -> NormalFit:
 
     Formula `normal-distance` of the theory.
 
-    Parameters
-    ----------
-    poses : Displacement, (N,)
-        N >= 5 poses, best in canonical frames.
-    start : RR, (*, 2)
-        Start values; leading axes are fits of their own.
-
-    Returns
-    -------
-    NormalFit
-        Where each start value has led.
-
-    Raises
-    ------
-    InputError
-        E121 (fewer than 5 poses), E103 (a number that is not finite).
+    Parameters, result and errors as of `algebraic_fit`; start: (*, 2).
 
     Notes
     -----

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 from burmester.dyads.circle_descent import circle_minima, reach, sharpened_circles
 from burmester.dyads.critical_points import COUNT, LITTLE_TURN, CriticalDyads, critical_dyads
 from burmester.dyads.sliders import fixed_lines, moving_lines
-from burmester.dyads.start_pivots import pivots_of_fits
-from burmester.dyads.starts_down import starts_down
+from burmester.dyads.starts_down import pivots_of_fits, starts_down
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement

@@ -111,28 +111,10 @@ def moving_pivot_map(
 ) -> PivotMap:
     """The best link of poses for each moving pivot.
 
-    The inverse motion exchanges the two pivots; see `fixed_pivot_map`.
+    The inverse motion exchanges the two pivots: all else is as of `fixed_pivot_map`, with points
+    of M for those of F.
 
     Formula `pivot-map` of the theory.
-
-    Parameters
-    ----------
-    poses : Displacement, (N,)
-        N >= 4 poses.
-    pivots : array_like, (*, 2)
-        Points of M.
-    weights : array, (N,), optional
-        Of the squared residuals.
-
-    Returns
-    -------
-    PivotMap
-        The links (*,) with their errors.
-
-    Raises
-    ------
-    InputError
-        E103 (a number that is not finite).
 
     Examples
     --------

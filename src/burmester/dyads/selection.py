@@ -123,11 +123,6 @@ class GivenPoses(NamedTuple):
         weights = None if task.weights is None else task.weights[None]
         return cls(task.poses[None], weights, np.array([size]), task.resolution)
 
-    def those(self, index: Indices | Mask) -> Self:
-        """Some of the tasks."""
-        poses, weights, length = take(self[:3], index)
-        return self._replace(poses=poses, weights=weights, length=length)
-
     @property
     def relative_resolution(self) -> FloatArray:
         """How exactly poses are known, as a share of the length (T,)."""
@@ -192,7 +187,7 @@ class Fits(NamedTuple):
 
     def blur(self, index: Indices) -> FloatArray:
         """The sine (k,) of the angle by which noise turns a manifold of tasks from a slider."""
-        count, some = self.seen.shape[-1], self.given.those(index)
+        count, some = self.seen.shape[-1], take(self.given, index)
         if self.noise is not None:
             noise, gap = (each[index] for each in self.noise)
         elif count < MIN_POSES:

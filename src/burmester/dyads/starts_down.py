@@ -5,11 +5,18 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.five_poses import dyads_of_five
+from burmester.dyads.pencil import MIN_POSES, fit_pencil
+from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.tasks.repeated_poses import spanning
 
-__all__ = ["starts_down"]
+__all__ = ["pivots_of_fits", "starts_down"]
+
+QUINTUPLES = 3  # of poses, at most; more found nothing new in a campaign
 
 # Generic factors by which one of each pair of conjugate points is picked.
 CONJUGATE_PICK = np.sqrt([2.0, 3.0, 5.0, 7.0])
@@ -84,3 +91,26 @@ def _pivots_along(line: PR, motion: Displacement) -> tuple[FloatArray, FloatArra
         for side in (-1, 1)
     )
     return first, second
+
+
+def pivots_of_fits(poses: Displacement, weights: FloatArray | None) -> FloatArray:
+    """Pivots (k, 4), c and m, of the pencil's dyads and of those through five of the poses (N,).
+
+    The first five poses are those that span the most, the next five span the most of the rest.
+    """
+    found = []
+    if poses.shape[0] >= MIN_POSES:
+        found.append(fit_pencil(poses, weights).dyads)
+    _, seen = CanonicalFrames.of(poses, weights)
+    design = constraint_manifold.monomials(seen.as_image_point()) * constraint_manifold.INVARIANT
+    rest = np.arange(poses.shape[0])
+    for _ in range(min(QUINTUPLES, len(rest) // 5)):
+        five = spanning(design[rest], 5)
+        found.append(dyads_of_five(poses[rest[five]]).dyads)
+        rest = np.delete(rest, five)
+    pivots = np.concatenate([_pivots(dyads) for dyads in found])
+    return np.asarray(pivots[np.isfinite(pivots).all(axis=-1)])
+
+
+def _pivots(dyads: RR) -> FloatArray:
+    return np.concatenate([dyads.fixed_pivot, dyads.moving_pivot], axis=-1)

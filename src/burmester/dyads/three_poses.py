@@ -59,26 +59,10 @@ def dyad_with_moving_pivot(poses: Displacement, moving_pivot: ArrayLike) -> RR:
 def dyad_with_fixed_pivot(poses: Displacement, fixed_pivot: ArrayLike) -> RR:
     """The one RR dyad of three poses with each fixed pivot.
 
-    The inverse motion exchanges fixed and moving pivots; see `dyad_with_moving_pivot`.
+    The inverse motion exchanges fixed and moving pivots: all else is as of
+    `dyad_with_moving_pivot`, with points of F for those of M.
 
     Formula `three-poses` of the theory.
-
-    Parameters
-    ----------
-    poses : Displacement, (3,)
-        Three poses.
-    fixed_pivot : array_like, (*, 2)
-        Points of F.
-
-    Returns
-    -------
-    RR
-        The dyads (*,).
-
-    Raises
-    ------
-    InputError
-        E121 (another number of poses), E103 (a number that is not finite).
 
     Examples
     --------

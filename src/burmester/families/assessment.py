@@ -8,8 +8,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.families.conditions import Conditions
-from burmester.families.open_task import OpenTask, Trials
+from burmester.families.open_task import Conditions, OpenTask, Trials
 from burmester.families.rail_freedom import RailFreedom
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
@@ -81,10 +80,7 @@ def assessed(trials: Trials, task: OpenTask, *, thorough: bool = False) -> Asses
     frames = MORE_FRAMES if thorough else CLEARANCE_FRAMES
     count = len(trials)
     out = Assessment(np.zeros(count), *(np.full(count, np.nan) for _ in range(3)))
-    every = np.arange(count)[:, None]
-    order = np.stack([trials.driver, 1 - trials.driver], axis=1)
-    batch = trials.batch
-    led = LinkageBatch(batch.kinds[every, order], batch.dimensions[every, order])
+    led = trials.batch.in_order(np.stack([trials.driver, 1 - trials.driver], axis=1))
     places = task.places(trials.offsets)
     for index, linkage in _alike(led, trials, task):
         rails = [task.sides[abs(side - trials.driver[index[0]])].rail for side in (0, 1)]

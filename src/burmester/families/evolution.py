@@ -22,7 +22,7 @@ from burmester.families.open_task import OpenTask, Trials
 from burmester.families.projection import projected
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.bundles import concatenate, replaced, take
 from burmester.progress import goes_on
 
 __all__ = ["improved"]
@@ -94,7 +94,7 @@ def improved(
         winners = np.flatnonzero(better)
         if len(winners):
             child = winners * CHILDREN + first[winners]
-            best = _put(best, alive[winners], take(children, child))
+            best = replaced(best, alive[winners], take(children, child))
             cost[alive[winners]] = own[winners, first[winners]]
         step[alive] *= np.where(better, LONGER, SHORTER)
         good = np.flatnonzero(worth.good)
@@ -126,12 +126,3 @@ def _widths(task: OpenTask) -> FloatArray:
     """By how much a step of one moves an offset, for those that may move."""
     loose = task.half_widths[task.half_widths > 0]
     return np.minimum(2 * loose / FIRST_STEP, 1.0)
-
-
-def _put(whole: Trials, index: NDArray[np.intp], part: Trials) -> Trials:
-    """Linkages (k,) with others in their place."""
-    kinds, z = whole.batch.kinds.copy(), whole.batch.dimensions.copy()
-    offsets, driver = whole.offsets.copy(), whole.driver.copy()
-    kinds[index], z[index] = part.batch.kinds, part.batch.dimensions
-    offsets[index], driver[index] = part.offsets, part.driver
-    return Trials(LinkageBatch(kinds, z), offsets, driver)

@@ -16,11 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.families.assessment import AIMS, Assessment, assessed, costs
-from burmester.families.conditions import Conditions
 from burmester.families.dyad_samples import drawn_dyads
 from burmester.families.evolution import improved
-from burmester.families.front import far_apart, front
-from burmester.families.open_task import OpenTask, Trials
+from burmester.families.open_task import Conditions, OpenTask, Trials
 from burmester.families.pairing import promising_pairs
 from burmester.fourbar.dyad import RP, RR
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
@@ -48,6 +46,8 @@ __all__ = [
     "best_of_family",
     "drawn_pool",
     "driver_first",
+    "far_apart",
+    "front",
     "pin_places",
     "recommended_first",
     "rule_in_words",
@@ -361,9 +361,7 @@ def driver_first(trials: Trials, task: OpenTask, *, always: bool = False) -> Lin
     """The linkages with the driver first, unless each side has limits of its own."""
     if not (always or task.is_symmetric):
         return trials.batch
-    rows = np.arange(len(trials))[:, None]
-    order = np.stack([trials.driver, 1 - trials.driver], axis=1)
-    return LinkageBatch(trials.batch.kinds[rows, order], trials.batch.dimensions[rows, order])
+    return trials.batch.in_order(np.stack([trials.driver, 1 - trials.driver], axis=1))
 
 
 def recommended_first(
@@ -396,3 +394,38 @@ def _figures(quality: Quality | None) -> tuple[float, float, float]:
     if quality is None:
         return 0.0, np.inf, np.inf
     return float(quality.transmission), float(quality.extent), float(quality.sensitivity)
+
+
+def front(figures: FloatArray) -> NDArray[np.intp]:
+    """The indices of the rows (k, n) that no other row surpasses: less is better in each column."""
+    order = np.lexsort(figures.T[::-1])
+    rows = figures[order]
+    kept = np.ones(len(rows), dtype=bool)
+    for k in range(len(rows)):  # nothing after a row surpasses it
+        if kept[k]:
+            after = kept[k + 1 :]
+            after &= (rows[k + 1 :] < rows[k]).any(axis=1)
+    return np.asarray(order[kept])
+
+
+def far_apart(points: FloatArray, first: list[int], most: int, least: float) -> list[int]:
+    """At most `most` indices of points (k, n), those in `first` and others far from them.
+
+    Each next point is the farthest from all before, by at least `least`.
+    """
+    chosen: list[int] = []
+    away = np.full(len(points), np.inf)
+
+    def take(k: int) -> None:
+        chosen.append(k)
+        np.minimum(away, np.linalg.norm(points - points[k], axis=1), out=away)
+
+    for k in first:
+        if away[k] >= least and len(chosen) < most:
+            take(k)
+    while len(chosen) < min(most, len(points)):
+        k = int(away.argmax())
+        if away[k] < least:
+            break
+        take(k)
+    return chosen

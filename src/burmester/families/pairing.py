@@ -13,8 +13,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.families.conditions import Conditions
 from burmester.families.dyad_samples import DyadSamples
+from burmester.families.open_task import Conditions
 from burmester.fourbar.linkage_batch import DYAD_KINDS
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray

@@ -2,29 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 
 from burmester.dyads.selection import FoundDyad
-from burmester.following.changes import dyad_changes, linkage_changes
+from burmester.errors import InputError
 from burmester.following.dyad_strands import DyadStrands, NewDyads
-from burmester.following.followed import Followed
-from burmester.following.likeness import require_followable, require_like
+from burmester.following.followed import Change, Followed
 from burmester.following.linkage_strands import LinkageStrands, NewLinkages
 from burmester.fourbar.dyad import PP
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import target_of
-from burmester.synthesis.result import Synthesis
+from burmester.numerics.bundles import take
+from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task
+from burmester.tasks.notation import length_of
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import require_instance
+from burmester.verdicts.explanation import reasons
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.wording import count, in_unit, listed
 
 __all__ = ["follow"]
+
+ANEW = "call burmester.synthesize with the new task, and follow from there"
 
 
 def follow(
@@ -189,7 +194,7 @@ def _judged(
     ]
     if not index:
         return tuple(before[id] for id in there.strands.ids)
-    strands = there.strands.at(np.array(index, dtype=np.intp))
+    strands = take(there.strands, np.array(index, dtype=np.intp))
     known = {each.id: each for old in start.linkages for each in old.dyads} | dyads
     pairs = [(known[one], known[two]) for one, two in strands.pairs]
     rows = there.rows[index]
@@ -204,3 +209,115 @@ def _judged(
     ]
     new = {each.id: each for each in at_given_poses(named, evaluation.problem)}
     return tuple(new[id] if id in new else before[id] for id in there.strands.ids)
+
+
+def require_followable(synthesis: Synthesis) -> None:
+    """Refuse a synthesis whose answers have nothing to be followed by: E157."""
+    options = synthesis.options
+    reason = None
+    if synthesis.outcome.code in JUDGED:
+        reason = "it is the judgement of a given linkage"
+    elif options.norm != "rms":
+        reason = "it minimises the worst distance, which has kinks"
+    elif options.rounds:
+        reason = "its dimensions are rounded, and would jump"
+    elif not synthesis.fits and synthesis.family is None:
+        reason = f"its outcome is {synthesis.outcome.code}: {synthesis.outcome.message}"
+    if reason is not None:
+        raise InputError("E157", "this synthesis cannot be followed", why=reason, help=ANEW)
+
+
+def require_like(old: SynthesisProblem, new: SynthesisProblem, *, is_family: bool = False) -> None:
+    """Refuse a task that differs from the one before by more than its numbers: E157.
+
+    is_family: whether linkages of too few poses are followed, which any motion has.
+    """
+    before, after = old.given, new.given
+    one, two = before.poses.shape[0], after.poses.shape[0]
+    reason = None
+    if one != two:
+        reason = f"it has {count(two, 'pose')} instead of {one}"
+    elif before.length_unit != after.length_unit:
+        units = [in_unit(each.length_unit or "no unit") for each in (after, before)]
+        reason = f"its lengths are{units[0]}, not{units[1]}"
+    elif not _same_marks(before, after):
+        reason = "other poses are exact"
+    elif (before.tolerances is None) != (after.tolerances is None):
+        reason = "it has tolerances of its poses, or has them no more"
+    elif before.timing is not None or after.timing is not None:
+        reason = "its poses are timed by the crank"
+    elif [each.allowed for each in before.limits] != [each.allowed for each in after.limits]:
+        reason = "its limits allow other kinds of dyads"
+    elif any(each.line is not None for each in (*before.limits, *after.limits)):
+        reason = "a dyad has a rail or a slot"
+    elif new.is_special and not is_family:
+        reason = "its motion is a special one"
+    elif old.task.poses.shape != new.task.poses.shape:
+        reason = "poses that were one are two now, or two are one"
+    if reason is not None:
+        raise InputError("E157", "this task cannot be followed", why=reason, help=ANEW)
+
+
+def _same_marks(before: Task, after: Task) -> bool:
+    none = np.zeros(before.poses.shape, dtype=bool)
+    one, two = (none if each.exact is None else each.exact for each in (before, after))
+    return np.array_equal(one, two)
+
+
+def dyad_changes(
+    before: Sequence[FoundDyad], after: Sequence[FoundDyad], task: Task
+) -> list[Change]:
+    """The dyads that vanished and that appeared."""
+    old, new = {each.id for each in before}, {each.id for each in after}
+    gone = [
+        Change(each.id, "vanished", f"{each.id} vanished: no dyad is left near where it was")
+        for each in before
+        if each.id not in new
+    ]
+    come = [
+        Change(
+            each.id,
+            "appeared",
+            f"{each.id} appeared; it misses the poses by {length_of(each.max_error, task)} at most",
+        )
+        for each in after
+        if each.id not in old
+    ]
+    return gone + come
+
+
+def linkage_changes(
+    before: Mapping[str, FoundLinkage],
+    after: Sequence[FoundLinkage],
+    vanished: Sequence[str],
+    task: Task,
+) -> list[Change]:
+    """The linkages that vanished or appeared, and those that crossed a verdict."""
+    out = [
+        Change(id, "vanished", f"{id} vanished with {_pair(before[id])}")
+        for id in vanished
+        if id in before
+    ]
+    for each in after:
+        old = before.get(each.id)
+        if old is None:
+            out.append(Change(each.id, "appeared", f"{each.id} appeared, of {_pair(each)}"))
+        elif each.usable and not old.usable:
+            out.append(Change(each.id, "works", f"{each.id} works now"))
+        elif not each.usable and _why(each) != _why(old):
+            why = "; ".join(reasons(each, task))
+            if old.usable:
+                out.append(Change(each.id, "fails", f"{each.id} no longer works: {why}"))
+            else:
+                out.append(Change(each.id, "other defects", f"{each.id} fails: {why}"))
+    return out
+
+
+def _pair(found: FoundLinkage) -> str:
+    return listed([each.id for each in found.dyads])
+
+
+def _why(found: FoundLinkage) -> tuple[str, ...]:
+    """The kinds of defects and violations, which are a verdict's name."""
+    kinds: set[str] = {each.kind for each in found.defects}
+    return tuple(sorted(kinds | {each.kind for each in found.violations}))

@@ -13,14 +13,19 @@ from typing import NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.circle_descent import further_down
+from burmester.dyads.circle_descent import further_down, steady_starts
 from burmester.dyads.critical_points import CriticalDyads, continued_points, critical_dyads
 from burmester.dyads.geometric_fit import circle_distances
 from burmester.dyads.local_minima import BestDyads, is_hard, starts_of_one
-from burmester.dyads.plain_circle_descent import steady_starts
 from burmester.dyads.sliders import fixed_lines, moving_lines
-from burmester.following.minimum_step import MovedMinima, moved_minima
-from burmester.following.moved_fit import circles_of, listed, moved_fit, twins
+from burmester.following.minimum_step import (
+    MovedMinima,
+    circles_of,
+    listed,
+    moved_fit,
+    moved_minima,
+    twins,
+)
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import Dyad
 from burmester.geometry.displacement import Displacement

@@ -27,8 +27,7 @@ from burmester.dyads.limited_block import Block, LengthRange
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.following.face_table import FaceTable, face_numbers, held, nearest_face
-from burmester.following.minimum_step import moved_minima
-from burmester.following.moved_fit import moved_fit, twins
+from burmester.following.minimum_step import moved_fit, moved_minima, twins
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement

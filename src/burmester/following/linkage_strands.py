@@ -38,7 +38,7 @@ from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
 from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.bundles import concatenate, replaced, take
 from burmester.numerics.weights import weights_of_mean_one
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.residuals import SIZE, Problem
@@ -88,10 +88,10 @@ class NewLinkages(NamedTuple):
         numbers = range(last + 1, last + 1 + count)
         places = target.frames.from_canonical(target.places_of(rows))
         new = LinkageStrands(
-            tuple(f"L{number}" for number in numbers),
-            tuple(numbers),
-            tuple((one.id, two.id) for one, two in pairs),
-            (True,) * count,
+            [f"L{number}" for number in numbers],
+            list(numbers),
+            [(one.id, two.id) for one, two in pairs],
+            [True] * count,
             np.zeros(count, dtype=bool),
             own,
             places,
@@ -100,7 +100,7 @@ class NewLinkages(NamedTuple):
             np.full((count, 2, 3), -1, dtype=np.intp),
         )
         return self._replace(
-            strands=strands.joined(new),
+            strands=concatenate([strands, new]),
             batch=concatenate([self.batch, batch]),
             rows=np.concatenate([self.rows, rows]),
         )
@@ -118,10 +118,10 @@ class LinkageStrands:
     both dyads lie.
     """
 
-    ids: tuple[str, ...]
-    ranks: tuple[int, ...]
-    pairs: tuple[tuple[str, str], ...]
-    determined: tuple[bool, ...]
+    ids: list[str]
+    ranks: list[int]
+    pairs: list[tuple[str, str]]
+    determined: list[bool]
     from_search: NDArray[np.bool_]
     own: LinkageBatch
     places: Displacement
@@ -150,10 +150,10 @@ class LinkageStrands:
         own = LinkageBatch.of([each.linkage for each in found])
         batch = own.to_canonical(target.frames)
         strands = cls(
-            tuple(each.id for each in found),
-            tuple(each.rank for each in found),
-            tuple((each.dyads[0].id, each.dyads[1].id) for each in found),
-            tuple(each.determined for each in found),
+            [each.id for each in found],
+            [each.rank for each in found],
+            [(each.dyads[0].id, each.dyads[1].id) for each in found],
+            [each.determined for each in found],
             np.array([each.from_search for each in found], dtype=bool),
             own,
             places,
@@ -180,30 +180,6 @@ class LinkageStrands:
     def __len__(self) -> int:
         return len(self.ids)
 
-    def joined(self, other: LinkageStrands) -> LinkageStrands:
-        """These strands and others."""
-        names = "ids", "ranks", "pairs", "determined"
-        arrays = "from_search", "own", "places", "way", "curvature", "numbers"
-        return LinkageStrands(
-            *(getattr(self, name) + getattr(other, name) for name in names),
-            *(concatenate([getattr(self, name), getattr(other, name)]) for name in arrays),
-        )
-
-    def at(self, index: NDArray[np.intp]) -> LinkageStrands:
-        """Some of the strands."""
-        return LinkageStrands(
-            tuple(self.ids[k] for k in index),
-            tuple(self.ranks[k] for k in index),
-            tuple(self.pairs[k] for k in index),
-            tuple(self.determined[k] for k in index),
-            self.from_search[index],
-            self.own[index],
-            self.places[index],
-            self.way[index],
-            self.curvature[index],
-            self.numbers[index],
-        )
-
     def continued(
         self,
         target: Target,
@@ -221,7 +197,7 @@ class LinkageStrands:
             for way, pair in zip(self.way, self.pairs, strict=True)
         ]
         vanished = [id for id, lost in zip(self.ids, gone, strict=True) if lost]
-        strands = self.at(np.flatnonzero(~np.array(gone, dtype=bool))) if vanished else self
+        strands = take(self, np.flatnonzero(~np.array(gone, dtype=bool))) if vanished else self
         if not len(strands):
             none = np.empty((0, target.poses.shape[0], 3))
             return NewLinkages(strands, strands.own, none, vanished, [])
@@ -248,7 +224,7 @@ class LinkageStrands:
         if not (sound := sizable(there.batch)).all():
             vanished += [strands.ids[k] for k in np.flatnonzero(~sound)]
             kept, last = np.flatnonzero(sound), last[sound]
-            there, strands = take(there, kept), strands.at(kept)
+            there, strands = take((there, strands), kept)
         lost = np.flatnonzero(last > RESTLESS_STEP)
         if len(lost):
             way = strands.way.copy()
@@ -312,10 +288,9 @@ class _Stretch(NamedTuple):
             return here, curvature, last
         found = self._least(here, index)
         curvature[index], last[index] = found.curvature, found.last
-        dimensions, rows = here.batch.dimensions.copy(), here.rows.copy()
-        dimensions[index] = found.state.z.reshape(-1, 2, DIMENSIONS)
-        rows[index] = found.state.rows
-        there = _Here(LinkageBatch(here.batch.kinds, dimensions), rows, here.numbers)
+        z = found.state.z.reshape(-1, 2, DIMENSIONS)
+        batch = LinkageBatch(here.batch.kinds[index], z)
+        there = replaced(here, index, _Here(batch, found.state.rows, here.numbers[index]))
         if not self.limits:
             return there, curvature, last
         left = outside_limits(there.batch[index], self.limits, self.target.frames)
@@ -344,15 +319,9 @@ class _Stretch(NamedTuple):
             constrained_steps=REFINING_STEPS,
         )
         good = np.isfinite(refined.rows).all(axis=(1, 2))
-        index, batch, rows = index[good], refined.batch[good], refined.rows[good]
-        dimensions, numbers, every = (
-            here.batch.dimensions.copy(),
-            here.numbers.copy(),
-            here.rows.copy(),
-        )
-        dimensions[index], every[index] = batch.dimensions, rows
-        numbers[index] = linkage_face_numbers(batch, self.limits, frames)
-        return _Here(LinkageBatch(here.batch.kinds, dimensions), every, numbers)
+        batch, rows = refined.batch[good], refined.rows[good]
+        numbers = linkage_face_numbers(batch, self.limits, frames)
+        return replaced(here, index[good], _Here(batch, rows, numbers))
 
 
 def _is_pair(found: FoundLinkage, known: Mapping[str, FoundDyad]) -> bool:
@@ -376,9 +345,7 @@ def _with_dyads(strands: LinkageStrands, dyads: Mapping[str, FoundDyad]) -> Link
         return strands.own
     pairs = [strands.pairs[k] for k in index]
     new = LinkageBatch.of([Linkage(dyads[one].dyad, dyads[two].dyad) for one, two in pairs])
-    own = LinkageBatch(strands.own.kinds.copy(), strands.own.dimensions.copy())
-    own.kinds[index], own.dimensions[index] = new.kinds, new.dimensions
-    return own
+    return replaced(strands.own, index, new)
 
 
 def _passed(batch: LinkageBatch, poses: Displacement) -> NDArray[np.bool_]:

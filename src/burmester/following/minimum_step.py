@@ -13,11 +13,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.geometric_fit import DistanceFunction
+from burmester.dyads.local_minima import BestDyads, with_errors
 from burmester.following.face_table import Held
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec, solve_or_shortest
 
-__all__ = ["MovedMinima", "moved_minima", "saddle_system"]
+__all__ = [
+    "MovedMinima",
+    "circles_of",
+    "listed",
+    "moved_fit",
+    "moved_minima",
+    "saddle_system",
+    "twins",
+]
+
+SAME_DYAD = 1e-6  # relative; dyads that differ by less have become one
 
 MAX_STEPS = 8  # of Newton's method; more than 4 are taken only where something is wrong
 SETTLED_STEP = 1e-10  # relative; the error after so short a step is rounding
@@ -120,3 +133,32 @@ def moved_minima(
         slope, terms = matvec(along, force), matvec(np.abs(along), np.abs(force))
         let_go = np.asarray((slope < -INWARD_ROUNDING * terms).any(axis=1))
     return MovedMinima(z, np.asarray(settled & near & convex), let_go)
+
+
+def circles_of(fit: BestDyads) -> FloatArray:
+    """The circles (k, 5) of a fit, c, m, r, in its frames."""
+    some = fit.circles
+    return np.concatenate([some.fixed_pivot, some.moving_pivot, some.radius[:, None]], axis=-1)
+
+
+def listed(fit: BestDyads) -> list[Dyad]:
+    """The circles and sliders of a fit, in the task's frames."""
+    every: list[Dyad] = [
+        RR(fit.dyads.fixed_pivot[k], fit.dyads.moving_pivot[k], fit.dyads.radius[k])
+        for k in range(len(fit.dyads.radius))
+    ]
+    return every + [fit.frames.line_from_canonical(each) for each in fit.sliders]
+
+
+def moved_fit(
+    fit: BestDyads, z: FloatArray, sliders: tuple[PR | RP, ...], seen: Displacement
+) -> BestDyads:
+    """The fit with other circles z (k, 5) and sliders, in the same frames."""
+    every = RR(z[:, :2], z[:, 2:4], z[:, 4])
+    return with_errors(fit.search, every, sliders, every[:, None].residual(seen))
+
+
+def twins(z: FloatArray) -> NDArray[np.intp]:
+    """The numbers of dyads (k, n) that are the same as one before them."""
+    apart = np.abs(z[:, None] - z).max(axis=-1) / (1 + np.abs(z).max(axis=-1))
+    return np.flatnonzero(np.tril(apart < SAME_DYAD, -1).any(axis=1))

@@ -20,6 +20,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import places_at, sampled
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import take
 
 __all__ = ["Boxes", "places_in_boxes"]
 
@@ -62,10 +63,6 @@ class Boxes:
             used = np.abs(self.deviations(rows)) / bounds
         return np.asarray(np.nan_to_num(used.max(axis=-1), nan=np.inf))
 
-    def at(self, index: NDArray[np.intp] | slice) -> Boxes:
-        """The boxes of some poses."""
-        return Boxes(self.centre[index], self.directions[index], self.bounds[index], self.length)
-
 
 def places_in_boxes(batch: LinkageBatch, boxes: Boxes) -> Displacement:
     """The places (k, 2, N) on both circuits of linkages (k,) deepest inside boxes (N,).
@@ -84,7 +81,7 @@ def places_in_boxes(batch: LinkageBatch, boxes: Boxes) -> Displacement:
         share, samples = sampled(own, boxes.length, SAMPLES)
         for at in range(0, number, POSES_PER_BLOCK):
             some = slice(at, at + POSES_PER_BLOCK)
-            found = _deepest(own, share, samples, boxes.at(some))
+            found = _deepest(own, share, samples, take(boxes, some))
             out[index[row], side, some] = found
     return places_of(out, boxes.length)
 

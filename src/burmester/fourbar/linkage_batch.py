@@ -93,6 +93,11 @@ class LinkageBatch:
         """The same with the two dyads exchanged."""
         return LinkageBatch(self.kinds[:, ::-1], self.dimensions[:, ::-1])
 
+    def in_order(self, sides: NDArray[np.intp]) -> LinkageBatch:
+        """The same with their dyads in the order of the sides (k, 2)."""
+        every = np.arange(len(self))[:, None]
+        return LinkageBatch(self.kinds[every, sides], self.dimensions[every, sides])
+
     def alike(self) -> Iterator[tuple[NDArray[np.intp], Linkage]]:
         """For each pair of kinds the indices (n,) and the linkages (n,)."""
         number = self.kinds[:, 0] * len(DYAD_KINDS) + self.kinds[:, 1]

@@ -24,6 +24,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import places_at, sampled
 from burmester.fourbar.transmission import Transmission
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, even_numbers
+from burmester.numerics.bundles import take
 from burmester.numerics.weights import weights_or_ones
 
 __all__ = ["places_along"]
@@ -133,7 +134,7 @@ def places_along(
     ways += _clear_ways(samples, ways, wanted, share, any_order)
     some = even_numbers(len(wanted), MOST_WEIGHED)
     few = [way._replace(positions=way.positions[some]) for way in ways]
-    near = None if boxes is None else boxes.at(some)
+    near = None if boxes is None else take(boxes, some)
     rows = _at_feet(samples, few, wanted[some], length, near, any_order=any_order)
     misses = np.sqrt(_squares(rows, wanted[some]) @ share[some] / share[some].sum())
     linkage = samples.row[[each.stretch.circuit for each in ways]]
@@ -339,7 +340,7 @@ def _at_feet(
     for at in range(0, len(wanted), POINTS_AT_ONCE):
         some = slice(at, at + POINTS_AT_ONCE)
         few = [way._replace(positions=way.positions[some]) for way in ways]
-        own = None if boxes is None else boxes.at(some)
+        own = None if boxes is None else take(boxes, some)
         parts.append(_block_at_feet(samples, few, wanted[some], length, own))
     feet, middles, speeds = (np.concatenate(each, axis=1) for each in zip(*parts, strict=True))
     if boxes is None or any_order:
@@ -394,7 +395,7 @@ def _block_at_feet(
     if len(own):
         reach = np.minimum(BESIDE * away / np.maximum(speed, 1e-9), 1 / 4)
         bracket = _Bracket(middle, np.where(out, reach, 0.0), low, high).at(own)
-        few, out = boxes.at(own), out[:, own]
+        few, out = take(boxes, own), out[:, own]
         beside, inside = _narrowed(circuits, bracket, few.share, length)
         out &= few.share(inside) <= 1
         middle[:, own] = np.where(out, beside, middle[:, own])

@@ -9,7 +9,6 @@ stays the same.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, Self, final
 
@@ -20,6 +19,7 @@ from burmester.fourbar.dyad import RR
 from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import TYPES, Linkage, Links, grashof_numbers
 from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.numerics.bundles import take
 
 
 @final
@@ -45,7 +45,7 @@ class Generator:
 
     def __getitem__(self, index: Any) -> Self:
         """Pick along the leading axes."""
-        return type(self)(*(getattr(self, each.name)[index] for each in fields(self)))
+        return take(self, index)
 
     def __len__(self) -> int:
         return len(self.input_link)
@@ -67,12 +67,6 @@ class Generator:
         one = np.ones_like(self.input_link)
         links = Links(one, self.input_link, self.coupler, self.output_link)
         return np.asarray(np.array(TYPES)[grashof_numbers(links)])
-
-    @classmethod
-    def joined(cls, parts: Sequence[Self]) -> Self:
-        """Generators (k,), those of all parts (*,) in their order."""
-        names = [each.name for each in fields(cls)]
-        return cls(*(np.concatenate([getattr(part, n) for part in parts]) for n in names))
 
     def first_apart(self, distance: float, most: int, *, phases_only: bool) -> NDArray[np.intp]:
         """The indices of the first generators (k,) of which none is near an earlier one.

@@ -4,21 +4,34 @@ A descent leads from every optimum of Freudenstein's residual, and from further 
 error of linkages that keep what is asked.  The same is done without what is asked, and once for
 each of some greater transmission angles, with links that are sound: so the nearest linkage stands
 beside those that transmit better.
+
+Further starts are linkages drawn at random that go through the range and keep what is asked, the
+nearest first: that may lead far from every optimum without it.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.functions.function_task import FunctionTask
-from burmester.functions.further_starts import FurtherStarts
 from burmester.functions.generator import Generator
-from burmester.functions.kept_requirements import KeptRequirements
+from burmester.functions.kept_requirements import MOST_SIZE, KeptRequirements
 from burmester.functions.refinement import different, refined
+from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.numerics.bundles import concatenate
+from burmester.numerics.counted_draws import uniform_draws
 from burmester.requirements.links import LINK_RATIO
+
+DRAWN: Final = 20_000
+SEED: Final = 20_001
+MOST_PAIRS: Final = 13  # at which they are compared
+CLOSE: Final = 0.3  # of the logarithm of a link, and radians; of starts as near one is taken
+MOST_LOOKED_AT: Final = 400  # of the nearest, when some are taken that are not close
 
 BETTER: Final = tuple(math.radians(each) for each in (20, 30, 40, 50, 60))  # transmission angles
 FURTHER_STARTS: Final = 16  # at each level
@@ -58,7 +71,7 @@ def nearest_generators(optima: Generator, task: FunctionTask) -> Generator:
         ]
         looser = [each._replace(most=1) for each in looser if each not in (asked, plain)]
         found |= _searched(looser, optima, further, task)
-    return Generator.joined(list(found.values()))
+    return concatenate(list(found.values()))
 
 
 def _searched(
@@ -69,7 +82,7 @@ def _searched(
     for types in dict.fromkeys(each.types for each in levels):
         some = [each for each in levels if each.types == types]
         starts = [[optima, further.near(*each[:3], FURTHER_STARTS)] for each in some]
-        every = [Generator.joined(each) for each in starts]
+        every = [concatenate(each) for each in starts]
         for minimax in (False, True) if task.minimax else (False,):
             every = _descended(every, some, task, minimax=minimax)
         found |= dict(zip(some, every, strict=True))
@@ -86,7 +99,7 @@ def _descended(
         np.array([each.ratio for each in levels])[which],
         levels[0].types,
     )
-    ends, error, arrived = refined(Generator.joined(starts), task, kept, minimax=minimax)
+    ends, error, arrived = refined(concatenate(starts), task, kept, minimax=minimax)
     best = []
     for number, level in enumerate(levels):
         at = np.flatnonzero(arrived & (which == number))
@@ -94,3 +107,48 @@ def _descended(
         some = some[different(some)]
         best.append(some[: level.most if minimax or not task.minimax else LEVELLED])
     return best
+
+
+class FurtherStarts(NamedTuple):
+    """Generators (k,) that go through the range of a task, those with the least errors first.
+
+    transmission: (k,), radians; ratio: (k,); type: (k,), names.
+    """
+
+    generators: Generator
+    transmission: FloatArray
+    ratio: FloatArray
+    type: NDArray[np.str_]
+
+    @classmethod
+    def of(cls, task: FunctionTask) -> FurtherStarts:
+        """Those drawn for a task; its given phases are theirs."""
+        low, high = task.input_ends
+        some = np.unique(np.linspace(0, len(task.inputs) - 1, MOST_PAIRS).astype(int))
+        inputs, outputs = task.inputs[some], task.outputs[some]
+        draw = uniform_draws(SEED, np.arange(DRAWN), 0, 5)
+        a, r, b = np.exp(np.log(MOST_SIZE) * (2 * draw[:, :3].T - 1))
+        first = 2 * np.pi * draw[:, 3]
+        if task.input_phase is not None:
+            first = np.full(DRAWN, task.input_phase)
+        drawn = Generator(a, r, b, first, np.zeros(DRAWN), np.where(draw[:, 4] < 0.5, 1.0, -1.0))
+        drawn = drawn[drawn.runs_through(low, high)]
+        made = drawn.outputs(inputs) - outputs
+        second = np.angle(np.exp(1j * made).sum(axis=1))
+        if task.output_phase is not None:
+            second = np.full(len(drawn), task.output_phase)
+        error = (wrapped_angle(made - second[:, None]) ** 2).sum(axis=1)
+        order = np.argsort(error, kind="stable")
+        found = replace(drawn, output_phase=second)[order]
+        return cls(found, found.least_transmission(low, high), found.link_ratio, found.types)
+
+    def near(
+        self, transmission: float, ratio: float, types: frozenset[str] | None, most: int
+    ) -> Generator:
+        """At most so many of the nearest that keep what is asked, none close to another."""
+        keeps = (self.transmission >= transmission) & (self.ratio <= ratio)
+        if types is not None:
+            keeps &= np.isin(self.type, list(types))
+        at = np.flatnonzero(keeps)[:MOST_LOOKED_AT]
+        g = self.generators[at]
+        return g[g.first_apart(CLOSE, most, phases_only=False)]

@@ -96,10 +96,9 @@ class Point:
         return self.at[None]
 
 
-@final
 @dataclass(frozen=True, slots=True, eq=False)
-class Line:
-    """The endless line through two points.
+class _Straight:
+    """A region on the line through two points.
 
     Parameters
     ----------
@@ -111,6 +110,40 @@ class Line:
     InputError
         E131 (not two finite real numbers each, or twice the same point), E112 (too large, or too
         close together).
+    """
+
+    start: FloatArray
+    end: FloatArray
+
+    def __post_init__(self) -> None:
+        kind = type(self).__name__.lower()
+        start = _coordinates(self.start, (2,), f"the start of a {kind}")
+        end = _coordinates(self.end, (2,), f"the end of a {kind}")
+        if (start == end).all():
+            raise InputError(
+                "E131",
+                f"a {kind} needs two different points, not {_shown(start)} twice",
+                help="give another second point, or limit the pivot to that point",
+            )
+        if not (apart := float(np.hypot(*(end - start)))) > 1 / MAX_COORDINATE:
+            raise InputError(
+                "E112",
+                f"the two points of a {kind} are too close together",
+                why=f"the fourth power of {apart:g} is beyond what a number can hold",
+                help="write the lengths in another unit",
+            )
+        object.__setattr__(self, "start", start)
+        object.__setattr__(self, "end", end)
+
+    def equations(self) -> FloatArray:
+        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
+        return _line_equation(self.start, self.end)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Line(_Straight):
+    """The endless line through two points.
 
     Examples
     --------
@@ -118,18 +151,8 @@ class Line:
     on the line through (0, 0) and (1, 1)
     """
 
-    start: FloatArray
-    end: FloatArray
-
-    def __post_init__(self) -> None:
-        _keep_two_points(self, "line")
-
     def __str__(self) -> str:
         return f"on the line through {_shown(self.start)} and {_shown(self.end)}"
-
-    def equations(self) -> FloatArray:
-        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
-        return _line_equation(self.start, self.end)
 
     def faces(self) -> Iterator[Face]:
         """Its pieces."""
@@ -146,18 +169,8 @@ class Line:
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class Segment:
+class Segment(_Straight):
     """The straight piece between two points.
-
-    Parameters
-    ----------
-    start, end : array_like, (2,)
-        Two different points; kept as read-only copies.
-
-    Raises
-    ------
-    InputError
-        As for `Line`.
 
     Examples
     --------
@@ -165,18 +178,8 @@ class Segment:
     on the segment from (0, 0) to (1, 1)
     """
 
-    start: FloatArray
-    end: FloatArray
-
-    def __post_init__(self) -> None:
-        _keep_two_points(self, "segment")
-
     def __str__(self) -> str:
         return f"on the segment from {_shown(self.start)} to {_shown(self.end)}"
-
-    def equations(self) -> FloatArray:
-        """The linear conditions (k, 3) that it sets: row · (1, X, Y) = 0."""
-        return _line_equation(self.start, self.end)
 
     def faces(self) -> Iterator[Face]:
         """Its pieces."""
@@ -403,26 +406,6 @@ def _coordinates(values: object, shape: Shape, what: str) -> FloatArray:
             help="write the lengths in another unit",
         )
     return points
-
-
-def _keep_two_points(region: Line | Segment, kind: str) -> None:
-    start = _coordinates(region.start, (2,), f"the start of a {kind}")
-    end = _coordinates(region.end, (2,), f"the end of a {kind}")
-    if (start == end).all():
-        raise InputError(
-            "E131",
-            f"a {kind} needs two different points, not {_shown(start)} twice",
-            help="give another second point, or limit the pivot to that point",
-        )
-    if not (apart := float(np.hypot(*(end - start)))) > 1 / MAX_COORDINATE:
-        raise InputError(
-            "E112",
-            f"the two points of a {kind} are too close together",
-            why=f"the fourth power of {apart:g} is beyond what a number can hold",
-            help="write the lengths in another unit",
-        )
-    object.__setattr__(region, "start", start)
-    object.__setattr__(region, "end", end)
 
 
 def _shown(point: FloatArray) -> str:

@@ -116,8 +116,6 @@ def _evaluated(good: Sequence[_Starts], evaluation: Evaluation) -> list[FoundLin
     """The usable ones of all rounds, the best first."""
     every = concatenate(good)
     rows = evaluation.target.places(every.batch)
-    found = evaluation.evaluate(
-        Candidates(every.batch, rows, every.pairs, np.ones(len(rows), dtype=bool))
-    )
+    found = evaluation.evaluate(Candidates(every.batch, rows, every.pairs, from_search=True))
     usable = [each for each in found if each.usable and not each.shortcomings]
     return by_quality(usable, evaluation.target.requirements)[:MOST_KEPT]

@@ -114,6 +114,5 @@ def judged_at_all(found: Sequence[FoundLinkage], evaluation: Evaluation) -> list
         rows = np.full((1, *evaluation.target.poses.shape, 3), np.nan)
         if evaluation.target.boxes is not None:
             rows = evaluation.target.places(batch)
-        searched = np.array([each.from_search])
-        out += evaluation.evaluate(Candidates(batch, rows, [each.dyads], searched, own))
+        out += evaluation.evaluate(Candidates(batch, rows, [each.dyads], each.from_search, own))
     return ranked(out, evaluation.problem)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple, final
+from typing import NamedTuple, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,20 +38,32 @@ from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.clearance_check import clearance_of, too_close
 from burmester.verdicts.degeneracy import degenerate_defects
-from burmester.verdicts.found_linkage import FoundLinkage, Pair, Side, with_driver_first
+from burmester.verdicts.found_linkage import (
+    FoundLinkage,
+    Pair,
+    Side,
+    numbered_pair,
+    with_driver_first,
+)
 from burmester.verdicts.limit_check import limit_violations
-from burmester.verdicts.possible_types import links_covariance, possible_types
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
-from burmester.verdicts.requirement_check import places_between, standard_of, violations
-from burmester.verdicts.timing_check import mistimed, timing_error
+from burmester.verdicts.requirement_check import (
+    mistimed,
+    places_between,
+    standard_of,
+    timing_error,
+    violations,
+)
 from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
 from burmester.verdicts.tracing import stray_defects, stray_shortcomings
 from burmester.verdicts.uncertainty import (
     DETERMINED_SHARE,
     covariance,
+    links_covariance,
     pose_sigma,
+    possible_types,
     uncertainties,
 )
 from burmester.wording import count
@@ -61,8 +73,10 @@ __all__ = [
     "Candidates",
     "Evaluation",
     "at_given_poses",
+    "numbered",
     "sizable",
     "transmission_at_given_poses",
+    "with_own_dyads",
 ]
 
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
@@ -81,7 +95,7 @@ MAX_ROUNDED = 5  # round at most this many linkages
 class Candidates(NamedTuple):
     """Linkages (k,) with the rows (k, N, 3) of their places, and the pairs of dyads behind them.
 
-    from_search: (k,), which come from the search for defect-free linkages.
+    from_search: (k,), which come from the search for defect-free linkages, or whether all do.
     own: the same linkages in the task's own frames, with all their digits.
     drivers: (k,), the sides that drive, where that is settled; else the better one does.
     """
@@ -89,9 +103,17 @@ class Candidates(NamedTuple):
     batch: LinkageBatch
     rows: FloatArray
     pairs: list[Pair]
-    from_search: NDArray[np.bool_]
+    from_search: NDArray[np.bool_] | bool = False
     own: LinkageBatch | None = None
     drivers: NDArray[np.intp] | None = None
+
+    @classmethod
+    def alone(
+        cls, batch: LinkageBatch, rows: FloatArray, own: LinkageBatch, *, from_search: bool
+    ) -> Self:
+        """Linkages (k,), also in the task's own frames, of dyads that no other one has: D1, ..."""
+        pairs = [numbered_pair(own.linkage(k), 2 * k + 1) for k in range(len(own))]
+        return cls(batch, rows, pairs, from_search, own)
 
 
 @final
@@ -198,6 +220,7 @@ class Evaluation:
         if self.target.path is not None:
             combined = np.array([each.worst for each in errors])
         bounds, length = standard_of(self.task), partial(length_of, task=self.task)
+        searched = np.broadcast_to(candidates.from_search, len(own))
         distance = np.abs(own.distances(self.task.poses))
         rms, worst = np.sqrt((distance**2).mean(axis=-1)).tolist(), distance.max(axis=-1).tolist()
         sides = np.tile(np.arange(2), (len(own), 1))
@@ -230,7 +253,7 @@ class Evaluation:
                 driver,
                 usable,
                 missing,
-                from_search=bool(candidates.from_search[k]),
+                from_search=bool(searched[k]),
                 clearance=clearance,
                 within_tolerance=None if shares is None else shares[k],
                 task=self.problem.given,
@@ -243,11 +266,7 @@ class Evaluation:
                 out[k] = replace(out[k], shortcomings=(*out[k].shortcomings, *strays))
         if quality:
             out = self._with_quality(out, places, sensitivity)
-        rows = np.arange(len(own))[:, None]
-        batch = LinkageBatch(
-            candidates.batch.kinds[rows, sides], candidates.batch.dimensions[rows, sides]
-        )
-        return out, batch, candidates.rows
+        return out, candidates.batch.in_order(sides), candidates.rows
 
     def rounded(self, found: list[FoundLinkage]) -> list[FoundLinkage]:
         """The first MAX_ROUNDED linkages with rounded dimensions, evaluated and ranked again.
@@ -274,9 +293,8 @@ class Evaluation:
                 stock=options.stock_lengths,
                 driver=driver,
             )
-            from_search = np.array([each.from_search])
             new = self.evaluate(
-                Candidates(own.to_canonical(frames), rows, [each.dyads], from_search, own)
+                Candidates(own.to_canonical(frames), rows, [each.dyads], each.from_search, own)
             )
             if not new:
                 lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
@@ -511,6 +529,23 @@ class Evaluation:
                 other_types=_other_types(out[k], links[at]),
             )
         return out
+
+
+def numbered(found: Sequence[FoundLinkage], first: int = 1) -> list[FoundLinkage]:
+    """The linkages with ids and ranks by their order, from `first` on."""
+    ranks = enumerate(found, start=first)
+    return [replace(each, id=f"L{rank}", rank=rank) for rank, each in ranks]
+
+
+def with_own_dyads(found: Sequence[FoundLinkage]) -> list[FoundLinkage]:
+    """The same with dyads numbered by the ranks."""
+    out = []
+    for each in numbered(found):
+        one, two = each.dyads
+        number = 2 * each.rank
+        dyads = replace(one, id=f"D{number - 1}"), replace(two, id=f"D{number}")
+        out.append(replace(each, dyads=dyads))
+    return out
 
 
 def at_given_poses(

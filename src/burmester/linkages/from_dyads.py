@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from math import inf
 from typing import Any
 
@@ -22,17 +21,16 @@ from burmester.fourbar.nearest_places import on_own_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.linkages.best_within import best_within
 from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst_left_out
-from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.linkages.evaluation import Candidates, Evaluation, numbered
 from burmester.linkages.further_pairs import (
     FurtherPairs,
     PairsToSearch,
     closer_linkages,
 )
 from burmester.linkages.judged_places import NearestPlaces
-from burmester.linkages.sound_linkages import sound_linkages
-from burmester.linkages.tolerance_search import into_boxes
-from burmester.linkages.trade import trades
-from burmester.numerics.arrays import ROUNDING
+from burmester.linkages.sound_linkages import sound_linkages, trades
+from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.numerics.bundles import replaced, take
 from burmester.progress import goes_on, step, time_for
 from burmester.refinement.constraints import AllConstraints, Constraints
 from burmester.refinement.defect_free_search import (
@@ -61,12 +59,10 @@ from burmester.verdicts.ranking import (
 )
 from burmester.wording import count
 
-__all__ = [
-    "MAX_POSES_REFINED",
-    "linkages_from_dyads",
-    "sample_refined",
-    "target_of",
-]
+__all__ = ["MAX_POSES_REFINED", "linkages_from_dyads", "sample_refined", "target_of"]
+
+MAX_POSES_INTO_BOXES = 60  # refine on at most so many poses, evenly thinned
+STEPS_INTO_BOXES = 40  # number of steps of each of the two refinements
 
 # Number of refinement steps of all linkages, and of further steps of the near ones.
 FIRST_STEPS, FURTHER_STEPS = 8, 52
@@ -118,9 +114,7 @@ def linkages_from_dyads(
     if options.rounds:
         found = whole.rounded(found)
     found = whole.with_spreads(found)
-    return tuple(
-        replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(found, start=1)
-    )
+    return tuple(numbered(found))
 
 
 def _by_sample(
@@ -197,16 +191,14 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     """The pairs with their places, on one circuit where that costs little, and refined."""
     every = np.arange(len(start))
     if target.boxes is not None:
-        none = np.zeros(len(start), dtype=bool)
-        candidates = Candidates(start, target.places(start), pairs, none)
+        candidates = Candidates(start, target.places(start), pairs)
         return into_boxes(candidates, target) if refine else candidates
     _, _, one, best, apart = NearestPlaces.of(start, target)
     both = apart & np.isfinite(one).all(axis=(1, 2)) & refine
     index = np.concatenate([every, np.flatnonzero(both)])
     rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
     rows = target.at_angles(start[index], rows)
-    none = np.zeros(len(index), dtype=bool)
-    candidates = Candidates(start[index], rows, [pairs[k] for k in index], none)
+    candidates = Candidates(start[index], rows, [pairs[k] for k in index])
     if refine:
         candidates = _refined(candidates, target)
         # Refinement may leave places in local minima that are not the nearest.
@@ -349,3 +341,31 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
     if not near and most == inf:
         near = by_nearness(filter(only_too_far, evaluated), evaluation.problem.length)[:MAX_TOO_FAR]
     return near[:MAX_SEARCHED]
+
+
+def into_boxes(candidates: Candidates, target: Target) -> Candidates:
+    """The linkages refined into the boxes of a target, or as near to them as they come."""
+    thin = target.thinned(MAX_POSES_INTO_BOXES)
+    batch, rows = candidates.batch, candidates.rows
+    if thin is not target:
+        rows = thin.places(batch)
+    for each in (thin.relaxed, thin):
+        batch, rows = _brought_nearer(batch, rows, each)
+    return candidates._replace(batch=batch, rows=target.places(batch))
+
+
+def _brought_nearer(
+    batch: LinkageBatch, rows: FloatArray, target: Target
+) -> tuple[LinkageBatch, FloatArray]:
+    """Linkages (k,) with places (k, N, 3), refined where all constraints come to hold."""
+    some = np.flatnonzero(np.isfinite(rows).all(axis=(1, 2)))
+    if not len(some):
+        return batch, rows
+    refined = target.refine(
+        batch[some],
+        rows[some],
+        constraints=AllConstraints(target.kept),
+        constrained_steps=STEPS_INTO_BOXES,
+    )
+    better = refined.met & np.isfinite(refined.rows).all(axis=(1, 2))
+    return replaced((batch, rows), some[better], take((refined.batch, refined.rows), better))

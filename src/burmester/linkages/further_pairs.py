@@ -181,7 +181,7 @@ def closer_linkages(
         rows = evaluation.target.places(batch)
     rows = on_own_circuits(batch, rows, evaluation.target.poses, evaluation.target.length)
     origins = [further.origin(k) for k in index.tolist()]
-    return evaluation.evaluate(Candidates(batch, rows, origins, np.zeros(len(index), dtype=bool)))
+    return evaluation.evaluate(Candidates(batch, rows, origins))
 
 
 def _rows(found: list[FoundLinkage], evaluation: Evaluation, target: Target) -> FloatArray:

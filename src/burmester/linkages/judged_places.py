@@ -87,9 +87,7 @@ def _in_one_order(batch: LinkageBatch) -> LinkageBatch:
     numbers = np.concatenate([batch.kinds[..., None], batch.dimensions], axis=-1)
     gap = numbers[:, 1] - numbers[:, 0]
     first = np.take_along_axis(gap, (gap != 0).argmax(axis=1)[:, None], axis=1)[:, 0]
-    order = np.where((first < 0)[:, None], (1, 0), (0, 1))
-    every = np.arange(len(batch))[:, None]
-    return LinkageBatch(batch.kinds[every, order], batch.dimensions[every, order])
+    return batch.in_order(np.where((first < 0)[:, None], (1, 0), (0, 1)))
 
 
 def best_places(found: Sequence[FoundLinkage]) -> int:

@@ -151,10 +151,8 @@ def _judged(given: FoundLinkage, refined: Refined, evaluation: Evaluation) -> li
     sound = np.flatnonzero(np.isfinite(refined.rows).all(axis=(1, 2)))
     if not len(sound):
         return []
-    pairs, searched = [given.dyads] * len(sound), np.ones(len(sound), dtype=bool)
-    found = evaluation.members(
-        Candidates(refined.batch[sound], refined.rows[sound], pairs, searched)
-    )
+    pairs, batch, rows = [given.dyads] * len(sound), refined.batch[sound], refined.rows[sound]
+    found = evaluation.members(Candidates(batch, rows, pairs, from_search=True))
     problem, exact = evaluation.problem, evaluation.task.exact
     if exact is None:
         return [each for each in found if each.usable]
@@ -210,7 +208,7 @@ def _evaluated(found: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage
     target = evaluation.target
     own = LinkageBatch.of([found.linkage])
     rows = target.rows_at(found.error.places)[None]
-    one = Candidates(own.to_canonical(target.frames), rows, [found.dyads], np.ones(1, bool), own)
+    one = Candidates(own.to_canonical(target.frames), rows, [found.dyads], True, own)
     return evaluation.evaluate(one)
 
 

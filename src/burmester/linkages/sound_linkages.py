@@ -3,10 +3,14 @@
 The closest linkages are refined again, with either dyad driving, under the standard of
 `requirements.table`: they give up some nearness for a transmission angle and sane links.  A
 heuristic: that no other linkage within the bound is sound is not proved.
+
+One length says how much an angle counts.  Where position and angle error pull apart another length
+would choose another linkage, so the recommended one is refined again under lengths to both sides.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -14,10 +18,15 @@ import numpy as np
 
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.progress import time_for
 from burmester.refinement.defect_free_search import driving_sides, refined_on_branch
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.ranking import digits_leave_open, is_trade
 
-__all__ = ["sound_linkages"]
+__all__ = ["sound_linkages", "trades"]
+
+LENGTH_RATIOS = 0.25, 4.0  # of the lengths per radian that are tried beside the chosen one
+TRADE_STEPS = 40  # number of steps of these refinements
 
 MOST_CLOSEST = 12  # number of linkages that are refined again
 STEEPEST = 85.0  # degrees; no more is asked of a transmission angle
@@ -64,7 +73,7 @@ def sound_linkages(
         refined.batch[index],
         refined.rows[index],
         [near[k].dyads for k in every[index].tolist()],
-        np.ones(len(index), dtype=bool),
+        from_search=True,
     )
     return [
         each
@@ -73,3 +82,30 @@ def sound_linkages(
         and (transmission_deg or not each.shortcomings)
         and each.combined_error <= most
     ]
+
+
+def trades(best: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
+    """Linkages near a usable one that are truer in one error, as usable, and not much worse."""
+    problem, target = evaluation.problem, evaluation.target
+    if target.boxes is not None:  # the tolerances say what an angle counts as
+        return []
+    if not math.isfinite(best.combined_error) or (
+        best.combined_error <= digits_leave_open(problem)
+    ):
+        return []
+    if not time_for("trading position against angle"):
+        return []
+    every = np.zeros(len(LENGTH_RATIOS), dtype=int)
+    metric = np.stack([np.diag([1.0, 1.0, ratio]) for ratio in LENGTH_RATIOS])[:, None]
+    refined = refined_on_branch(
+        LinkageBatch.of([best.linkage]).to_canonical(target.frames)[every],
+        target.rows_at(best.error.places)[None][every],
+        target,
+        every + (best.preferred_driver == "second"),
+        steps=TRADE_STEPS,
+        metric=metric,
+    )
+    batch = refined.batch[refined.met]
+    rows, pairs = target.places(batch), [best.dyads] * len(batch)
+    found = evaluation.evaluate(Candidates(batch, rows, pairs, best.from_search))
+    return [each for each in found if each.usable and is_trade(each, best)]

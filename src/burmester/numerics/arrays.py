@@ -29,7 +29,7 @@ def complex_of(pairs: FloatArray) -> ComplexArray:
     return pairs[..., 0] + 1j * pairs[..., 1]
 
 
-def pairs_of(numbers: ComplexArray) -> FloatArray:
+def pairs_of(numbers: ComplexArray | complex) -> FloatArray:
     """Complex numbers (*,) as points (*, 2)."""
     return np.stack([numbers.real, numbers.imag], axis=-1)
 

@@ -1,6 +1,7 @@
 """Bundles: values whose arrays share their first axis, handled row by row.
 
 A bundle is an array, a list (one item a row), None, or a tuple, NamedTuple or dataclass of bundles.
+Single numbers and texts in it belong to all rows.
 """
 
 from __future__ import annotations
@@ -13,9 +14,10 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Bundle", "concatenate", "copied", "put", "row_count", "take", "where"]
+__all__ = ["Bundle", "concatenate", "copied", "put", "replaced", "row_count", "take", "where"]
 
 Bundle = TypeVar("Bundle")
+FOR_ALL_ROWS = bool, int, float, str  # types of values that are not picked from
 
 
 def take(bundle: Bundle, index: Any) -> Bundle:
@@ -59,6 +61,13 @@ def put(bundle: Bundle, index: Any, rows: Bundle) -> None:
     _for_each_array(written, bundle, rows)
 
 
+def replaced(bundle: Bundle, index: Any, rows: Bundle) -> Bundle:
+    """The same with other rows at the indices."""
+    out = copied(bundle)
+    put(out, index, rows)
+    return out
+
+
 def copied(bundle: Bundle) -> Bundle:
     """The same rows in arrays of their own."""
     return _for_each_array(np.array, bundle)
@@ -77,8 +86,8 @@ def _for_each_array(function: Callable[..., Any], *bundles: Bundle) -> Bundle:
     made: Any
     if isinstance(first, np.ndarray):  # most often, so first
         made = function(*bundles)
-    elif first is None:
-        made = None
+    elif first is None or type(first) in FOR_ALL_ROWS:
+        made = first
     elif isinstance(first, tuple):
         parts = _each(function, zip(*cast(Any, bundles), strict=True))
         made = tuple(parts) if type(first) is tuple else type(first)(*parts)

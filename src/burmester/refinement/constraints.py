@@ -28,6 +28,7 @@ __all__ = [
     "BranchAndOrder",
     "Constraints",
     "DrivenBranch",
+    "FromSlopes",
     "LeastLinks",
     "LinkProportions",
     "type_excess",
@@ -40,7 +41,6 @@ MIN_INPUT_STEP: Final = 2e-3  # radians or lengths; least step of the input from
 SHORTEST_LINK: Final = {"double-crank": 0, "crank-rocker": 1, "double-rocker": 2, "rocker-crank": 3}
 TINY_GAP: Final = 1e-12  # lengths; pins that are nearer have no direction from one to the other
 PROPORTION_MARGIN: Final = 1e-6  # relative; kept from the border of a type or a ratio
-
 
 ConstraintValues: TypeAlias = tuple[FloatArray, NDArray[np.bool_]]
 ConstraintSlopes: TypeAlias = tuple[FloatArray, FloatArray, NDArray[np.bool_]]
@@ -70,6 +70,19 @@ class Constraints(Protocol):
         place_jacobian: (k, N, 3, n).  The unknowns are the ten dimensions, and if n is more, a step
         along the motion for each place.
         """
+
+
+class FromSlopes:
+    """Constraints whose values are computed with their derivatives."""
+
+    __slots__ = ()
+
+    def __call__(
+        self: Constraints, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
+    ) -> ConstraintValues:
+        still = np.zeros((*rows.shape, 2 * DIMENSIONS))
+        value, _, equal = self.differentiated(batch, rows, which, still)
+        return value, equal
 
 
 @final

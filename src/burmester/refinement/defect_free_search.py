@@ -22,7 +22,7 @@ from burmester.fourbar.nearest_places import on_circuits
 from burmester.fourbar.transmission import Transmission
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.bundles import concatenate, replaced, take
 from burmester.refinement.constraints import (
     CLEARANCE_ANGLE,
     SHORTEST_LINK,
@@ -153,12 +153,12 @@ def refined_on_branch(
     some, rows, met = on_more_poses(
         refined.batch[going], driver[going], target, *_at(going, transmission, metric)
     )
-    dimensions = refined.batch.dimensions.copy()
     every = np.full((len(batch), *rows.shape[1:]), nan)
-    dimensions[going], every[going] = some.dimensions, rows
+    every[going] = rows
     cost, all_met = np.full(len(batch), inf), np.zeros(len(batch), dtype=bool)
     cost[going], all_met[going] = target.cost(rows) / 2, met & np.isfinite(rows).all(axis=(1, 2))
-    return Refined(LinkageBatch(batch.kinds, dimensions), every, cost, refined.settled, all_met)
+    there = replaced(refined.batch, going, some)
+    return Refined(there, every, cost, refined.settled, all_met)
 
 
 def on_more_poses(
@@ -188,10 +188,9 @@ def on_more_poses(
             transmission=asked,
             metric=counts,
         )
-        dimensions, met[sound] = batch.dimensions.copy(), refined.met
-        dimensions[met] = refined.batch.dimensions[refined.met]
-        rows[met] = refined.rows[refined.met]
-        batch = LinkageBatch(batch.kinds, dimensions)
+        met[sound] = refined.met
+        better = take((refined.batch, refined.rows), refined.met)
+        batch, rows = replaced((batch, rows), met, better)
     return batch, rows if more is target else target.places(batch), met
 
 
@@ -266,11 +265,8 @@ def _kept_at_feet(
             constrained_steps=FOOT_STEPS,
             metric=None if metric is None else metric[index],
         )
-        dimensions, rows, cost = batch.dimensions.copy(), rows.copy(), refined.cost.copy()
-        index, met = index[more.met], more.met
-        dimensions[index], rows[index] = more.batch.dimensions[met], more.rows[met]
-        cost[index] = more.cost[met]
-        batch = LinkageBatch(batch.kinds, dimensions)
+        index, better = index[more.met], take((more.batch, more.rows, more.cost), more.met)
+        batch, rows, cost = replaced((batch, rows, refined.cost), index, better)
         refined = replace(refined, batch=batch, rows=rows, cost=cost)
     return refined
 

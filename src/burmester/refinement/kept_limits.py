@@ -13,7 +13,7 @@ from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.half_planes import half_planes
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray
-from burmester.refinement.constraints import QUOTIENTS, ConstraintSlopes, ConstraintValues
+from burmester.refinement.constraints import QUOTIENTS, ConstraintSlopes, FromSlopes
 from burmester.tasks.limits import Limits
 
 __all__ = ["DyadLimitsConstraint", "KeptPivot"]
@@ -66,7 +66,7 @@ class KeptPivot(NamedTuple):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class DyadLimitsConstraint:
+class DyadLimitsConstraint(FromSlopes):
     """The limits of the dyad on one side, the same for all linkages."""
 
     side: int
@@ -92,14 +92,6 @@ class DyadLimitsConstraint:
         ends = np.array(self.limits.length) / unit
         object.__setattr__(self, "ends", ends)
         object.__setattr__(self, "sense", np.where(np.isfinite(ends), [-1.0, 1.0], 0.0))
-
-    def __call__(
-        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
-    ) -> ConstraintValues:
-        value, _, equal = self.differentiated(
-            batch, rows, which, np.empty((0, 0, 3, 2 * DIMENSIONS))
-        )
-        return value, equal
 
     def differentiated(
         self,

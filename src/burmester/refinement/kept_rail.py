@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.numerics.arrays import FloatArray, complex_of, pairs_of
-from burmester.refinement.constraints import QUOTIENTS, ConstraintSlopes, ConstraintValues
+from burmester.refinement.constraints import QUOTIENTS, ConstraintSlopes, FromSlopes
 from burmester.refinement.kept_limits import KeptPivot
 from burmester.tasks.limits import Limits
 from burmester.tasks.rails import Rail
@@ -23,7 +23,7 @@ PR_KIND, RP_KIND = 1, 2  # numbers of the kinds in a batch
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class RailConstraint:
+class RailConstraint(FromSlopes):
     """The rail (kind PR) or the slot (kind RP) of the dyad on one side, the same for all linkages.
 
     rail: in the frames of the linkages; travel: of the pin there, None where nothing limits it;
@@ -53,14 +53,6 @@ class RailConstraint:
     def uses_places(self) -> bool:
         """Whether the pin's places count."""
         return self.travel is not None
-
-    def __call__(
-        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
-    ) -> ConstraintValues:
-        value, _, equal = self.differentiated(
-            batch, rows, which, np.zeros((*rows.shape, 2 * DIMENSIONS))
-        )
-        return value, equal
 
     def differentiated(
         self,

@@ -17,6 +17,7 @@ from burmester.fourbar.timed_places import places_at_turns
 from burmester.fourbar.traced_places import places_along
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, even_numbers
+from burmester.numerics.bundles import take
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.weights import shares
 from burmester.refinement.constraints import (
@@ -118,7 +119,7 @@ class Target:
         return replace(self._at(sample.index, weights), whole=self, index=sample.index)
 
     def _at(self, index: NDArray[np.intp], weights: FloatArray | None) -> Target:
-        thin = self if self.boxes is None else self._with_boxes(self.boxes.at(index))
+        thin = self if self.boxes is None else self._with_boxes(take(self.boxes, index))
         exact = None if self.exact is None else self.exact[index]
         path = self.path and self.path.at(index)
         kept = (

@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.box_places import Boxes
 from burmester.fourbar.foot_points import rows_of
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.refinement.constraints import ConstraintSlopes, ConstraintValues
+from burmester.refinement.constraints import ConstraintSlopes, FromSlopes
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 
@@ -31,7 +31,7 @@ WEIGHT_RANGE = 1e3  # of the metric: least and greatest weight over the median o
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class ToleranceBoxes:
+class ToleranceBoxes(FromSlopes):
     """The tolerances of N poses in the frames of a target, as rows are measured.
 
     boxes: with the rounding of exact components as their bounds.
@@ -56,12 +56,6 @@ class ToleranceBoxes:
             rows_of(poses, length), tolerances.directions(poses), np.maximum(bounds, least), length
         )
         return cls(boxes, tolerances.exact, tolerances.free)
-
-    def at(self, index: NDArray[np.intp]) -> ToleranceBoxes:
-        """Those of some poses."""
-        return ToleranceBoxes(
-            self.boxes.at(index), self.exact[index], self.free[index], self.binding
-        )
 
     @property
     def give_room(self) -> bool:
@@ -97,13 +91,6 @@ class ToleranceBoxes:
     def counted(self, rows: FloatArray) -> FloatArray:
         """The deviations (*, N, 3) of rows (*, N, 3), 0 for free components."""
         return np.where(self.free, 0.0, self.boxes.deviations(rows))
-
-    def __call__(
-        self, batch: LinkageBatch, rows: FloatArray, which: NDArray[np.intp]
-    ) -> ConstraintValues:
-        still = np.zeros((*rows.shape, 2 * DIMENSIONS))
-        value, _, equal = self.differentiated(batch, rows, which, still)
-        return value, equal
 
     def differentiated(
         self,

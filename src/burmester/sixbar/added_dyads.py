@@ -9,7 +9,8 @@ and McCarthy, "The synthesis of six-bar linkages as constrained planar 3R chains
 
 from __future__ import annotations
 
-from typing import NamedTuple, final
+from dataclasses import dataclass
+from typing import Any, NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,19 +18,54 @@ from numpy.typing import NDArray
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.circles import meeting
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.sixbar.three_r_chain import ThreeRChain
+from burmester.numerics.bundles import take
 from burmester.sixbar.watt import WattLinkage
 
 __all__ = [
     "Added",
     "FourBars",
+    "ThreeRChain",
     "added_dyads",
     "dyads_but",
     "size_of",
     "with_first_dyad",
     "with_second_dyad",
 ]
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class ThreeRChain:
+    """3R chains (*,): A in F (*, 2), the lengths of AC and CE (*,), E in M (*, 2)."""
+
+    fixed_pivot: FloatArray
+    first_length: FloatArray
+    second_length: FloatArray
+    body_joint: FloatArray
+
+    def __getitem__(self, index: Any) -> ThreeRChain:
+        """Pick along the leading axes (indices, slices, masks)."""
+        return take(self, index)
+
+    def elbows(self, poses: Displacement, side: FloatArray) -> ComplexArray:
+        """Where C is at poses (*, N), to the left (+1) or right of AE: (*, N); nan out of reach.
+
+        side: (*,), the same at all poses.
+        """
+        a, e = complex_of(self.fixed_pivot)[..., None], self._ends(poses)
+        first, second = self.first_length[..., None], self.second_length[..., None]
+        return meeting(a, first, e, second, side[..., None])
+
+    def middle_link(self, poses: Displacement, elbow: ComplexArray) -> Displacement:
+        """The poses (*, N) of the link CE, its origin C (`elbow`) and its x axis towards E."""
+        origin = np.stack([elbow.real, elbow.imag], axis=-1)
+        return Displacement(origin, np.angle(self._ends(poses) - elbow))
+
+    def _ends(self, poses: Displacement) -> ComplexArray:
+        return complex_of(poses.act(self.body_joint[..., None, :]))
+
 
 TRIVIAL = 1e-5  # of a task's size: a dyad whose pivots are as near to the chain's is the chain
 MISSED = 1e-7  # of a task's size; a dyad that misses a pose by more is lost to rounding

@@ -11,16 +11,15 @@ from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.bundles import concatenate
 from burmester.requirements.figures import Figures, Values
 from burmester.requirements.requirement import Bounds
 from burmester.requirements.table import excess, standard
 from burmester.requirements.transmission import TRANSMISSION
-from burmester.sixbar.added_dyads import FourBars, with_first_dyad, with_second_dyad
+from burmester.sixbar.added_dyads import FourBars, ThreeRChain, with_first_dyad, with_second_dyad
 from burmester.sixbar.kinds import SixBar
-from burmester.sixbar.motion import Drive, Sides, joints_at, sides_of
-from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.sixbar.travel import first_loop_works, least_transmission, travel
-from burmester.sixbar.watt import DRIVES, WattLinkage
+from burmester.sixbar.watt import WATT_I, Sides, WattLinkage, joints_at, sides_of
 
 __all__ = [
     "Candidates",
@@ -28,14 +27,12 @@ __all__ = [
     "box_diagonal",
     "extent_of",
     "figures_of",
-    "joined",
     "merit_of",
     "steps_along",
     "watt_candidates",
 ]
 
 PLACES = 33  # along the range, at which the extent is looked at
-COLUMNS = "chain", "design", "joints", "driver", "transmission", "extent"
 
 
 @final
@@ -69,11 +66,6 @@ class Candidates(NamedTuple):
     transmission: FloatArray
     extent: FloatArray
     designs: int
-
-    def take(self, index: NDArray[np.intp]) -> Candidates:
-        """Some of them."""
-        picked = {name: getattr(self, name)[index] for name in ("linkages", *COLUMNS)}
-        return self._replace(**picked)
 
     @property
     def figures(self) -> Figures:
@@ -117,14 +109,14 @@ def watt_candidates(
     order = {"any_order": conditions.any_order}
     bars = with_first_dyad(chains, poses, side)
     good = np.zeros(len(bars.task), dtype=bool)
-    for driver in DRIVES.values():
+    for driver in WATT_I.drivers:
         good |= first_loop_works(bars.joints, driver, **order)
     bars = FourBars(bars.task[good], bars.joints[good], bars.dyad[good])
     added = with_second_dyad(chains[bars.task], poses[bars.task], bars)
     chain = bars.task[added.task]
     linkages, joints = added.linkages, added.joints
     parts = []
-    for number, driver in enumerate(DRIVES.values()):
+    for number, driver in enumerate(WATT_I.drivers):
         way = travel(linkages, joints, driver, **order)
         at = np.flatnonzero(way.works & (way.turns_fully | (not conditions.crank)))
         drive, links, there = way.drive[at], linkages[at], joints[at]
@@ -140,18 +132,11 @@ def watt_candidates(
                 designs=len(added.task),
             )
         )
-    return joined(parts, len(added.task))
-
-
-def joined(parts: list[Candidates], designs: int) -> Candidates:
-    """Several of one class in one; designs: of all of them."""
-    first, *others = (each.linkages for each in parts)
-    columns = {name: np.concatenate([getattr(each, name) for each in parts]) for name in COLUMNS}
-    return Candidates(linkages=first.beside(others), designs=designs, **columns)
+    return concatenate(parts)
 
 
 def extent_of(
-    linkage: WattLinkage, drive: FloatArray, driver: Drive, joints: ComplexArray
+    linkage: WattLinkage, drive: FloatArray, driver: str, joints: ComplexArray
 ) -> FloatArray:
     """The diagonals (n,) of the boxes around all joints at places along the range.
 

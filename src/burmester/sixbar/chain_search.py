@@ -16,17 +16,18 @@ from numpy.typing import NDArray
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Region, Segment
 from burmester.numerics.arrays import FloatArray, complex_of
+from burmester.numerics.bundles import concatenate, take, where
 from burmester.progress import goes_on, time_for
 from burmester.requirements.table import excess, keeps, standard
 from burmester.requirements.transmission import TRANSMISSION
-from burmester.sixbar.candidates import Candidates, Conditions, joined, watt_candidates
+from burmester.sixbar.added_dyads import ThreeRChain
+from burmester.sixbar.candidates import Candidates, Conditions, watt_candidates
 from burmester.sixbar.search_space import POSES, SearchSpace
 from burmester.sixbar.stephenson_candidates import (
     driven_four_bar_candidates,
     first_class_candidates,
     third_class_candidates,
 )
-from burmester.sixbar.three_r_chain import ThreeRChain
 from burmester.verdicts.quality import best_first
 
 __all__ = ["SEARCHED", "ChainSearch", "is_sound", "search"]
@@ -82,33 +83,6 @@ class _Chains(NamedTuple):
     side: FloatArray
     poses: Displacement
 
-    def take(self, index: NDArray[np.intp]) -> _Chains:
-        """Some of them."""
-        return self._merged(lambda column: column[index])
-
-    def _merged(self, work: Callable[..., FloatArray], *others: _Chains) -> _Chains:
-        """What a function makes of each column of these chains and of others."""
-        columns = zip(*(each._columns() for each in (self, *others)), strict=True)
-        fixed, moving, reach, balance, side, translation, angle = (work(*each) for each in columns)
-        return _Chains(fixed, moving, reach, balance, side, Displacement(translation, angle))
-
-    def _columns(self) -> list[FloatArray]:
-        """Everything, an array each."""
-        own = [self.fixed, self.moving, self.reach, self.balance, self.side]
-        return [*own, self.poses.translation, self.poses.angle]
-
-    def beside(self, other: _Chains) -> _Chains:
-        """These, and others after them."""
-        return self._merged(lambda *pair: np.concatenate(pair), other)
-
-    def where(self, stays: NDArray[np.bool_], other: _Chains) -> _Chains:
-        """Each of these that stays, and for the rest the other one."""
-
-        def chosen(one: FloatArray, two: FloatArray) -> FloatArray:
-            return np.where(stays.reshape(-1, *[1] * (one.ndim - 1)), one, two)
-
-        return self._merged(chosen, other)
-
     def chains(self) -> ThreeRChain:
         """As chains that reach all their poses."""
         ends = complex_of(self.poses.act(self.moving[:, None]))
@@ -156,22 +130,21 @@ class _Search:
         found = self._recipe(fresh.chains(), fresh.poses, fresh.side, space.conditions)
         self._designs += found.designs
         self._working += len(np.unique(found.design[_violation(space, found) == 0]))
-        mine = fresh.take(found.chain)
+        mine = take(fresh, found.chain)
         found = found._replace(chain=found.chain + self._looked)
         self._looked += count
         if kept is not None and drawn is not None:
-            found = joined([kept, found], self._designs)
-            mine = drawn.beside(mine)
+            found, mine = concatenate([(kept, drawn), (found, mine)])
         merit = found.merit(space.size) - VIOLATED * _violation(space, found)
         order = np.argsort(-merit, kind="stable")
         best = _distinct(found, order, NICHE * space.size, KEPT)
-        self._kept, self._drawn = found.take(best), mine.take(best)
+        self._kept, self._drawn = take((found, mine), best)
 
     def found(self, most: int) -> ChainSearch:
         """What was found, the best `most` of it."""
         assert self._kept is not None
-        kept = self._kept.take(np.flatnonzero(_violation(self._space, self._kept) == 0))
-        best = kept.take(_ranked(kept, self._space, most))
+        kept = take(self._kept, _violation(self._space, self._kept) == 0)
+        best = take(kept, _ranked(kept, self._space, most))
         return ChainSearch(best, self._looked, self._designs, self._working)
 
 
@@ -194,7 +167,7 @@ def _varied(
 ) -> _Chains:
     """Chains near `parents`; one in five stays as it was drawn."""
     count = len(fresh.side)
-    parent = parents.take((len(parents.side) * random.random(count) ** 2).astype(np.intp))
+    parent = take(parents, (len(parents.side) * random.random(count) ** 2).astype(np.intp))
     step = np.exp(random.uniform(math.log(STEPS[0]), math.log(STEPS[1]), count))
     move = space.size * step[:, None]
     fixed = parent.fixed + move * random.standard_normal((count, 2))
@@ -205,7 +178,7 @@ def _varied(
     moving = _into(space.moving[0], moving, parent.moving, space.size)
     near = _Chains(fixed, moving, np.maximum(reach, MARGIN), balance, parent.side, parent.poses)
     stays = random.random(count) < 0.2
-    return fresh.where(stays, near)
+    return where(stays, fresh, near)
 
 
 def _five(

@@ -137,7 +137,8 @@ class FoundSixBar:
     @property
     def link_ratio(self) -> float:
         """The greatest distance between two joints of a link over the least."""
-        return float(self.linkage.link_ratio())
+        lengths = self.linkage.lengths()
+        return float(lengths.max() / lengths.min())
 
     @property
     def lengths(self) -> dict[str, float]:

@@ -30,17 +30,16 @@ from burmester.mechanisms.circuits import circuits_of
 from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.nearest_places import least_along, minima_of, nearest_shares
 from burmester.mechanisms.transmission import least_transmission_angle
-from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray, wrapped_angle
 from burmester.numerics.weights import weights_or_ones
-from burmester.refinement.tolerance_boxes import counted_error, shares_used
+from burmester.refinement.tolerance_boxes import EXACT_ROUNDING, counted_error, shares_used
 from burmester.requirements.table import Violation
 from burmester.sixbar.candidates import box_diagonal, figures_of, merit_of, steps_along
 from burmester.sixbar.defects import ELSEWHERE, Course, defects_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.kinds import SixBar
-from burmester.sixbar.pose_measure import PoseMeasure
-from burmester.sixbar.requirement_check import violations
-from burmester.sixbar.standard import least_bars, shortcomings
+from burmester.sixbar.requirement_check import least_bars, shortcomings, violations
+from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import too_short
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
@@ -340,3 +339,39 @@ def _distinct(problem: SynthesisProblem) -> SynthesisProblem:
         problem.options,
         problem.length_per_radian,
     )
+
+
+@final
+class PoseMeasure(NamedTuple):
+    """What is made least at poses (N,).
+
+    The position error, and the angle's as if `length` a radian; components that tolerances leave
+    free count as none.  Where these give room, the greatest share of a tolerance that is used.
+    size: of the motion, by which the rounding of exact components is measured.
+    """
+
+    poses: Displacement
+    tolerances: PoseTolerances | None
+    length: float
+    size: float
+
+    def at(self, index: NDArray[np.intp]) -> PoseMeasure:
+        """That of some poses."""
+        some = None if self.tolerances is None else self.tolerances.at(index)
+        return self._replace(poses=self.poses[index], tolerances=some)
+
+    def __call__(self, places: Displacement) -> FloatArray:
+        """Of places (*, N), or (*, 1) for all poses: (*, N); infinite where there is no place."""
+        if self.tolerances is None:
+            gap = places.translation - self.poses.translation
+            turn = wrapped_angle(places.angle - self.poses.angle)
+            off = np.hypot(np.hypot(gap[..., 0], gap[..., 1]), self.length * turn)
+        elif self.tolerances.gives_room:
+            rounding = EXACT_ROUNDING * np.array([self.size, self.size, 1.0])
+            off = self.tolerances.share(places, self.poses, rounding).max(axis=-1)
+        else:
+            away = self.tolerances.deviations(places, self.poses)
+            away = np.where(self.tolerances.free, 0.0, away)
+            off = np.linalg.norm(away * [1.0, 1.0, self.length], axis=-1)
+        off = np.where(np.isfinite(places.angle), off, np.inf)
+        return np.asarray(np.nan_to_num(off, nan=np.inf))

@@ -1,4 +1,4 @@
-"""The check of a six-bar against the limits and requirements of its task."""
+"""The check of a six-bar against limits and requirements of its task, and against the standard."""
 
 from __future__ import annotations
 
@@ -7,17 +7,21 @@ from collections.abc import Iterator
 import numpy as np
 
 from burmester.geometry.regions import Polygon, Region
+from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
-from burmester.requirements.table import Violation
+from burmester.requirements.table import Violation, standard
+from burmester.requirements.table import shortcomings as falls_short
 from burmester.requirements.table import violations as violations_of
 from burmester.sixbar.kinds import SixBar
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
-from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.degeneracy import least_cranks, least_link
+from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside, wrong_length
 
-__all__ = ["violations"]
+__all__ = ["least_bars", "shortcomings", "violations"]
 
 
 def violations(linkage: SixBar, figures: Figures, task: Task, size: float) -> tuple[Violation, ...]:
@@ -48,12 +52,8 @@ def _broken(
     lengths = dict(zip(skeleton.bars, linkage.lengths().tolist(), strict=True))
     for pivot in skeleton.drivers:
         arm = next(bar for bar in lengths if set(bar) == set(skeleton.arm(pivot)))
-        crank, length = f"{skeleton.crank(pivot)} {arm}", lengths[arm]
-        least, most = (first if pivot == skeleton.drivers[0] else second).length
-        if length < least - slack:
-            yield f"the {crank} is {length:.4g} long; at least {least:g} is asked for"
-        elif length > most + slack:
-            yield f"the {crank} is {length:.4g} long; at most {most:g} is allowed"
+        limits = first if pivot == skeleton.drivers[0] else second
+        yield from wrong_length(f"the {skeleton.crank(pivot)} {arm}", lengths[arm], limits, slack)
 
 
 def _least_outside(
@@ -72,3 +72,22 @@ def _least_outside(
 
 def _away(region: Region | None, at: FloatArray) -> float:
     return 0.0 if region is None else max(0.0, outside(region, np.asarray(at)))
+
+
+def shortcomings(figures: Figures, size: float, task: Task) -> tuple[str, ...]:
+    """Where a six-bar falls short of the standard of linkages to build, in words."""
+    bounds = standard(task.requirements.bounds, size)
+    below = falls_short(bounds, figures, lambda value: length_of(value, task))
+    return tuple(each.message for each in below)
+
+
+def least_bars(problem: SynthesisProblem, skeleton: Skeleton) -> FloatArray:
+    """The least distances (b,) between joints of one link, in the order of the skeleton's bars.
+
+    A six-bar with a shorter one is degenerate (`verdicts.degeneracy`).
+    """
+    least = dict.fromkeys(skeleton.bars, least_link(problem))
+    arms = [skeleton.arm(pivot) for pivot in skeleton.drivers]
+    for arm, length in zip(arms, least_cranks(problem), strict=False):
+        least[arm if arm in least else arm[::-1]] = length
+    return np.array(list(least.values()))

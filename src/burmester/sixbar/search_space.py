@@ -14,7 +14,7 @@ from burmester.geometry.regions import Line, Point, Polygon, Region, Segment
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.candidates import Conditions
 from burmester.sixbar.kinds import KINDS
-from burmester.sixbar.standard import least_bars
+from burmester.sixbar.requirement_check import least_bars
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, poses_in_words

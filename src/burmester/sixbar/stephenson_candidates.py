@@ -23,17 +23,17 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.circles import meeting
 from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.sixbar.added_dyads import dyads_but, size_of, with_first_dyad
-from burmester.sixbar.candidates import Candidates, Conditions, box_diagonal, joined, steps_along
-from burmester.sixbar.three_r_chain import ThreeRChain
+from burmester.numerics.bundles import concatenate, take
+from burmester.sixbar.added_dyads import ThreeRChain, dyads_but, size_of, with_first_dyad
+from burmester.sixbar.candidates import Candidates, Conditions, box_diagonal, steps_along
 from burmester.sixbar.travel import along
 from burmester.stephenson.chain import Chain
 from burmester.stephenson.linkage import CLASSES, StephensonLinkage, dead_angles
 
 __all__ = ["driven_four_bar_candidates", "first_class_candidates", "third_class_candidates"]
 
-THIRD: Final = CLASSES["Stephenson III six-bar"]
-FIRST: Final = CLASSES["Stephenson I six-bar"]
+THIRD: Final = CLASSES["Stephenson III six-bar"].skeleton
+FIRST: Final = CLASSES["Stephenson I six-bar"].skeleton
 PLACES: Final = 65  # of a four-bar, at which a dyad is looked at that drives it
 
 
@@ -53,7 +53,7 @@ def third_class_candidates(
     a, b = joints[:, 0, 0], joints[:, 0, 1]
     base = np.abs(b - a)
     linkage = StephensonLinkage(
-        THIRD,
+        THIRD.name,
         "floating link",
         Chain(
             base=base,
@@ -98,7 +98,7 @@ def first_class_candidates(
     e = complex_of(poses[chain].act(links.body_joint[:, None, :]))
     arm = complex_of(joint.moving_pivot)
     linkage = StephensonLinkage(
-        FIRST,
+        FIRST.name,
         "second floating link",
         Chain(
             base=np.abs(arm),
@@ -138,7 +138,7 @@ def driven_four_bar_candidates(
     one, other, links = first[bar], second[bar], chains[chain]
     f = complex_of(links.fixed_pivot)
     linkage = StephensonLinkage(
-        THIRD,
+        THIRD.name,
         "coupler",
         _chain_of(one, other, links),
         _pair(one.fixed_pivot, other.fixed_pivot),
@@ -160,16 +160,14 @@ def driven_four_bar_candidates(
     drive = np.unwrap(np.angle(there[..., 6] - there[..., 5]), axis=-1)
     turn = np.diff(drive, axis=-1)
     good = np.flatnonzero((turn > 0).all(axis=-1) | (turn < 0).all(axis=-1))  # nan is neither
-    there, number = there[good], THIRD.skeleton.drivers.index("F")
+    there, number = there[good], THIRD.drivers.index("F")
     return Candidates(
         chain=chain[good],
         design=good,
         linkages=linkage[good],
         joints=joints(poses[chain[good]], good),
         driver=np.full(len(good), number),
-        transmission=least_transmission_angle(THIRD.skeleton, there, "F").min(
-            axis=-1, initial=np.pi / 2
-        ),
+        transmission=least_transmission_angle(THIRD, there, "F").min(axis=-1, initial=np.pi / 2),
         extent=box_diagonal(there),
         designs=len(chain),
     )
@@ -241,12 +239,12 @@ def _driven(
         own = linkage[at].renamed(driven)
         locked = own.loop().locked(first=True)  # the loop by itself, before both
         works = along(drive[at], locked, same[at], any_order=conditions.any_order).works
-        at, own = at[works], own.at(works)
+        at, own = at[works], take(own, works)
         dead = dead_angles(own, side[at, 0])
         way = along(drive[at], dead, same[at], any_order=conditions.any_order)
         good = way.works & (way.turns_fully | (not conditions.crank))
-        at, own, links = at[good], own.at(good), linkage[at[good]]
-        there = own.at((slice(None), None)).joints(
+        at, own, links = at[good], take(own, good), linkage[at[good]]
+        there = take(own, (slice(None), None)).joints(
             steps_along(way.drive[good]), side[at, :1], last[at, :1], closed=True
         )
         places = links[:, None].as_named(there, driven)
@@ -264,7 +262,7 @@ def _driven(
                 designs=len(chain),
             )
         )
-    return joined(parts, len(chain))
+    return concatenate(parts)
 
 
 def _body_dyads(poses: Displacement) -> tuple[NDArray[np.intp], RR]:

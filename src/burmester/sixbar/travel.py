@@ -12,11 +12,20 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.mechanisms.contract import drive_of
 from burmester.mechanisms.four_bar_loop import FourBarLoop
+from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.sixbar.dead_points import dead_points, turning_points
-from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at, sides_of, transmission
-from burmester.sixbar.watt import WattLinkage
+from burmester.numerics.bundles import take
+from burmester.sixbar.watt import (
+    WATT_I,
+    Sides,
+    WattLinkage,
+    dead_points,
+    joints_at,
+    sides_of,
+    turning_points,
+)
 
 __all__ = ["Travel", "along", "first_loop_works", "least_transmission", "travel"]
 
@@ -53,7 +62,7 @@ class Travel(NamedTuple):
 
 
 def travel(
-    linkage: WattLinkage, joints: ComplexArray, driver: Drive, *, any_order: bool = False
+    linkage: WattLinkage, joints: ComplexArray, driver: str, *, any_order: bool = False
 ) -> Travel:
     """How linkages (n,) go through poses at which their joints are (n, N, 7).
 
@@ -65,11 +74,11 @@ def travel(
     same &= (at_poses.second == sides.second[:, None]).all(axis=-1)
     same &= (sides.first != 0) & (sides.second != 0)
     dead = dead_points(linkage, sides, driver)
-    return along(drive_of(joints, driver), dead, same, any_order=any_order)
+    return along(drive_of(WATT_I, joints, driver), dead, same, any_order=any_order)
 
 
 def first_loop_works(
-    joints: ComplexArray, driver: Drive, *, any_order: bool = False
+    joints: ComplexArray, driver: str, *, any_order: bool = False
 ) -> NDArray[np.bool_]:
     """Whether first loops go through poses at which joints A to E are (n, N, 5), as `travel`."""
     whole = np.concatenate([joints, joints[..., :2]], axis=-1)  # the second loop is not asked
@@ -78,12 +87,12 @@ def first_loop_works(
     same = (at_poses.first == first[:, None]).all(axis=-1) & (first != 0)
     a, b, c, d = joints[:, 0, :4].T
     loop = FourBarLoop.of(a, b, abs(c - a), abs(d - c), abs(d - b))
-    locked = loop.locked(first=driver == "first")
-    return along(drive_of(whole, driver), locked, same, any_order=any_order).works
+    locked = loop.locked(first=driver == "A")
+    return along(drive_of(WATT_I, whole, driver), locked, same, any_order=any_order).works
 
 
 def least_transmission(
-    linkage: WattLinkage, drive: FloatArray, driver: Drive, joints: ComplexArray
+    linkage: WattLinkage, drive: FloatArray, driver: str, joints: ComplexArray
 ) -> FloatArray:
     """The least transmission angle of both loops over the range of the poses: (n,), radians.
 
@@ -91,16 +100,15 @@ def least_transmission(
     are known in closed form.  drive: (n, N), joints: (n, N, 7), at the poses.
     """
     low, high = drive.min(axis=-1)[:, None], drive.max(axis=-1)[:, None]
-    at_poses = sides_of(joints, driver)
-    sides = Sides(at_poses.first[:, 0], at_poses.second[:, 0])
+    sides = Sides(*(each[:, 0] for each in sides_of(joints, driver)))
     turning = turning_points(linkage, sides, driver)
     with np.errstate(invalid="ignore"):
         turning = low + np.mod(turning - low, TURN)
         inside = turning < high
     turning = np.where(inside, turning, low)
-    there = joints_at(linkage[:, None], turning, sides.at((slice(None), None)), driver)
-    least = np.fmin.reduce(transmission(there, driver), axis=-1)
-    return np.asarray(np.minimum(least, transmission(joints, driver).min(axis=-1)))
+    there = joints_at(linkage[:, None], turning, take(sides, (slice(None), None)), driver)
+    least, at_poses = (least_transmission_angle(WATT_I, each, driver) for each in (there, joints))
+    return np.asarray(np.minimum(np.fmin.reduce(least, axis=-1), at_poses.min(axis=-1)))
 
 
 def along(

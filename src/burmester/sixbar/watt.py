@@ -8,24 +8,158 @@ Seven joints and six links, of which two hold three joints each and meet at one 
 A to D are a four-bar.  Its coupler carries the body at E, its second crank holds it by the link
 from G to H: D, E, H, G are a loop of four again (Soh and McCarthy 2008; the names of the joints
 are ours).
+
+The first loop locks as a four-bar does.  The second moves by the angle at D between the coupler and
+the second crank, which is a function of the first loop alone.  It locks where EG is as long as the
+floating link and the body's EH together, or as their difference: at two angles at D with two signs
+each, which the first loop has at two drives each.  So there are at most eight dead points of the
+second loop beside at most two of the first, and between two that follow each other nothing locks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Final, final
+from typing import Any, ClassVar, Final, NamedTuple, final
 
 import numpy as np
 
-from burmester.geometry.displacement import Displacement
-from burmester.mechanisms.contract import Locked
+from burmester.mechanisms.circles import arccos_or_nan, meeting, side_of
+from burmester.mechanisms.contract import Locked, drive_of
+from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.sixbar.dead_points import OF_FIRST_LOOP, dead_places, dead_points, first_loop
-from burmester.sixbar.motion import Drive, Sides, drive_of, joints_at
+from burmester.numerics.bundles import take
 
-__all__ = ["BARS", "DRIVES", "FIGURES", "JOINTS", "LINKS", "WATT_I", "WattLinkage", "pairs_of"]
+__all__ = [
+    "WATT_I",
+    "Sides",
+    "WattLinkage",
+    "dead_points",
+    "joints_at",
+    "sides_of",
+    "turning_points",
+]
+
+
+class Sides(NamedTuple):
+    """On which side both loops are closed, +1 or -1 each: (*,).
+
+    first: of the joint of the first loop that the driver does not carry (D from C, where the first
+    crank drives; C from D, where the second does); second: of H, seen from G to E.
+    """
+
+    first: FloatArray
+    second: FloatArray
+
+
+def joints_at(
+    linkage: WattLinkage, drive: FloatArray, sides: Sides, driver: str, *, closed: bool = False
+) -> ComplexArray:
+    """The joints (*, 7) of linkages (*,) whose driver stands at an angle (*,), in radians, in F.
+
+    In the order of the skeleton; nan where a loop cannot be closed.
+    closed: whether all are known to close, but for rounding.
+    """
+    a, b = complex_of(linkage.fixed_first), complex_of(linkage.fixed_second)
+    at_d, at_g = complex_of(linkage.coupler_joint), complex_of(linkage.crank_joint)
+    if driver == "A":
+        c = a + linkage.first_crank * np.exp(1j * drive)
+        d = meeting(c, np.abs(at_d), b, linkage.second_crank, sides.first, closed=closed)
+    else:
+        d = b + linkage.second_crank * np.exp(1j * drive)
+        c = meeting(d, np.abs(at_d), a, linkage.first_crank, sides.first, closed=closed)
+    e = c + (d - c) / at_d * linkage.coupler_arm
+    g = b + (d - b) / linkage.second_crank * at_g
+    body = np.abs(complex_of(linkage.link_joint) - complex_of(linkage.body_joint))
+    h = meeting(g, linkage.floating_link, e, body, sides.second, closed=closed)
+    return np.stack(np.broadcast_arrays(a, b, c, d, e, g, h), axis=-1)
+
+
+def sides_of(joints: ComplexArray, driver: str) -> Sides:
+    """On which side the loops are closed where the joints are (*, 7)."""
+    a, b, c, d, e, g, h = np.moveaxis(joints, -1, 0)
+    first = side_of(d, c, b) if driver == "A" else side_of(c, d, a)
+    return Sides(first, side_of(h, g, e))
+
+
+OF_FIRST_LOOP = 4  # dead points of the first loop; those of the second follow them
+
+
+def dead_points(linkage: WattLinkage, sides: Sides, driver: str) -> FloatArray:
+    """The drives at which linkages (*,) lock on their branch: (*, 12), nan where there is none.
+
+    Formula `second-loop` of the theory.
+    sides: of the branch, which is that of the first loop; the second locks where its two sides
+    meet.
+    """
+    loop = first_loop(linkage)
+    e, g = _arms(linkage)
+    body = np.abs(complex_of(linkage.link_joint) - complex_of(linkage.body_joint))
+    link = linkage.floating_link
+    reach = np.stack([body + link, np.abs(body - link)], axis=-1)
+    between = arccos_or_nan(np.abs(e), np.abs(g), reach)
+    offset = np.angle(e / g)[..., None]
+    joints = loop.with_angle(np.concatenate([offset + between, offset - between], axis=-1))
+    second = _drives_on_branch(joints, sides, driver)
+    return np.concatenate([loop.locked(first=driver == "A"), second], axis=-1)
+
+
+def dead_places(linkage: WattLinkage, driver: str) -> ComplexArray:
+    """The joints (m, 7) at all dead points of one linkage."""
+    out = []
+    for first in (1.0, -1.0):
+        sides = Sides(np.array(first), np.ones(()))
+        drives = dead_points(linkage, sides, driver)
+        own, other = drives[:OF_FIRST_LOOP], drives[OF_FIRST_LOOP:]
+        if first > 0:  # both sides of the first loop meet there
+            out += [
+                joints_at(linkage, own, Sides(np.zeros(()), np.array(k)), driver) for k in (1, -1)
+            ]
+        out.append(joints_at(linkage, other, Sides(sides.first, np.zeros(())), driver))
+    joints = np.concatenate(out)
+    return joints[np.isfinite(joints).all(axis=-1)]
+
+
+def first_loop(linkage: WattLinkage) -> FourBarLoop:
+    """The loop A, C, D, B of linkages (*,)."""
+    a, b = complex_of(linkage.fixed_first), complex_of(linkage.fixed_second)
+    coupler = np.abs(complex_of(linkage.coupler_joint))
+    return FourBarLoop.of(a, b, linkage.first_crank, coupler, linkage.second_crank)
+
+
+def turning_points(linkage: WattLinkage, sides: Sides, driver: str) -> FloatArray:
+    """The drives at which a transmission angle of linkages (*,) may be least: (*, 10), or nan.
+
+    Formula `second-loop-turns` of the theory.
+    Those at which the driver is in line with the ground, so that the first loop's diagonal turns
+    back; those at which the first crank is, so that the angle at D does; and those at which the
+    angle in the second loop between DE and DG passes zero or half a turn.
+    """
+    loop = first_loop(linkage)
+    e, g = _arms(linkage)
+    way, offset = np.angle(loop.direction)[..., None], np.angle(e / g)[..., None]
+    diagonal = loop.with_angle(np.concatenate([offset, offset + np.pi], axis=-1))
+    joints = np.concatenate([loop.with_straight_crank(), diagonal], axis=-2)
+    inside = _drives_on_branch(joints, sides, driver)
+    return np.concatenate([way, way + np.pi, inside], axis=-1)
+
+
+def _arms(linkage: WattLinkage) -> tuple[ComplexArray, ComplexArray]:
+    """DE as DC sees it, and DG as DB sees it: (*,) each.
+
+    Turned by the angle at D from DC to DB, the second is as DC sees it.
+    """
+    d, g = complex_of(linkage.coupler_joint), complex_of(linkage.crank_joint)
+    return (d - linkage.coupler_arm) * np.abs(d) / d, linkage.second_crank - g
+
+
+def _drives_on_branch(joints: ComplexArray, sides: Sides, driver: str) -> FloatArray:
+    """The drives (*, k) of first loops (*, k, 4) that are closed on a branch's side; else nan."""
+    whole = np.concatenate([joints, joints[..., :3]], axis=-1)  # the second loop is not asked
+    with np.errstate(invalid="ignore"):
+        same = sides_of(whole, driver).first == sides.first[..., None]
+    return np.where(same, drive_of(WATT_I, whole, driver), np.nan)
+
 
 WATT_I: Final = Skeleton(
     "Watt I six-bar",
@@ -41,11 +175,6 @@ WATT_I: Final = Skeleton(
     drivers="AB",
     along={"coupler": "CE"},
 )
-JOINTS: Final = WATT_I.joints
-LINKS: Final = WATT_I.links
-BARS: Final = WATT_I.bars
-FIGURES: Final = 16  # numbers that make a linkage
-DRIVES: Final[dict[str, Drive]] = {"A": "first", "B": "second"}  # by their pivots
 
 
 @final
@@ -98,14 +227,7 @@ class WattLinkage:
 
     def __getitem__(self, index: Any) -> WattLinkage:
         """Pick along the leading axes (indices, slices, masks)."""
-        return WattLinkage(*(getattr(self, name)[index] for name in self.__match_args__))
-
-    def beside(self, others: Sequence[Any]) -> WattLinkage:
-        """These (n,), and others after them."""
-        names = self.__match_args__
-        return WattLinkage(
-            *(np.concatenate([getattr(each, name) for each in (self, *others)]) for name in names)
-        )
+        return take(self, index)
 
     def frames(self) -> Frames:
         """The joints (*, 2) of each link, in the frame of that link: {"coupler": {"C": ...}}."""
@@ -139,7 +261,7 @@ class WattLinkage:
         )
 
     def lengths(self) -> FloatArray:
-        """The distances between joints of one link, in the order of `BARS`: (*, 10)."""
+        """The distances between joints of one link, in the order of its bars: (*, 10)."""
         a, b = complex_of(self.fixed_first), complex_of(self.fixed_second)
         d, g = complex_of(self.coupler_joint), complex_of(self.crank_joint)
         body = complex_of(self.link_joint) - complex_of(self.body_joint)
@@ -151,25 +273,25 @@ class WattLinkage:
         self, angle: FloatArray, sides: FloatArray, *, closed: bool = False
     ) -> ComplexArray:
         """The joints (*, 7) at angles (*,) of the first crank, on sides (*, 2)."""
-        return joints_at(self, angle, Sides(sides[..., 0], sides[..., 1]), "first", closed=closed)
+        return joints_at(self, angle, Sides(sides[..., 0], sides[..., 1]), "A", closed=closed)
 
     def generator_angle(self, joints: ComplexArray) -> FloatArray:
         """The first crank's angle (*,) where the joints are (*, 7)."""
-        return drive_of(joints, "first")
+        return drive_of(WATT_I, joints, "A")
 
     def locked(self, sides: FloatArray) -> Locked:
         """Where one linkage locks for the first crank, on sides (2,)."""
-        angle = dead_points(self, Sides(sides[0], sides[1]), "first")
+        angle = dead_points(self, Sides(sides[0], sides[1]), "A")
         return Locked(angle, (np.arange(len(angle)) >= OF_FIRST_LOOP).astype(np.intp))
 
     def still(self, pivot: str) -> ComplexArray:
         """The joints (m, 7) of one linkage at all dead points of a driver."""
-        return dead_places(self, DRIVES[pivot])
+        return dead_places(self, pivot)
 
     @staticmethod
     def driver_name(pivot: str) -> str:
         """A driver as results name it."""
-        return DRIVES[pivot]
+        return "first" if pivot == "A" else "second"
 
     def why_open(self) -> str:
         """Why one linkage that is open everywhere cannot be assembled, in words."""
@@ -186,31 +308,3 @@ class WattLinkage:
     def numbers(self) -> dict[str, FloatArray]:
         """Its dimensions by name."""
         return {name: getattr(self, name) for name in self.__match_args__}
-
-    def link_ratio(self) -> FloatArray:
-        """The greatest of these distances over the least: (*,)."""
-        lengths = self.lengths()
-        return np.asarray(lengths.max(axis=-1) / lengths.min(axis=-1))
-
-    def through(self, poses: Displacement, joints: ComplexArray) -> FloatArray:
-        """How far distances between joints are off at most where M is at poses (*, N): (*, N).
-
-        joints: (*, N, 7), where a computation has the joints; those on the body are compared with
-        the poses, those on the ground with A and B.
-        """
-        first, second = pairs_of(BARS)
-        lengths = np.abs(joints[..., first] - joints[..., second])
-        off = np.abs(lengths - self.lengths()[..., None, :])
-        held = [
-            joints[..., 0] - complex_of(self.fixed_first)[..., None],
-            joints[..., 1] - complex_of(self.fixed_second)[..., None],
-            joints[..., 4] - complex_of(poses.act(self.body_joint[..., None, :])),
-            joints[..., 6] - complex_of(poses.act(self.link_joint[..., None, :])),
-        ]
-        every = np.concatenate([off, np.abs(np.stack(held, axis=-1))], axis=-1)
-        return np.asarray(every.max(axis=-1))
-
-
-def pairs_of(bars: tuple[str, ...]) -> tuple[list[int], list[int]]:
-    """The numbers of the first and of the second joint of bars such as "AC"."""
-    return [JOINTS.index(bar[0]) for bar in bars], [JOINTS.index(bar[1]) for bar in bars]

@@ -32,8 +32,8 @@ from burmester.synthesis.dyad_search import (
     dyads_of_tasks,
     exact_dyads,
     search_dyads,
+    with_method,
 )
-from burmester.synthesis.method import with_method
 from burmester.synthesis.outcome import NEAR_DIGITS, dyad_advice
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import Undetermined

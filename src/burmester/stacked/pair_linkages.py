@@ -186,8 +186,7 @@ def _at_places(here: _Here, rows: FloatArray, scales: Scales) -> LinkageRows:
             out.verdict[k] = LinkageRows.VERDICTS.index(defects[0].kind)
     exchanged = side == 1
     out.first[exchanged], out.second[exchanged] = out.second[exchanged], out.first[exchanged]
-    order = np.arange(len(batch))[:, None], side[:, None] ^ np.arange(2)
-    batch = LinkageBatch(batch.kinds[order], batch.dimensions[order])
+    batch = batch.in_order(side[:, None] ^ np.arange(2))
     for index, linkage in batch.alike():
         links = linkage.links
         number = TYPES.index(linkage.type) if links is None else grashof_numbers(links)

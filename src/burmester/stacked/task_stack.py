@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import take
 from burmester.tasks.motion_task import MOST, MOST_RATIO, MOST_TURN, Task
 from burmester.values import real_numbers
 
@@ -80,10 +81,7 @@ class TaskStack:
 
     def __getitem__(self, index: Any) -> Self:
         """Pick tasks (slices, masks, index arrays)."""
-        weights, exact = (
-            None if each is None else each[index] for each in (self.weights, self.exact)
-        )
-        return type(self)(self.poses[index], weights, exact, self.resolution)
+        return take(self, index)
 
     @property
     def displacements(self) -> Displacement:

@@ -12,7 +12,7 @@ again, so that what holds at A holds at B, C and D, and what holds at F at E.
 
 from __future__ import annotations
 
-from typing import Any, Final, NamedTuple, final
+from typing import Final, NamedTuple, final
 
 import numpy as np
 
@@ -44,10 +44,6 @@ class Chain(NamedTuple):
     d: ComplexArray
     upper: FloatArray
     lower: FloatArray
-
-    def at(self, index: Any) -> Chain:
-        """Some of them (indices, slices, masks)."""
-        return Chain(*(each[index] for each in self))
 
     def size(self) -> FloatArray:
         """The sum of all lengths: (*,)."""

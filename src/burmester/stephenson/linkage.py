@@ -6,7 +6,7 @@ be any moving link.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Final, NamedTuple, final
 
@@ -15,6 +15,7 @@ import numpy as np
 from burmester.mechanisms.contract import Locked
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
+from burmester.numerics.bundles import take
 from burmester.stephenson.chain import EXCHANGED, JOINTS, TURNED_OVER, Chain, inserted
 from burmester.stephenson.standstill import standstill
 
@@ -64,7 +65,9 @@ class StephensonClass(NamedTuple):
             upper=length("EG"),
             lower=length("FG"),
         )
-        return StephensonLinkage(self, carries, chain, ends(skeleton.ground), ends(carries))
+        return StephensonLinkage(
+            skeleton.name, carries, chain, ends(skeleton.ground), ends(carries)
+        )
 
 
 CLASSES: Final[Mapping[str, StephensonClass]] = {
@@ -130,8 +133,8 @@ class StephensonLinkage:
 
     Attributes
     ----------
-    kind : StephensonClass
-        Their class.
+    name : str
+        Of their class.
     carries : str
         The link that is the body.
     chain : Chain
@@ -142,11 +145,16 @@ class StephensonLinkage:
 
     loops: ClassVar[int] = 2
 
-    kind: StephensonClass
+    name: str
     carries: str
     chain: Chain
     ground: ComplexArray
     body: ComplexArray
+
+    @property
+    def kind(self) -> StephensonClass:
+        """Their class."""
+        return CLASSES[self.name]
 
     @property
     def skeleton(self) -> Skeleton:
@@ -166,19 +174,7 @@ class StephensonLinkage:
 
     def __getitem__(self, index: Any) -> StephensonLinkage:
         """Pick along the leading axes (indices, slices, masks)."""
-        chain, ground, body = self.chain.at(index), self.ground[index], self.body[index]
-        return StephensonLinkage(self.kind, self.carries, chain, ground, body)
-
-    def beside(self, others: Sequence[Any]) -> StephensonLinkage:
-        """These (n,), and others of their class after them."""
-        every = (self, *others)
-        chain = Chain(
-            *(np.concatenate(each) for each in zip(*(e.chain for e in every), strict=True))
-        )
-        ground, body = (
-            np.concatenate([getattr(each, name) for each in every]) for name in ("ground", "body")
-        )
-        return StephensonLinkage(self.kind, self.carries, chain, ground, body)
+        return take(self, index)
 
     @staticmethod
     def driver_name(pivot: str) -> str:
@@ -226,11 +222,6 @@ class StephensonLinkage:
             own = self._shape(link)
             out.append(np.abs(own[bar[1]] - own[bar[0]]))
         return np.stack(out, axis=-1)
-
-    def link_ratio(self) -> FloatArray:
-        """The greatest of these distances over the least: (*,)."""
-        lengths = self.lengths()
-        return np.asarray(lengths.max(axis=-1) / lengths.min(axis=-1))
 
     def generated(
         self, angle: FloatArray, sides: FloatArray, *, closed: bool = False

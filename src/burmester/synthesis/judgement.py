@@ -20,6 +20,7 @@ from burmester.linkages.evaluation import (
     Candidates,
     Evaluation,
     at_given_poses,
+    numbered,
     sizable,
 )
 from burmester.linkages.from_dyads import target_of
@@ -30,8 +31,7 @@ from burmester.synthesis.given_linkage import GivenDyad, dyads_at_poses, require
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.point_approximation import with_nearest_angles
 from burmester.synthesis.point_conditions import each_once
-from burmester.synthesis.result import Outcome, Synthesis
-from burmester.synthesis.time_limit import with_time_limit
+from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.options import SynthesisOptions
@@ -96,9 +96,7 @@ def _judgement(
     every = [found]
     if improve and time_for("looking for better linkages near it"):
         near = nearby_linkages(found, evaluation) or _of_family(found, evaluation)
-        every += [
-            replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(near, start=2)
-        ]
+        every += numbered(near, first=2)
     linkages = _told(every, evaluation)
     outcome = _outcome(linkages, problem, improve)
     warnings = (
@@ -156,14 +154,13 @@ def _judged(
     """
     found: list[FoundLinkage] = []
     at_once = max(1, PLACES_AT_ONCE // evaluation.task.poses.shape[0])
+    judged = evaluation.evaluated if evaluation.target.path is None else evaluation.members
     for at in range(0, len(pairs), at_once):
         some = list(pairs[at : at + at_once])
         own = LinkageBatch.of([Linkage(first.dyad, second.dyad) for first, second in some])
         batch = own.to_canonical(evaluation.target.frames)
-        rows = evaluation.target.places(batch)
-        candidates = Candidates(batch, rows, some, searched[at : at + at_once], own)
-        on_path = evaluation.target.path is not None
-        found += (evaluation.members if on_path else evaluation.evaluated)(candidates)
+        rows, chosen = evaluation.target.places(batch), searched[at : at + at_once]
+        found += judged(Candidates(batch, rows, some, chosen, own))
     return found
 
 
@@ -218,8 +215,8 @@ def _of_family(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage
             pairs.append(given.dyads)
     if not index:
         return []
-    searched = np.ones(len(index), dtype=bool)
-    found = evaluation.members(Candidates(family.batch[index], family.rows[index], pairs, searched))
+    some = Candidates(family.batch[index], family.rows[index], pairs, from_search=True)
+    found = evaluation.members(some)
     usable = [each for each in found if each.usable]
     return sorted(usable, key=lambda each: greatest_move(given, each))[:1]
 

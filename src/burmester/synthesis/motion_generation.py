@@ -17,11 +17,10 @@ from burmester.dyads.local_minima import BestDyads, best_dyads
 from burmester.dyads.selection import found_dyads
 from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import Dyad
-from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
+from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses, numbered
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import limited, step, time_for
-from burmester.synthesis.dyad_search import DyadSearch, dyads_of_motion, search_dyads
-from burmester.synthesis.method import with_method
+from burmester.synthesis.dyad_search import DyadSearch, dyads_of_motion, search_dyads, with_method
 from burmester.synthesis.outcome import (
     dyad_advice,
     family,
@@ -33,23 +32,23 @@ from burmester.synthesis.outcome import (
 )
 from burmester.synthesis.point_approximation import with_nearest_angles
 from burmester.synthesis.point_conditions import each_once, special_curve
-from burmester.synthesis.result import Outcome, Synthesis
-from burmester.synthesis.time_limit import with_time_limit
+from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
 from burmester.synthesis.usual_pivots import with_usual_pivots
-from burmester.synthesis.within_digits import tolerances_of_digits, with_linkages_within_digits
 from burmester.tasks.feasibility import require_feasible
 from burmester.tasks.motion_kinds import FewPoses, MotionKind, Rest, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.special_motions import CircularTranslation
 from burmester.tasks.traced_path import TracedPath
-from burmester.verdicts.found_linkage import FoundLinkage, Pair, numbered_pair
+from burmester.verdicts.found_linkage import FoundLinkage, Pair
+from burmester.verdicts.ranking import ranked
 
 if TYPE_CHECKING:  # loaded where a task asks for it
     from burmester.certificates.certificate import Certificate
 
-__all__ = ["synthesize"]
+__all__ = ["synthesize", "tolerances_of_digits"]
 
 FEW_POSES = 2  # a rail or slot leaves so many to be met exactly, or not at all
 # Outcomes that a limit may be to blame for: nothing works, or nothing but what falls short.
@@ -202,18 +201,12 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     if found is None:
         return None
     evaluation = Evaluation(problem, target)
-    own, searched = found.batch.from_canonical(target.frames), np.ones(len(found.batch), dtype=bool)
-    pairs = [numbered_pair(own.linkage(k), 2 * k + 1) for k in range(len(own))]
-    members = evaluation.members(
-        Candidates(found.batch, found.rows, pairs, searched, own, found.drivers)
-    )
+    own = found.batch.from_canonical(target.frames)
+    some = Candidates.alone(found.batch, found.rows, own, from_search=True)
+    members = evaluation.members(some._replace(drivers=found.drivers))
     if problem.options.rounds:
         members = recommended_first(evaluation.rounded(members), problem)
-    members = [
-        replace(each, id=f"L{rank}", rank=rank)
-        for rank, each in enumerate(evaluation.with_spreads(members), start=1)
-    ]
-    linkages = at_given_poses(members, problem)
+    linkages = at_given_poses(numbered(evaluation.with_spreads(members)), problem)
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
     outcome, advice = family_summary(problem, found.family, linkages)
     if problem.task.timing is not None:
@@ -333,3 +326,34 @@ def _certificate(problem: SynthesisProblem, search: DyadSearch) -> Certificate:
     assert isinstance(fit, BestDyads)
     assert isinstance(fit.search, CriticalDyads)
     return certify(task.poses, task.weights, fit.search, dyads)
+
+
+def tolerances_of_digits(task: Task) -> PoseTolerances | None:
+    """The resolution of the poses as their tolerances; None where they have some, or are exact."""
+    position, angle = task.resolution
+    exact = task.exact is not None and bool(task.exact.any())
+    if task.tolerances is not None or exact or not (position > 0 and angle > 0):
+        return None
+    return PoseTolerances.uniform(task.poses.shape[0], position, position, angle)
+
+
+def with_linkages_within_digits(
+    problem: SynthesisProblem, pairs: Sequence[Pair], known: Sequence[FoundLinkage]
+) -> tuple[FoundLinkage, ...]:
+    """The known linkages and those that pass within the digits of the poses, by rank.
+
+    pairs: of the dyads.  Nothing is added where the poses are exact, or have tolerances already.
+    """
+    tolerances = tolerances_of_digits(problem.task)
+    if tolerances is None or not problem.options.refines or problem.options.rounds:
+        return tuple(known)
+    if not time_for("looking for the best linkages within the digits"):
+        return tuple(known)
+    loose = replace(problem, task=replace(problem.task, tolerances=tolerances))
+    found = [
+        replace(each, within_tolerance=None)
+        for each in linkages_from_dyads(loose, pairs)
+        if each.usable
+    ]
+    every = ranked([*known, *at_given_poses(found, problem)], problem)
+    return tuple(numbered(every))

@@ -29,7 +29,7 @@ from burmester.tasks.notation import poses_in_words
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.stated_limits import StatedLimit, stated_limits, without
-from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
+from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:  # loaded for few poses only
     from burmester.families.open_task import OpenTask, Trials
@@ -101,10 +101,9 @@ class _Search:
     def judged(self, batch: LinkageBatch, rows: FloatArray) -> list[FoundLinkage]:
         """Linkages (k,) at their rows (k, N, 3), judged by the task as stated."""
         target = target_of(self.problem)
-        own, every = batch.from_canonical(target.frames), np.ones(len(batch), dtype=bool)
-        pairs = [numbered_pair(own.linkage(k), 2 * k + 1) for k in range(len(own))]
-        evaluation = Evaluation(self.problem, target)
-        return evaluation.members(Candidates(batch, rows, pairs, every, own))
+        own = batch.from_canonical(target.frames)
+        candidates = Candidates.alone(batch, rows, own, from_search=True)
+        return Evaluation(self.problem, target).members(candidates)
 
     def sound(self, task: Task) -> list[FoundLinkage]:
         """The sound linkages that a task has; none where it contradicts itself."""

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from burmester.errors import Advice
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.linkages.evaluation import Candidates, Evaluation, with_own_dyads
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
@@ -54,7 +54,7 @@ from burmester.verdicts.ranking import (
 from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count, figure
 
-__all__ = ["different", "near_points", "with_rank", "with_tolerance"]
+__all__ = ["different", "near_points", "with_tolerance"]
 
 # A sound linkage sets it if it misses by no more than that share of the path's span, or by no more
 # than ERROR_RATIO times as much as the nearest one; never by more than DEFAULT_TOLERANCE.
@@ -93,7 +93,7 @@ def near_points(
     if options.rounds:
         judged = evaluation.rounded(judged)
     judged = evaluation.with_spreads(judged)
-    linkages = tuple(with_rank(each, rank) for rank, each in enumerate(judged, start=1))
+    linkages = tuple(with_own_dyads(judged))
     outcome = _outcome(given, linkages, path, problem)
     warnings = (*findings, *note, *linkage_advice(given, linkages, outcome.code))
     dyads = tuple(dyad for each in linkages for dyad in each.dyads)
@@ -320,14 +320,8 @@ def _members(
     target, some = evaluation.target, take(found, index)
     places = Displacement(some.places[..., :2], some.places[..., 2])
     pairs = [numbered_pair(found.batch.linkage(k), 2 * k + 1) for k in index.tolist()]
-    candidates = Candidates(
-        some.batch.to_canonical(target.frames),
-        target.rows_at(places),
-        pairs,
-        np.ones(len(pairs), dtype=bool),
-        some.batch,
-    )
-    return evaluation.members(candidates)
+    batch, rows = some.batch.to_canonical(target.frames), target.rows_at(places)
+    return evaluation.members(Candidates(batch, rows, pairs, True, some.batch))
 
 
 def _number(found: FoundLinkage) -> int:
@@ -378,15 +372,6 @@ def _front(found: Sequence[FoundLinkage], task: Task) -> list[FoundLinkage]:
     best = [e for k, e in enumerate(usable) if e not in priced and not beaten[k].any()]
     told = [*priced, *best[: max(most - len(priced), 0)]]
     return [each for each in usable if each in told]
-
-
-def with_rank(found: FoundLinkage, rank: int) -> FoundLinkage:
-    """A linkage with its rank, its dyads numbered by it."""
-    first, second = (
-        replace(each, id=f"D{2 * rank - 2 + number}")
-        for number, each in enumerate(found.dyads, start=1)
-    )
-    return replace(found, id=f"L{rank}", rank=rank, dyads=(first, second))
 
 
 def different(found: Sequence[FoundLinkage], least: float) -> list[FoundLinkage]:

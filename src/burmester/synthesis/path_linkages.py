@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from burmester.curves.crank_linkages import CrankLinkages
 from burmester.curves.curve_descent import CurveFit
-from burmester.curves.nine_point_starts import nine_point_starts
 from burmester.curves.path_fit import PathSearch
 from burmester.curves.timed_paths import linkages_of_five_points
 from burmester.fourbar.cognates import cognates
@@ -25,8 +24,10 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Evaluation
 from burmester.linkages.from_dyads import target_of
-from burmester.numerics.arrays import FloatArray, complex_of, pairs_of
+from burmester.numerics.arrays import FloatArray, complex_of, even_numbers, pairs_of
 from burmester.numerics.bundles import concatenate, take
+from burmester.points.point_sets import line_or_circle
+from burmester.points.real_linkages import linkages_through
 from burmester.progress import goes_on, step, time_for
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.defect_free_search import refined_on_branch
@@ -41,7 +42,9 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
 
-__all__ = ["PathLinkages", "is_timed_exactly", "linkages_near"]
+__all__ = ["PathLinkages", "is_timed_exactly", "linkages_near", "nine_point_starts"]
+
+NINE = 9
 
 CURVES = 16  # different curves that are looked at; each with its other linkage that has a crank
 LEVELS = (20.0, 30.0, 40.0, 50.0, 60.0)  # degrees; least transmission angles that are tried
@@ -309,3 +312,23 @@ def _refined(target: Target, refined: Refined) -> PathLinkages:
     there = target.frames.from_canonical(target.places_of(refined.rows[index]))
     rows = np.concatenate([there.translation, there.angle[..., None]], axis=-1)
     return PathLinkages(refined.batch[index].from_canonical(target.frames), rows)
+
+
+def nine_point_starts(points: FloatArray) -> list[tuple[CrankLinkages, FloatArray]]:
+    """Linkages (k,) through nine of points (N, 2), evenly chosen, and crank angles (k, N) at all.
+
+    By each of their dyads as the crank.  None where nine points lie on a line or a circle.
+    """
+    index = even_numbers(len(points), NINE)
+    nine = points[index]
+    if len(nine) < NINE or line_or_circle(nine) is not None:
+        return []
+    found = linkages_through(Displacement(nine, np.zeros(NINE)), np.ones(NINE, dtype=bool))
+    out = []
+    for batch in (found.batch, found.batch.exchanged()):
+        linkages, t = CrankLinkages.of(batch, found.places)
+        steps = np.diff(t, axis=1)
+        one_way = (steps > 0).all(axis=1) | (steps < 0).all(axis=1)
+        every = [np.interp(np.arange(len(points)), index, row) for row in t[one_way]]
+        out.append((linkages[one_way], np.reshape(every, (int(one_way.sum()), len(points)))))
+    return out

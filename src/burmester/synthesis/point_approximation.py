@@ -35,7 +35,7 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import worst_miss
-from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
+from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["ASSUMED_RATIO", "LEAST_ASSUMED", "nearest_linkage", "with_nearest_angles"]
 
@@ -115,9 +115,9 @@ def _best(evaluation: Evaluation, batch: LinkageBatch, rows: FloatArray) -> Foun
     """Of linkages with their places the nearest sound one, or that works, or the nearest."""
     if not len(batch):
         return None
-    own, none = batch.from_canonical(evaluation.target.frames), np.zeros(len(batch), dtype=bool)
-    pairs = [numbered_pair(own.linkage(k), 1) for k in range(len(own))]
-    judged = evaluation.members(Candidates(batch, rows, pairs, none, own), quality=False)
+    own = batch.from_canonical(evaluation.target.frames)
+    candidates = Candidates.alone(batch, rows, own, from_search=False)
+    judged = evaluation.members(candidates, quality=False)
     first = min(judged, key=lambda each: (not each.usable, each.combined_error), default=None)
     sound = [
         each

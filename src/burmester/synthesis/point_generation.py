@@ -7,14 +7,13 @@ them are found (Alt-Burmester).  Each is judged at its own angles.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from burmester.errors import Advice
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
+from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses, with_own_dyads
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.bundles import where
 from burmester.points.point_sets import MOST_MET, PointSet, point_set
@@ -27,7 +26,7 @@ from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.tasks.notation import length_of
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import in_short
-from burmester.verdicts.found_linkage import FoundLinkage, Pair, numbered_pair
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.ranking import ranked
 from burmester.wording import count
@@ -71,17 +70,12 @@ def _judged(
     step(f"judging {count(len(found.batch), 'linkage')}")
     own, places = _in_order_of_limits(found.batch, asked, problem), found.places
     rows = target.rows_at(Displacement(places[..., :2], places[..., 2]))
-    pairs = [numbered_pair(own.linkage(k), 2 * k + 1) for k in range(len(own))]
-    searched = np.zeros(len(own), dtype=bool)
-    candidates = Candidates(own.to_canonical(target.frames), rows, pairs, searched, own)
+    batch = own.to_canonical(target.frames)
+    candidates = Candidates.alone(batch, rows, own, from_search=False)
     members = ranked(evaluation.members(candidates), problem)
     if problem.options.rounds:
         members = evaluation.rounded(members)
-    members = [
-        replace(each, id=f"L{rank}", rank=rank, dyads=_renumbered(each.dyads, 2 * rank - 1))
-        for rank, each in enumerate(evaluation.with_spreads(members), start=1)
-    ]
-    return at_given_poses(members, problem)
+    return at_given_poses(with_own_dyads(evaluation.with_spreads(members)), problem)
 
 
 def _in_order_of_limits(
@@ -100,12 +94,6 @@ def _in_order_of_limits(
 
     exchanges = np.array(broken(batch)) > np.array(broken(other))
     return where(exchanges, other, batch)
-
-
-def _renumbered(dyads: Pair, number: int) -> Pair:
-    """The dyads of a ranked linkage, numbered from `number`."""
-    first, second = dyads
-    return replace(first, id=f"D{number}"), replace(second, id=f"D{number + 1}")
 
 
 def _outcome(

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
 
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice, InputError
+from burmester.progress import Watch
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import Method, SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.wording import listed
 
 if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to load
     from burmester.certificates.certificate import Certificate
@@ -21,6 +23,9 @@ if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to l
     from burmester.sixbar.found import FoundSixBar
     from burmester.sixbar.six_bars import SixBars
     from burmester.synthesis.loosening import Loosening
+
+# What is proposed in place of a limit that was too short: so many times it, seconds at least.
+LONGER, LEAST_PROPOSED = 10.0, 10.0
 
 Candidate: TypeAlias = "FoundLinkage | FoundSixBar"  # what files and pictures are made of
 
@@ -150,3 +155,21 @@ def chosen(
         why=f"it has {', '.join(known)}" if known else outcome.message,
         help=f"{cure} {known[0]}" if known else outcome.help or "give other poses",
     )
+
+
+def with_time_limit(synthesis: Synthesis, watch: Watch) -> Synthesis:
+    """A synthesis with a warning W221 that says what was not finished, if there is such."""
+    limit, parts = synthesis.options.time_limit, []
+    if limit is None or not (watch.cut or watch.left_out):
+        return synthesis
+    for texts, fate in ((watch.cut, "ended early"), (watch.left_out, "left out")):
+        if texts:
+            parts.append(f"{listed(texts)} {'was' if len(texts) == 1 else 'were'} {fate}")
+    longer = max(LONGER * limit, LEAST_PROPOSED)
+    advice = Advice(
+        "W221",
+        f"the time limit of {limit:g} s came before the end: {'; '.join(parts)}",
+        f"give more time, such as --time-limit {longer:g}, or leave it out",
+        "what was found until then is the answer, and may not be the best",
+    )
+    return replace(synthesis, warnings=(*synthesis.warnings, advice))

@@ -15,8 +15,7 @@ from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.sixbar.search_space import FEWEST, POSES, require_kept
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
 from burmester.synthesis.judgement import exact_note
-from burmester.synthesis.result import Outcome, Synthesis
-from burmester.synthesis.time_limit import with_time_limit
+from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
 from burmester.tasks.motion_task import MOST, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions

@@ -8,8 +8,7 @@ from burmester.progress import limited, step
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.sixbar.search_space import POSES
 from burmester.sixbar.six_bars import SixBarOptions, SixBars, best_six_bars
-from burmester.synthesis.result import Outcome, Synthesis
-from burmester.synthesis.time_limit import with_time_limit
+from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import least_angle
 from burmester.tasks.options import SynthesisOptions

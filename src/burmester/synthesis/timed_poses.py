@@ -23,10 +23,10 @@ from burmester.families.dyad_samples import drawn_dyads
 from burmester.families.open_task import OpenTask
 from burmester.fourbar.dyad import RP, RR, Dyad
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.linkages.evaluation import at_given_poses
+from burmester.linkages.evaluation import at_given_poses, with_own_dyads
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.synthesis.outcome import linkage_advice
-from burmester.synthesis.path_generation import different, with_rank
+from burmester.synthesis.path_generation import different
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import CONDITIONS, Task
@@ -65,8 +65,7 @@ def near_timed_poses(problem: SynthesisProblem, findings: Sequence[Advice]) -> S
     pairs.sort(key=lambda pair: pair[0].rms_error + pair[1].rms_error)
     found = linkages_from_dyads(problem, pairs[:MOST_PAIRS])
     apart = different(found, SAME * problem.motion_size)[:SHOWN]
-    ranked = (with_rank(each, rank) for rank, each in enumerate(apart, start=1))
-    linkages = at_given_poses(tuple(ranked), problem)
+    linkages = at_given_poses(with_own_dyads(apart), problem)
     outcome = _outcome(linkages, problem)
     warnings = (*findings, *linkage_advice(problem.given, linkages, outcome.code))
     listed = tuple(dyad for each in linkages for dyad in each.dyads)

@@ -14,7 +14,7 @@ from dataclasses import replace
 from burmester.errors import Advice
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.linkages.by_all_poses import judged_at_all
-from burmester.linkages.evaluation import Evaluation, at_given_poses
+from burmester.linkages.evaluation import Evaluation, at_given_poses, numbered
 from burmester.linkages.from_dyads import sample_refined, target_of
 from burmester.linkages.further_pairs import FurtherPairs, closer_linkages
 from burmester.linkages.sound_linkages import sound_linkages
@@ -60,9 +60,7 @@ def with_usual_pivots(
             near = _sound_within(every, regions, most, problem)
         if near:
             order = [near[0], *(each for each in every if each is not near[0])]
-            linkages = tuple(
-                replace(each, id=f"L{rank}", rank=rank) for rank, each in enumerate(order, start=1)
-            )
+            linkages = tuple(numbered(order))
             return linkages, [_advice(linkages, first, assumed)]
     return linkages, []
 

@@ -23,7 +23,7 @@ from typing import final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray
+from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray, pairs_of
 from burmester.tasks.motion_kinds import (
     FewPoses,
     General,
@@ -44,7 +44,6 @@ from burmester.tasks.repeated_poses import (
 from burmester.tasks.rotation_fit import (
     LARGE_ROTATION,
     RotationFit,
-    pairs_of,
     residual_of_turn,
     rms,
 )

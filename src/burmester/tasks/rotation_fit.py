@@ -9,12 +9,12 @@ from numpy.typing import NDArray
 
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray, complex_of
+from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray, complex_of, pairs_of
 from burmester.tasks.motion_task import COARSE
 from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
 from burmester.tasks.scatter import MAX_RESIDUAL_ERRORS, max_residual_errors
 
-__all__ = ["LARGE_ROTATION", "RotationFit", "pairs_of", "residual_of_turn", "rms"]
+__all__ = ["LARGE_ROTATION", "RotationFit", "residual_of_turn", "rms"]
 
 LARGE_ROTATION = 0.1  # radians, rms; as large a one shows by itself whether it is about a point
 
@@ -145,12 +145,6 @@ def residual_of_turn(
     a = (spread.conj() * (values - mean)).sum(axis=-1, keepdims=True)
     a = a / np.where(power > 0, power, 1.0)
     return values - mean - a * spread, (mean - a * mean_turn)[..., 0], a[..., 0]
-
-
-def pairs_of(values: ComplexArray | complex) -> FloatArray:
-    """Complex numbers (*,) as pairs (*, 2)."""
-    z = np.asarray(values)
-    return np.stack([z.real, z.imag], axis=-1)
 
 
 def rms(values: ComplexArray) -> FloatArray:

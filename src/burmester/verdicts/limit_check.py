@@ -16,7 +16,7 @@ from burmester.requirements.table import Violation
 from burmester.tasks.limits import KINDS, Limits
 from burmester.wording import figure, listed
 
-__all__ = ["LIMIT_TOLERANCE", "limit_violations", "outside"]
+__all__ = ["LIMIT_TOLERANCE", "limit_violations", "outside", "wrong_length"]
 
 LIMIT_TOLERANCE = 1e-6  # motion sizes; a limit missed by less is met
 
@@ -67,11 +67,16 @@ def _broken(dyad: Dyad, limits: Limits, slack: float, unit: str | None) -> Itera
             x, y = (f"{float(value):.6g}" for value in at)
             yield f"the {name} pivot at ({x}, {y}) is {_length(out, unit)} outside its region"
     if isinstance(dyad, RR):
-        radius, (least, most) = float(dyad.radius), limits.length
-        if radius < least - slack:
-            yield f"a link is {radius:.4g} long; at least {least:g} is asked for"
-        elif radius > most + slack:
-            yield f"a link is {radius:.4g} long; at most {most:g} is allowed"
+        yield from wrong_length("a link", float(dyad.radius), limits, slack)
+
+
+def wrong_length(what: str, length: float, limits: Limits, slack: float) -> Iterator[str]:
+    """That a link is too short or too long, if it is."""
+    least, most = limits.length
+    if length < least - slack:
+        yield f"{what} is {length:.4g} long; at least {least:g} is asked for"
+    elif length > most + slack:
+        yield f"{what} is {length:.4g} long; at most {most:g} is allowed"
 
 
 def _off_rail(

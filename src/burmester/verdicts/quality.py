@@ -21,8 +21,7 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.instantaneous import mechanical_advantage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.pivot_box import extent
-from burmester.fourbar.reserve import reserve
+from burmester.fourbar.pivot_box import extent, reserve
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -23,14 +24,17 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.requirements import Requirements
+from burmester.wording import figure
 
 __all__ = [
     "figures_of",
     "four_bar_figures",
+    "mistimed",
     "not_asked",
     "outside",
     "places_between",
     "standard_of",
+    "timing_error",
     "violations",
 ]
 
@@ -117,3 +121,26 @@ def not_asked(task: Task) -> tuple[Requirement, ...]:
     """What of the standard is not asked of four-bars for a task."""
     either = task.requirements.types is not None or rotation_range(task.poses.angle) <= SAME_ANGLE
     return (EXTENT, CHANGE_POINT) if either else (EXTENT,)
+
+
+def timing_error(inputs: FloatArray, task: Task) -> FloatArray | None:
+    """How far driver angles (N,) are from those of a task, signed, in radians; nan where untimed.
+
+    None for a task that is not timed.
+    """
+    return None if task.timing is None else task.timing.missed(inputs)
+
+
+def mistimed(inputs: FloatArray, task: Task, numbers: list[int]) -> tuple[Violation, ...]:
+    """The violation of a driver's angles at the poses, if it is one; numbers: of the poses."""
+    if (timing := task.timing) is None or (missed := timing_error(inputs, task)) is None:
+        return ()
+    known = np.abs(missed[timing.timed])
+    if (known <= timing.bound).all():
+        return ()
+    at = int(timing.timed[np.nan_to_num(known, nan=np.inf).argmax()])
+    away = math.degrees(float(np.abs(missed[at])))
+    given = "" if task.names is None else f" ({task.names[at]})"
+    told = f"is {figure(away)}° off" if math.isfinite(away) else "is not at"
+    text = f"its crank {told} its angle at pose {numbers[at] + 1}{given}"
+    return (Violation("timing", f"{text}; {figure(math.degrees(timing.bound))}° is allowed"),)
