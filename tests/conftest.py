@@ -1,45 +1,156 @@
-"""Quick tests first; Hypothesis without a clock, and the same examples every time.
+"""Which tests run, how much of them, and in which order.
 
-`pytest -m "not slow"` is the quick round.  `pytest --hypothesis-profile=search` looks for new
-examples.
+Every test is in one of three layers, and has its name as a marker.  `campaign` is a search of many
+cases, each much like the next: they differ by a `seed` or `number`, or tests/layers.toml names the
+test.  By default a fixed sample of them is run, and all of them with `scripts/test --all`.  The
+others are `unit` where they are light, and else `cross`: whole runs and comparisons with oracles.
+What is light is measured: `--weigh` keeps the CPU seconds of each test in tests/weights.json.
+
+A worker takes whole files, so that what is set up for a file is set up once: first those that need
+a browser, then the heaviest, so that all workers end together.
 """
 
+import json
 import os
+import tomllib
+import zlib
+from collections import defaultdict
+from contextlib import ExitStack
+from pathlib import Path
 
 import pytest
+from _pytest.doctest import DoctestModule
 from hypothesis import settings
 
+from tests import solved
+from tests.oracles import browser as browsers
+from tests.samples import share
+
+solved.install()
+
+FOLDER = Path(__file__).parent
+WEIGHTS = FOLDER / "weights.json"
+DRAWN = {"seed", "number"}  # what a test is given to draw its case by
+LIGHT_S = 1.0  # CPU seconds of a test function, with all its cases, that is `unit`
+
+settings.register_profile("house", deadline=None, derandomize=True, max_examples=share(100))
 settings.register_profile("search", deadline=None, print_blob=True, max_examples=300)
-settings.register_profile("house", deadline=None, derandomize=True)
 settings.load_profile("house")
 
 
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--weigh", action="store_true", help="keep how long each test takes")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.option.loadscopereorder = False  # files are handed out in the order that is set below
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collect_file():
+    """Tests have no doctests; to look for some takes longer than to find their functions."""
+    return [each for each in (yield) if not isinstance(each, DoctestModule)]
+
+
 @pytest.hookimpl(trylast=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Put tests marked slow last, for each of several workers.
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Mark the layers, leave out all but a sample of each campaign, and put heavy files first."""
+    weights = json.loads(WEIGHTS.read_text())
+    campaigns = set(tomllib.loads((FOLDER / "layers.toml").read_text())["campaign"])
+    drawn = defaultdict(list)
+    for item in items:
+        name, by = _function(item), getattr(item, "callspec", None)
+        params = {} if by is None else by.params
+        if name in campaigns or not DRAWN.isdisjoint(params):
+            item.add_marker("campaign")
+            others = () if name in campaigns else [str(params[k]) for k in params.keys() - DRAWN]
+            drawn[name, *sorted(others)].append(item)
+        else:
+            item.add_marker("cross" if weights.get(name, 0.0) > LIGHT_S else "unit")
+    left_out: set[pytest.Item] = set()
+    for cases in drawn.values():
+        cases.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
+        left_out.update(cases[share(len(cases)) :])
+    if left_out:
+        config.hook.pytest_deselected(items=list(left_out))
+    files: dict[str, float] = defaultdict(float)
+    for name, seconds in weights.items():
+        files[name.partition("::")[0]] += seconds
+    kept = [item for item in items if item not in left_out]
+    _in_browser.update(item.path for item in kept if "browser" in getattr(item, "fixturenames", ()))
 
-    pytest-xdist gives every worker one stretch of the list, all of the same length but for one
-    test, and lets workers without work steal from the end of another's.  So each stretch has its
-    share of quick tests, then its share of slow ones.
-    """
-    items[:] = _together(items)
-    slow = [item for item in items if item.get_closest_marker("slow")]
-    quick = [item for item in items if not item.get_closest_marker("slow")]
-    left = int(os.environ.get("PYTEST_XDIST_WORKER_COUNT", "1"))
-    ordered: list[pytest.Item] = []
-    while left:
-        length, last = (len(quick) + len(slow)) // left, len(slow) // left
-        ordered += quick[: length - last] + slow[:last]
-        quick, slow, left = quick[length - last :], slow[last:], left - 1
-    items[:] = ordered
+    def order(item: pytest.Item) -> tuple[bool, float, str]:
+        return item.path not in _in_browser, -files[_file(item)], _file(item)
+
+    items[:] = sorted(kept, key=order)
 
 
-def _together(items: list[pytest.Item]) -> list[pytest.Item]:
-    """The items, those of one case one after the other in modules that are marked `together`."""
-    first: dict[object, int] = {}
-    keys = []
-    for place, item in enumerate(items):
-        case = getattr(item, "callspec", None)
-        shared = case is not None and item.get_closest_marker("together") is not None
-        keys.append(first.setdefault((item.path, case.id) if shared and case else place, place))
-    return [item for _, item in sorted(zip(keys, items, strict=True), key=lambda each: each[0])]
+def _file(item: pytest.Item) -> str:
+    return item.nodeid.partition("::")[0]
+
+
+def _function(item: pytest.Item) -> str:
+    """A test function without the brackets of its case."""
+    return item.nodeid.partition("[")[0]
+
+
+# --- the one browser of a worker
+
+_open = ExitStack()
+_browsers: list[object] = []
+_in_browser: set[Path] = set()  # files with tests that need it
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """The browser, in which each test opens pages of its own."""
+    if not _browsers:
+        _browsers.append(_open.enter_context(browsers.launched()))
+    return _browsers[0]
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown(nextitem: pytest.Item | None) -> None:
+    """Close it before files without it, as its driver keeps this thread's event loop."""
+    if _browsers and (nextitem is None or nextitem.path not in _in_browser):
+        _open.close()
+        _browsers.clear()
+
+
+# --- how long each test takes
+
+_BEGAN = pytest.StashKey[float]()
+_measured: dict[str, float] = defaultdict(float)
+
+
+def _cpu_s() -> float:
+    """What this process and those that it has waited for have used."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    item.stash[_BEGAN] = _cpu_s()
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> None:
+    if call.when == "teardown":
+        item.user_properties.append(("cpu_s", _cpu_s() - item.stash[_BEGAN]))
+
+
+def pytest_runtest_logreport(report: pytest.TestReport) -> None:
+    if report.when == "teardown":
+        _measured[report.nodeid.partition("[")[0]] += dict(report.user_properties)["cpu_s"]
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Of the files that were run, put what was measured in the place of what was known."""
+    if not session.config.getoption("weigh", False) or hasattr(session.config, "workerinput"):
+        return
+    files = {name.partition("::")[0] for name in _measured}
+    known = json.loads(WEIGHTS.read_text())
+    weights = {name: s for name, s in known.items() if name.partition("::")[0] not in files}
+    weights |= {name: round(s, 1) for name, s in _measured.items() if s >= 0.05}
+    WEIGHTS.write_text(json.dumps(dict(sorted(weights.items())), indent=0) + "\n")

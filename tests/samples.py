@@ -1,13 +1,12 @@
-"""How many random cases a test takes: a few in CI, and all of them where somebody asks.
+"""How many cases of a campaign are run: a few, and all of them with `scripts/test --all`."""
 
-`EVERY_SAMPLE=1 scripts/test` takes them all.
-"""
-
+import math
 import os
 from collections.abc import Sequence
 from typing import TypeVar
 
 EVERY = bool(os.environ.get("EVERY_SAMPLE"))
+SHARE = 0.2  # of a campaign that is not told how many it takes
 
 Item = TypeVar("Item")
 
@@ -23,3 +22,8 @@ def some_of(cases: Sequence[Item], number: int) -> list[Item]:
     if EVERY or number >= len(cases):
         return cases
     return [cases[k * len(cases) // number] for k in range(number)]
+
+
+def share(count: int) -> int:
+    """How many of so many cases are taken: a fifth, and both of two."""
+    return count if EVERY or count <= 2 else math.ceil(SHARE * count)

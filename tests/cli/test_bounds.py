@@ -7,7 +7,6 @@ import pytest
 from benchmarks.bounded import measured, of
 
 pytestmark = [
-    pytest.mark.slow,
     pytest.mark.skipif(sys.platform != "linux", reason="peaks are counted as Linux does"),
 ]
 

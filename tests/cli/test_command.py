@@ -1,8 +1,7 @@
-"""The command as its users meet it: as a process of its own."""
+"""The command as its users meet it."""
 
 import ast
 import json
-import os
 import re
 import signal
 import subprocess
@@ -18,19 +17,8 @@ import pytest
 import burmester
 from burmester import cli
 from burmester.io.cases import names
+from tests.command import process, run
 from tests.oracles.ten_poses import TEN as TABLE_2
-
-
-def run(*arguments, stdin=None, env=None):
-    return subprocess.run(
-        [sys.executable, "-m", "burmester", *map(str, arguments)],
-        input=stdin,
-        capture_output=True,
-        encoding=(env or {}).get("PYTHONIOENCODING", "utf-8"),
-        check=False,
-        timeout=60,
-        env={**os.environ, **(env or {})},
-    )
 
 
 @pytest.fixture
@@ -52,7 +40,7 @@ def valid(stdout):
 
 
 def test_main_job_prints_the_published_linkage(poses):
-    done = run("synthesize", poses)
+    done = process("synthesize", poses)
     assert done.returncode == 0
     assert done.stderr == ""
     assert re.match(r"L1, a crank-rocker driven by D1, passes every pose within ", done.stdout)
@@ -105,46 +93,6 @@ def test_json_of_one_run_is_the_input_of_the_next(poses):
             assert np.allclose(a.get(key, 0), b.get(key, 0), rtol=0, atol=1e-9)
 
 
-BAD = {
-    "inf": (TABLE_2.replace("49.90", "inf"), "E103", ["row 3", "bad.csv:4:", "inf", "^"]),
-    "text": (TABLE_2.replace("-3.5027", "abc"), "E104", ["bad.csv:5:1", "abc", "^"]),
-    "empty": ("", "E102", ["bad.csv"]),
-    "header only": ("x,y,angle_deg\n", "E102", ["bad.csv"]),
-    "no unit": (TABLE_2.replace("angle_deg", "angle"), "E110", ["--angle-unit", "bad.csv:1"]),
-    "no y": (TABLE_2.replace("x,y,", "x,z,"), "E10", ["y"]),
-    "one pose": ("\n".join(TABLE_2.splitlines()[:2]), "E120", ["1 pose"]),
-    "short row": (TABLE_2.replace(",101.25", ""), "E106", ["bad.csv:11"]),
-}
-
-
-@pytest.mark.parametrize("name", BAD)
-def test_a_bad_file_is_one_clear_message(tmp_path, name):
-    text, code, said = BAD[name]
-    file = tmp_path / "bad.csv"
-    file.write_text(text)
-    done = run("synthesize", file)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert done.stderr.startswith(f"error[{code}")
-    assert done.stderr.count("error[") == 1
-    assert "Traceback" not in done.stderr
-    assert "help:" in done.stderr
-    for words in said:
-        assert words in done.stderr
-    as_json = run("synthesize", file, "--json")
-    assert as_json.returncode == 2
-    data = valid(as_json.stdout)
-    assert data["outcome"]["code"].startswith(code)
-    assert file.read_text() == text
-
-
-def test_following_the_help_on_the_angle_unit_works(tmp_path):
-    file = tmp_path / "poses.csv"
-    file.write_text(TABLE_2.replace("angle_deg", "angle"))
-    assert run("synthesize", file).returncode == 2
-    assert run("synthesize", file, "--angle-unit", "deg").returncode == 0
-
-
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -165,22 +113,6 @@ def test_wrong_usage_is_one_message(arguments):
     assert "--help" in done.stderr
     data = valid(run(*arguments, "--json").stdout)
     assert data["outcome"]["code"] == "E100"
-
-
-def test_a_missing_file(tmp_path):
-    done = run("synthesize", tmp_path / "none.csv")
-    assert done.returncode == 2
-    assert done.stderr.startswith("error[E101]")
-
-
-def test_sound_input_without_a_linkage_is_exit_code_1(tmp_path):
-    file = tmp_path / "turn.csv"
-    file.write_text("x,y,angle_deg\n0,0,0\n0,0,20\n0,0,50\n0,0,90\n")
-    done = run("synthesize", file)
-    assert done.returncode == 1
-    assert "turn" in done.stdout
-    data = valid(run("synthesize", file, "--json").stdout)
-    assert data["outcome"]["code"] == "R315"
 
 
 def test_few_poses_get_the_best_of_infinitely_many(tmp_path):
@@ -204,13 +136,6 @@ def test_methods_by_number_of_poses(poses):
     raw = json.loads(run("synthesize", poses, "--raw", "--json").stdout)
     wanted = [5.69e-06, 1.22e-04, 0.0073, 0.1525, 0.1868, 1.2043, 1.6355, 10.4665]
     assert np.allclose(raw["singular_values"], wanted, rtol=0, atol=6e-5)
-
-
-def test_raw_is_for_the_pencil_only(poses):
-    refused = run("synthesize", poses, "--method", "complete", "--raw")
-    assert refused.returncode == 2
-    assert "E123" in refused.stderr
-    assert run("synthesize", poses, "--method", "pencil", "--raw").returncode == 0
 
 
 def test_complete_method_says_what_it_accounted_for(poses):
@@ -242,24 +167,10 @@ def test_a_certificate_says_what_is_proved(poses):
 
 def test_a_missing_library_for_certificates_is_said(poses, tmp_path):
     (tmp_path / "flint.py").write_text("raise ImportError")
-    done = run("synthesize", poses, "--certify", env={"PYTHONPATH": str(tmp_path)})
+    done = process("synthesize", poses, "--certify", env={"PYTHONPATH": str(tmp_path)})
     assert done.returncode == 2
     assert "E130" in done.stderr
     assert "burmester[certify]" in done.stderr
-
-
-def test_a_special_motion_is_told_with_a_way_on(tmp_path):
-    file = tmp_path / "turn.csv"
-    file.write_text("x,y,angle_deg\n" + "".join(f"2,3,{angle}\n" for angle in (0, 20, 45, 80, 100)))
-    done = run("synthesize", file)
-    assert done.returncode == 1
-    assert "result[R315]" in done.stdout
-    assert "pin the body at its point (0, 0) to the ground at (2, 3)" in " ".join(
-        done.stdout.split()
-    )
-    data = valid(run("synthesize", file, "--json").stdout)
-    assert data["motion"]["code"] == data["outcome"]["code"] == "R315"
-    assert data["linkages"] == []
 
 
 FIXED = ("--fixed-pivot=1,-2", "--fixed-pivot=4,-1")
@@ -364,35 +275,6 @@ def test_limits_in_a_file_are_those_of_the_command_line(tmp_path, poses):
     assert again.stderr.startswith("error[E108]")
 
 
-REFUSED = {
-    "region": (["--fixed-pivot", "box:0,0:a,2"], "E131", ["--fixed-pivot:1:9", "'a'", "^"]),
-    "empty": (["--moving-pivot", "box:1,0:0,2"], "E132", ["x from 1 to 0"]),
-    "length": (["--length", "5:2"], "E132", ["at least 5 long", "at most 2 long"]),
-    "kinds": (["--kinds", "PR", "--fixed-pivot", "1,2"], "E132", ["at (1, 2)", "PR only"]),
-    "pose": (["--exact", "11"], "E122", ["no pose '11'", "1 to 10"]),
-    "conditions": (["--exact", "1,2,3,4", "--fixed-pivot", "1,2"], "E133", ["6 exact conditions"]),
-    "one point twice": (["--fixed-pivot", "1,2"] * 2, "E132", ["both dyads", "at (1, 2)"]),
-    "out of reach": (
-        ["--fixed-pivot", "0,0", "--moving-pivot", "box:0,0:0.1,0.1", "--length", ":0.3"],
-        "E132",
-        ["at (0, 0)", "box from (0, 0) to (0.1, 0.1)", "at most 0.3 long"],
-    ),
-}
-
-
-@pytest.mark.parametrize("name", REFUSED)
-def test_limits_that_cannot_be_met_are_refused_before_solving(poses, name):
-    arguments, code, said = REFUSED[name]
-    done = run("synthesize", poses, *arguments)
-    assert done.returncode == 2
-    assert done.stdout == ""
-    assert done.stderr.startswith(f"error[{code}]")
-    for words in [*said, "help:"]:
-        assert words in " ".join(done.stderr.split())
-    as_json = run("synthesize", poses, *arguments, "--json")
-    assert valid(as_json.stdout)["outcome"]["code"] == code
-
-
 def test_help_tells_every_option_in_80_columns():
     done = run("synthesize", "--help")
     assert max(map(len, done.stdout.splitlines())) <= 80
@@ -488,10 +370,10 @@ def test_output_goes_through_any_encoding(encoding, tmp_path):
         "x,y,angle_deg,name\n0,0,0,\u4e00\n3,1,40,b\n4,3,70,\u00fc\n5,3,95,d\n6,2,110,e\n",
         encoding="utf-8",
     )
-    done = run("synthesize", named, env={"PYTHONIOENCODING": encoding})
+    done = process("synthesize", named, env={"PYTHONIOENCODING": encoding})
     assert done.returncode in (0, 1)
     assert "four-bar" in done.stdout
-    as_json = run("synthesize", named, "--json", env={"PYTHONIOENCODING": encoding})
+    as_json = process("synthesize", named, "--json", env={"PYTHONIOENCODING": encoding})
     names = [pose["name"] for pose in valid(as_json.stdout)["task"]["poses"]]
     assert names == ["\u4e00", "b", "\u00fc", "d", "e"]
 
@@ -507,12 +389,12 @@ def test_cases_are_listed_and_printed():
 
 
 def test_reproduce_prints_every_table_and_its_verdicts():
-    done = run("reproduce")
+    done = process("reproduce")
     assert done.returncode == 0
     for title in ("Table 3", "Table 4", "Table 6", "Table 7", "Table 8", "Eqs. (19) to (21)"):
         assert title in done.stdout
     assert "0 differs" in " ".join(done.stdout.split())
-    data = json.loads(run("reproduce", "--json").stdout)
+    data = json.loads(process("reproduce", "--json").stdout)
     verdicts = [row["verdict"] for section in data["sections"] for row in section["rows"]]
     assert verdicts.count("differs") == 0
     assert verdicts.count("misprint") == 12

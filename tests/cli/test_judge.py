@@ -9,26 +9,16 @@ import numpy as np
 import pytest
 
 import burmester
-from burmester import Task, cli
+from burmester import Task
 from burmester.io.result import task_data
 from burmester.io.saved import read_result
+from tests.command import run
 from tests.oracles import witness
 
 LID = str(Path(burmester.__file__).parent / "templates" / "lid-hinge.toml")
 HEAD = "x,y,angle_deg\n"
 TYPED = ("--dyad", "100,-68:53,-47", "--dyad", "12,-17:80,-17")
 TWISTED = ("--dyad", "90,-68:53,-47", "--dyad", "12,-27:80,-17")
-
-
-@pytest.fixture
-def run(capsys):
-    def command(*arguments):
-        with pytest.raises(SystemExit) as ended:
-            cli.main([str(each) for each in arguments])
-        done = capsys.readouterr()
-        return ended.value.code, done.out, done.err
-
-    return command
 
 
 @pytest.fixture
@@ -46,7 +36,7 @@ def validated(text):
     return data
 
 
-def test_the_typed_lid_works(run):
+def test_the_typed_lid_works():
     code, out, err = run("judge", LID, *TYPED)
     assert (code, err) == (0, "")
     assert out.startswith("result[R330]: the linkage works within the requirements\n")
@@ -59,7 +49,7 @@ def test_the_typed_lid_works(run):
     assert linkage["position_error"]["max"] < 0.012
 
 
-def test_the_verdict_is_the_exit_code(run):
+def test_the_verdict_is_the_exit_code():
     code, out, err = run("judge", LID, *TWISTED)
     assert (code, err) == (1, "")
     assert "result[R331]: the linkage does not work within the requirements" in out
@@ -67,7 +57,7 @@ def test_the_verdict_is_the_exit_code(run):
     assert "± " not in out.partition("L1 in full")[2].partition("\n\n")[0]
 
 
-def test_how_far_pivots_move_is_told(run):
+def test_how_far_pivots_move_is_told():
     code, out, _err = run("judge", LID, *TWISTED, "--improve", "--json")
     given, *near = validated(out)["linkages"]
     assert (code, given["usable"], given["given"]) == (1, False, True)
@@ -103,7 +93,7 @@ def test_how_far_pivots_move_is_told(run):
 
 
 @pytest.mark.parametrize("improve", [(), ("--improve",)])
-def test_a_judgement_is_read_exported_and_judged_again(run, tmp_path, improve):
+def test_a_judgement_is_read_exported_and_judged_again(tmp_path, improve):
     file, again = tmp_path / "judged.json", tmp_path / "again.json"
     assert run("judge", LID, *TYPED, *improve, "-o", file)[0] == 0
     assert read_result(file).choose().id == "L1"
@@ -120,7 +110,7 @@ def test_a_judgement_is_read_exported_and_judged_again(run, tmp_path, improve):
         assert run("report", file, "-o", tmp_path / "lid.html")[0] == 0
 
 
-def test_a_judgement_that_was_changed_is_told(run, free, tmp_path):
+def test_a_judgement_that_was_changed_is_told(free, tmp_path):
     file = tmp_path / "judged.json"
     run("judge", LID, *TWISTED, "-o", file)
     data = json.loads(file.read_text())
@@ -140,7 +130,7 @@ def test_a_judgement_that_was_changed_is_told(run, free, tmp_path):
     assert "L1 is not usable: `burmester synthesize` says why" in err
 
 
-def test_limits_and_requirements_are_options_too(run, free):
+def test_limits_and_requirements_are_options_too(free):
     code, out, _err = run("judge", free, *TYPED, "--min-transmission", 50, "--length", "10:60")
     assert code == 1
     text = " ".join(out.split())
@@ -155,7 +145,7 @@ def test_limits_and_requirements_are_options_too(run, free):
 SLIDERS = ("--dyad", "line@30,1,2:3,4", "--dyad", "-1,2:line@-20,0.5,3")
 
 
-def test_sliders_are_typed_by_a_line(run, tmp_path):
+def test_sliders_are_typed_by_a_line(tmp_path):
     rng = np.random.default_rng(3)
     turn = np.radians([30, -20])
     normal = turn + np.pi / 2
@@ -212,14 +202,14 @@ def test_sliders_are_typed_by_a_line(run, tmp_path):
         ((*TYPED[:2], "--dyad", "1e70,2:3,4"), "E112"),
     ],
 )
-def test_bad_input_is_refused(run, arguments, code):
+def test_bad_input_is_refused(arguments, code):
     exit, out, err = run("judge", LID, *arguments)
     assert (exit, out) == (2, "")
     assert err.startswith(f"error[{code}]: ")
     assert "\n  help: " in err
 
 
-def test_poses_and_linkage_cannot_share_standard_input(run):
+def test_poses_and_linkage_cannot_share_standard_input():
     assert run("judge", "-", "--linkage", "-")[2].startswith("error[E153]")
 
 
@@ -240,7 +230,7 @@ def typed(rng):
     return ":".join(part() for _ in range(2 if rng.uniform() < 0.98 else 3))
 
 
-def test_no_typed_dyad_breaks_the_command(run, tmp_path):
+def test_no_typed_dyad_breaks_the_command(tmp_path):
     rng, ends = np.random.default_rng(42), []
     few = tmp_path / "few.csv"
     few.write_text(HEAD + "0,0,0\n30,-20,40\n50,-60,90\n")

@@ -180,7 +180,6 @@ def test_ctrl_c_on_a_terminal():
     assert b"Traceback" not in said
 
 
-@pytest.mark.slow
 def test_exports_that_are_stopped_leave_nothing():
     """A sample of `benchmarks/stopped.py`; the slow formats are in the campaign."""
     names = ["svg", "csv", "mjcf", "dxf", "synthesize"]

@@ -74,7 +74,6 @@ def test_closed_streams_do_not_change_the_verdict(closed):
     assert shell(f"{COMMAND} check nothing.csv {closed}").returncode == 2
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("closed", CLOSED)
 def test_a_file_never_takes_the_place_of_a_closed_stream(closed):
     """A descriptor that is free is the next file's: what is printed would be written into it."""
@@ -132,7 +131,6 @@ def test_a_slow_reader_that_does_not_wait_gets_everything():
     assert data["outcome"]["code"] == "R300"
 
 
-@pytest.mark.slow
 def test_a_name_of_any_bytes_is_read_and_written_and_shown_escaped():
     given = b"p\xff\xfe\x1b[31m\nq\r.csv"
     with open(given, "w") as file:

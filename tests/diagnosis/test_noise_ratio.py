@@ -159,7 +159,6 @@ def test_clean_poses_that_a_fixed_ratio_takes_for_wrong_ones_are_left_alone():
         assert odd_pose(made.task) is None
 
 
-@pytest.mark.slow
 def test_single_numbers_are_found_about_as_often_as_by_a_judge_who_knows_the_linkage():
     """A sample of `python -m benchmarks.odd_pose_chances`."""
     found = campaign.counted("single", 25, 1.0, 10, 2)

@@ -171,7 +171,6 @@ def shows_something(name):
     return not read.isdisjoint(block.kind for block in Document.of(ROOT / name).blocks)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", list(filter(shows_something, NAMES)))
 def test_every_block_does_what_it_shows(name, shims, folder, monkeypatch):
     wrong = troubles(Document.of(ROOT / name), shims, folder, monkeypatch)

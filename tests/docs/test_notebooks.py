@@ -51,7 +51,6 @@ def beside(tmp_path, monkeypatch):
     return tmp_path
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("page", RUN.values(), ids=RUN)
 def test_every_cell_runs(page, beside):
     pyplot = pytest.importorskip("matplotlib.pyplot")

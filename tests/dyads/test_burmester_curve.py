@@ -149,7 +149,6 @@ def assert_whole(rows, curve, rng, lines):
     assert nearest.max() < 0.6 * curve.spacing
 
 
-@pytest.mark.slow
 def test_every_sample_of_two_hundred_tasks_meets_the_four_poses():
     rng = np.random.default_rng(0)
     for _ in samples(200, 60):

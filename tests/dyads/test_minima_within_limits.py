@@ -40,8 +40,6 @@ from tests.oracles.limits_problems import (
 from tests.oracles.witness import misses, random_four_bar, random_poses, span
 from tests.samples import samples
 
-pytestmark = pytest.mark.slow
-
 # --- the witness: regions as pieces, distances, and many starts
 
 

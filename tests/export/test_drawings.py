@@ -188,7 +188,6 @@ def test_a_wrong_number_in_an_svg_is_told(tmp_path):
         svg.check(chosen, path, Options())
 
 
-@pytest.mark.slow
 def test_random_linkages_are_drawn():
     """A sample of `benchmarks/drawings.py`."""
     found = campaign.campaign(4, 7)

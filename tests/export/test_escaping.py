@@ -224,7 +224,6 @@ TAKEN = {
 }
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("to", TAKEN)
 def test_solids_and_pictures_take_any_name(to, tmp_path, harmless, monkeypatch):
     assert harmless(to)
@@ -239,7 +238,6 @@ def test_solids_and_pictures_take_any_name(to, tmp_path, harmless, monkeypatch):
         assert structure(to, path) == harmless(to)
 
 
-@pytest.mark.slow
 def test_a_script_runs_nothing_but_itself(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     for text in PAYLOADS.values():

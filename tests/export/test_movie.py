@@ -25,8 +25,6 @@ from tests.oracles import witness
 from tests.oracles.bodies import BODY, REGIONS, bodied, carried
 from tests.oracles.saved_linkages import PAPER, paper, saved
 
-pytestmark = pytest.mark.slow
-
 imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg", reason="films need imageio-ffmpeg")
 
 SMALL = Options(seconds=1.2, frames_per_second=20, width_px=321)

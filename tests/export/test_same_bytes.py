@@ -4,8 +4,6 @@ import os
 import subprocess
 import sys
 
-import pytest
-
 from burmester.export import FORMATS
 
 WRITE = """
@@ -35,7 +33,6 @@ def written(folder, later, zone, seed):
     return {each.name: each.read_bytes() for each in folder.iterdir()}
 
 
-@pytest.mark.slow
 def test_every_format_has_the_same_bytes_whenever_it_is_written(tmp_path):
     first = written(tmp_path / "first", 0, "UTC", 1)
     assert len(first) == len(FORMATS)

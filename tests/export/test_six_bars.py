@@ -333,7 +333,6 @@ def test_what_six_bars_cannot_be(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.slow
 def test_every_format_of_six_bars_is_read_back(tmp_path):
     pytest.importorskip("build123d")
     small = Options(seconds=0.3, width_px=200)

@@ -8,6 +8,8 @@ import math
 import struct
 from collections import Counter
 from dataclasses import replace
+from importlib import import_module
+from importlib.util import find_spec
 from itertools import combinations
 from types import SimpleNamespace
 
@@ -25,7 +27,17 @@ from tests.oracles import witness
 from tests.oracles.handed_over import found
 from tests.oracles.saved_linkages import PAPER, paper, saved
 
-cad = pytest.importorskip("build123d", reason="solids need build123d", exc_type=ImportError)
+pytestmark = pytest.mark.skipif(find_spec("build123d") is None, reason="solids need build123d")
+
+
+class _Cad:
+    """build123d, which takes seconds to import, for who uses it."""
+
+    def __getattr__(self, name):
+        return getattr(import_module("build123d"), name)
+
+
+cad = _Cad()
 
 POSE = 4
 HOLE, WIDTH, THICK, GAP = 6.0, 14.0, 5.0, 1.0

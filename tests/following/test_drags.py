@@ -8,8 +8,6 @@ from burmester import follow, synthesize
 from burmester.fourbar.dyad import RR
 from burmester.synthesis.dyad_search import search_dyads
 
-pytestmark = pytest.mark.slow
-
 
 @pytest.mark.parametrize("sort", ["five", "ten"])
 def test_the_whole_road_confirms_drags(sort, monkeypatch):

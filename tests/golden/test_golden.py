@@ -14,7 +14,6 @@ from tests.golden.fingerprint import difference, of_text
 from tests.golden.record import kept
 
 KNOWN = kept()
-pytestmark = pytest.mark.slow
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -71,10 +71,9 @@ def test_a_page_says_what_why_an_example_and_what_to_do(code):
     assert set(CODE.findall(each.text)) <= set(pages())
 
 
-@pytest.mark.parametrize("width", [60, 80, 200])
 @pytest.mark.parametrize("code", pages())
-def test_a_page_fits_and_says_all_of_it(code, width):
-    each = page(code)
+def test_a_page_fits_and_says_all_of_it(code):
+    each, width = page(code), 60
     text = shown(lambda console: show_page(each, console), width)
     assert text.startswith(f"{code}  ")
     for line in text.splitlines():
@@ -89,16 +88,12 @@ def test_a_page_fits_and_says_all_of_it(code, width):
     assert "```" not in text
 
 
-@pytest.mark.parametrize("width", [60, 80, 200])
-def test_two_pages_as_they_look(width, snapshot):
-    texts = [
-        shown(lambda console, code=code: show_page(page(code), console), width)
-        for code in ("E103", "W210")
-    ]
-    assert f"{'-' * width}\n".join(texts) == snapshot
+@pytest.mark.parametrize("code", ["E103", "W210"])
+def test_a_page_as_it_looks(code, snapshot):
+    assert shown(lambda console: show_page(page(code), console), 60) == snapshot
 
 
-@pytest.mark.parametrize("width", [40, 60, 80, 200])
+@pytest.mark.parametrize("width", [40, 200])
 def test_the_list_has_every_code_once_under_its_family(width):
     text = shown(show_all, width)
     assert re.findall(r"(?m)^  ([EWR][0-9]{3})  ", text) == list(pages())

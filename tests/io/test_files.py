@@ -327,7 +327,7 @@ def test_a_kill_at_every_step(here, force):
 @posix
 def test_kills_at_random_moments(here):
     """Seeded, but where they hit is the scheduler's."""
-    kills = len(samples(200, 80))
+    kills = len(samples(200, 40))
     found = campaign(kills, 20261121, here)
     assert found["broken"] == 0
     assert min(found[each] for each in ("0", "1", "absent")) > 0

@@ -24,6 +24,7 @@ from tests.oracles import fuzzed_files, plain_reader
 from tests.oracles.file_verdicts import check_refusal, judged
 from tests.oracles.fuzzed_files import File
 from tests.oracles.plain_reader import Plain
+from tests.samples import share
 
 LANGUAGES = ("csv", "json", "toml", "parquet")
 SEEDS = st.randoms(use_true_random=False)
@@ -95,7 +96,7 @@ def test_every_double_is_read_back(path, rows, language, rng):
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
-@settings(max_examples=60)
+@settings(max_examples=share(60))
 @given(rng=SEEDS, at=st.integers(0, 3000), cut=st.integers(0, 40), new=st.binary(max_size=12))
 def test_other_bytes_in_a_file_do_no_harm(language, path, *, rng, at, cut, new):
     file = fuzzed_files.sound_file(language, rng)
@@ -120,7 +121,7 @@ PIECES = [
 PIECES += ["x,y,angle_deg\n", "poses", "[[poses]]\n", '"poses"', "1", "-2.5", "sep=;\n", "[1,2,3],"]
 
 
-@settings(max_examples=200)
+@settings(max_examples=share(200))
 @given(
     st.lists(st.sampled_from(PIECES), max_size=30), st.sampled_from([".csv", ".json", ".toml", ""])
 )
@@ -217,7 +218,7 @@ TEXTS = st.one_of(
 )
 
 
-@settings(max_examples=200)
+@settings(max_examples=share(200))
 @given(TEXTS)
 def test_texts_of_options_are_taken_or_refused(text):
     """Every option of `synthesize` with a text of its own."""

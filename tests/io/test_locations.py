@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from burmester.io.reading.trees.locations import span_of
+from tests.samples import share
 
 # Trees, and one of the ways to write each ------------------------------------------------------
 
@@ -244,7 +245,7 @@ def same_value(piece, value):
 
 
 @given(tree=TREES, data=st.data())
-@settings(max_examples=120, deadline=None)
+@settings(max_examples=share(120), deadline=None)
 def test_every_value_of_a_json_text_is_found(tree, data):
     text = JsonWriter(data.draw).value(tree)
     assert same(json.loads(text), tree)
@@ -252,7 +253,7 @@ def test_every_value_of_a_json_text_is_found(tree, data):
 
 
 @given(tree=TABLES, data=st.data())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=share(150), deadline=None)
 def test_every_value_of_a_toml_text_is_found(tree, data):
     text = TomlWriter(data.draw).document(tree)
     assert same(tomllib.loads(text), tree)

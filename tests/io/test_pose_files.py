@@ -26,6 +26,7 @@ from burmester.io import cases
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.tables import csv_poses
 from burmester.tasks.motion_task import Task
+from tests.samples import share
 
 Read = Callable[..., Task]
 
@@ -783,7 +784,7 @@ WRITERS: dict[str, tuple[str, Callable[[list[tuple[float, float, float]]], str]]
 
 @pytest.mark.parametrize(("suffix", "write"), WRITERS.values(), ids=WRITERS)
 @given(rows=tables)
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=share(60), deadline=None)
 def test_every_float_comes_back_bit_by_bit(
     read: Read, suffix: str, write: Any, rows: list[tuple[float, float, float]]
 ) -> None:
@@ -852,7 +853,7 @@ ALPHABET = st.sampled_from("xy,;\t\n\r\"'#0123456789.eE+-_ anglerdtinf{}[]:=\\\x
 
 
 @given(content=st.binary(max_size=200) | st.text(max_size=200).map(str.encode), suffix=SUFFIXES)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=share(300), deadline=None)
 def test_random_bytes_give_a_task_or_an_input_error(
     read: Read, content: bytes, suffix: str
 ) -> None:
@@ -860,7 +861,7 @@ def test_random_bytes_give_a_task_or_an_input_error(
 
 
 @given(data=st.data(), base=st.sampled_from([(s, t) for s, t in GOOD.values()]))
-@settings(max_examples=600, deadline=None)
+@settings(max_examples=share(600), deadline=None)
 def test_a_good_file_with_a_wound_gives_a_task_or_an_input_error(
     read: Read, data: st.DataObject, base: tuple[str, str | bytes]
 ) -> None:
@@ -886,7 +887,7 @@ trees = st.recursive(
 
 
 @given(tree=trees)
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=share(300), deadline=None)
 def test_any_json_gives_a_task_or_an_input_error(read: Read, tree: Any) -> None:
     task_or_input_error(read, json.dumps(tree).encode(), ".json")
     task_or_input_error(read, json.dumps({"poses": [tree] * 3}).encode(), ".json")

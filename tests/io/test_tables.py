@@ -30,6 +30,7 @@ from burmester.io.reading.tables import csv_poses
 from burmester.io.reading.tables.column_words import UNITS, WORDS
 from burmester.tasks.motion_task import Task
 from tests.oracles.refusals import outcome, refusal
+from tests.samples import share
 
 Read = Callable[..., Task]
 
@@ -302,7 +303,7 @@ SPACES = [" ", "\u00a0", "\u202f", "\u2009", "'", "’"]
     minus=st.sampled_from(["-", "\u2212", "\u2013"]),
     quote=st.sampled_from(["", '"']),
 )
-@settings(max_examples=400, deadline=None)
+@settings(max_examples=share(400), deadline=None)
 def test_a_number_is_read_as_it_was_meant_or_refused(  # noqa: PLR0917
     read: Read, number: Decimal, marks: tuple[str, str], separator: str, minus: str, quote: str
 ) -> None:
@@ -508,7 +509,7 @@ LONG += [f"{k}.5,{k * k},{7 * k},{k + 1},n{k},{'x' if k in (2, 5) else ''}" for 
 
 
 @given(left=st.sets(st.integers(0, 8), max_size=6), by_name=st.booleans(), apart=st.booleans())
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=share(60), deadline=None)
 def test_leaving_a_pose_out_is_deleting_its_line(
     read: Read, left: set[int], by_name: bool, apart: bool
 ) -> None:
@@ -671,7 +672,7 @@ doubles = st.lists(st.tuples(lengths, lengths, st.floats(-1e9, 1e9)), min_size=3
 
 
 @given(rows=doubles, group=st.integers(1, 9))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=share(60), deadline=None)
 def test_every_double_comes_back_bit_by_bit(
     read: Read, rows: list[tuple[float, float, float]], group: int
 ) -> None:

@@ -18,8 +18,6 @@ from burmester.verdicts.uncertainty import covariance, pose_sigma, uncertainties
 from tests.oracles.witness import misses, random_four_bar, random_poses, span
 from tests.samples import samples
 
-pytestmark = pytest.mark.slow
-
 FREE = Requirements(any_order=True)
 
 

@@ -29,8 +29,6 @@ from tests.oracles.common_tasks import TRANSMISSION, common_task
 from tests.oracles.hard_tasks import comes_by
 from tests.samples import samples, some_of
 
-pytestmark = pytest.mark.slow
-
 
 @pytest.mark.parametrize("seed", some_of([11, 23, 30, 50], 2))
 def test_an_independent_search_is_not_nearer(seed, monkeypatch):

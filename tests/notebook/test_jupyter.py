@@ -1,14 +1,17 @@
 """The widget in JupyterLab, in a real browser, under real pointer and key events."""
 
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
 
 from burmester.io import templates
-from tests.oracles import browser, jupyter
+from tests.oracles import browser as browsers
+from tests.oracles import jupyter
 
-pytest.importorskip("jupyterlab", reason="no JupyterLab for this machine")
-pytestmark = pytest.mark.slow
+pytestmark = pytest.mark.skipif(
+    find_spec("jupyterlab") is None, reason="no JupyterLab for this machine"
+)
 
 CODE = """import burmester
 from burmester.notebook import Studio
@@ -21,12 +24,9 @@ LID = Path(templates.__file__).parents[1] / "templates" / "chest-lid.toml"
 
 
 @pytest.fixture(scope="module")
-def lab(tmp_path_factory):
+def lab(browser, tmp_path_factory):
     folder = tmp_path_factory.mktemp("lab")
-    with (
-        browser.launched() as chromium,
-        jupyter.notebook(chromium, folder, CODE, before=jupyter.CLOCK) as notebook,
-    ):
+    with jupyter.notebook(browser, folder, CODE, before=jupyter.CLOCK) as notebook:
         notebook.page.wait_for_selector(".bn [data-linkage=L3]")
         yield notebook
 
@@ -114,13 +114,13 @@ def test_a_limit_that_is_dragged_is_the_tasks_in_python(lab):
     def lower_edge():
         """Its middle in the window, below pivots and links, and pixels per unit."""
         plane = lab.page.locator(".bn .bs-scene")
-        corner = browser.at_rest(plane)
+        corner = browsers.at_rest(plane)
         scale, left, top = (float(plane.get_attribute(f"data-{key}")) for key in VIEW)
         x = corner["x"] + left + scale * (low + high) / 2
         return x, corner["y"] + top - scale * down, scale
 
-    x, y, scale = browser.settled(lab.page, lower_edge)
-    browser.press(lab.page, lab.page.locator(limit), x, y)
+    x, y, scale = browsers.settled(lab.page, lower_edge)
+    browsers.press(lab.page, lab.page.locator(limit), x, y)
     for step in range(1, 9):
         lab.page.mouse.move(x + step, y + step / 2)
     lab.page.mouse.up()

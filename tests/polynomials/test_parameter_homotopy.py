@@ -24,8 +24,6 @@ from tests.oracles.bilinear_systems import (
 )
 from tests.samples import some_of
 
-pytestmark = pytest.mark.slow
-
 
 def followed(shape, p):
     """All solutions (k, size) of a system; where one is lost on the way, another way."""

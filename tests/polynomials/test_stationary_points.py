@@ -59,7 +59,6 @@ def require_the_points_of_paths(shape, p, found):
         assert (gap < 1e-6 * (1 + np.abs(points).max(axis=1, initial=0))).all()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("shape", some_of(SHAPES, 16), ids=lambda shape: shape.name)
 def test_the_points_are_those_that_paths_find(shape):
     rng = np.random.default_rng(7)
@@ -147,7 +146,6 @@ def test_a_soft_length_on_a_line_is_a_cubic(name):
         assert (found.minimum[at] == (total.deriv(2)(roots) > 0)).all()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("shape", some_of(SHAPES, 16), ids=lambda shape: shape.name)
 def test_minima_are_those_of_the_lagrangian_where_the_conditions_hold(shape):
     rng, n = np.random.default_rng(6), shape.unknowns

@@ -140,7 +140,6 @@ def test_without_a_compiler_the_kernels_say_what_is_needed(compiler):
     assert "Traceback" not in ran.stderr
 
 
-@pytest.mark.slow
 def test_what_a_release_is_tried_with_passes_here():
     """It reads answers as they are printed now."""
     command = [sys.executable, ROOT / "scripts" / "smoke.py"]

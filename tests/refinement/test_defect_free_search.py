@@ -35,8 +35,6 @@ from tests.oracles.hard_tasks import (
 from tests.oracles.witness import places
 from tests.samples import some_of
 
-pytestmark = pytest.mark.slow
-
 # Tasks ----------------------------------------------------------------------------------------
 
 

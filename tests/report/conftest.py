@@ -1,4 +1,4 @@
-"""Pages of several tasks, each made once, and a browser to open them in."""
+"""Pages of several tasks, each made once."""
 
 from functools import cache
 
@@ -6,7 +6,6 @@ import pytest
 
 from burmester import synthesize
 from burmester.report.page import page as page_of
-from tests.oracles import browser as browsers
 from tests.report.tasks import TASKS
 
 
@@ -23,9 +22,3 @@ def report(tmp_path_factory):
         return result, path
 
     return made
-
-
-@pytest.fixture(scope="module")
-def browser():
-    with browsers.launched() as found:
-        yield found

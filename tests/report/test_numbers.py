@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from burmester.wording import figure
-from tests.oracles import browser as browsers
 
 # Two digits, at both ends of each way to write a number, and carried over by rounding.
 EDGES = [
@@ -29,18 +28,18 @@ EDGES = [
 
 
 @pytest.fixture(scope="module")
-def run():
+def run(browser):
     """Calls of functions of numbers.mjs, which imports nothing."""
     module = (resources.files("burmester.web") / "widget" / "numbers.mjs").read_bytes()
     address = f"data:text/javascript;base64,{base64.b64encode(module).decode()}"
-    with browsers.launched() as browser:
-        page = browser.new_page()
-        yield lambda name, calls: page.evaluate(
-            "async ([address, name, calls]) => {"
-            " const module = await import(address);"
-            " return calls.map((each) => module[name](...each)); }",
-            [address, name, calls],
-        )
+    page = browser.new_page()
+    yield lambda name, calls: page.evaluate(
+        "async ([address, name, calls]) => {"
+        " const module = await import(address);"
+        " return calls.map((each) => module[name](...each)); }",
+        [address, name, calls],
+    )
+    page.close()
 
 
 def test_figures_are_those_of_the_terminal(run):

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import burmester
-from burmester import Polygon, Requirements, cli
+from burmester import Polygon, Requirements
 from burmester.errors import InputError
+from tests.command import run
 from tests.oracles import browser as browsers
 from tests.oracles.six_bars import LIST, dimensions, driven
 from tests.report.drawn_six_bars import DRAWN, SCRUB, points
@@ -202,14 +203,7 @@ def test_the_drawing_in_a_notebook_has_the_joints_of_the_middle_pose(result):
     assert text[: text.index("<svg")].count("<tr>") == 1 + len(result)
 
 
-def run(capsys, *words):
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(word) for word in words])
-    done = capsys.readouterr()
-    return end.value.code, done.out, done.err
-
-
-def test_the_command_writes_the_page_or_says_why_not(tmp_path, capsys):
+def test_the_command_writes_the_page_or_says_why_not(tmp_path):
     def table(name, rows):
         path = tmp_path / name
         path.write_text("x,y,angle_deg\n" + "".join(f"{x},{y},{a}\n" for x, y, a in rows))
@@ -218,7 +212,6 @@ def test_the_command_writes_the_page_or_says_why_not(tmp_path, capsys):
     file, easy = tmp_path / "page.html", table("easy.csv", TURNING)
     hard = table("hard.csv", [(0, 0, 0), (4, 9, 70), (9, 2, 95), (1, 6, 20), (7, 7, 150)])
     code, out, _ = run(
-        capsys,
         "report",
         easy,
         "--six-bars",
@@ -232,18 +225,16 @@ def test_the_command_writes_the_page_or_says_why_not(tmp_path, capsys):
     assert code == 0
     assert out.startswith("S1 is a Watt I six-bar, driven at ")
     assert '"six_bars":[{"id":"S1"' in file.read_text()
-    code, out, _ = run(capsys, "report", hard, "-o", tmp_path / "four.html")
+    code, out, _ = run("report", hard, "-o", tmp_path / "four.html")
     assert code == 1
     assert "What helps: " in out
     assert "--six-bars" in out
     assert "--six-bars" in (tmp_path / "four.html").read_text()
-    code, out, _ = run(
-        capsys, "report", hard, "--six-bars", "--chains", 5, "-o", tmp_path / "none.html"
-    )
+    code, out, _ = run("report", hard, "--six-bars", "--chains", 5, "-o", tmp_path / "none.html")
     assert code == 1
     assert out.startswith("no six-bar that works: none of ")
     for words in (["--chains", 5], ["--six-bars", "--certify"]):
-        code, _, err = run(capsys, "report", easy, *words, "-o", tmp_path / "never.html")
+        code, _, err = run("report", easy, *words, "-o", tmp_path / "never.html")
         assert code == 2
         assert "E197" in err
     assert not (tmp_path / "never.html").exists()

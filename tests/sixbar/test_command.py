@@ -8,8 +8,8 @@ import pytest
 from PIL import Image
 
 import burmester
-from burmester import cli
 from burmester.errors import InputError
+from tests.command import run
 from tests.oracles.six_bars import LIST, dimensions, driven
 from tests.sixbar.tasks import TURNING
 
@@ -35,16 +35,9 @@ def result():
     )
 
 
-def run(capsys, *words):
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(word) for word in words])
-    done = capsys.readouterr()
-    return end.value.code, done.out, done.err
-
-
-def test_command_and_python_give_the_same_six_bars(folder, result, capsys):
+def test_command_and_python_give_the_same_six_bars(folder, result):
     code, out, _ = run(
-        capsys, "synthesize", folder / "task.csv", "--six-bars", *WATT, "--chains", 1000, "--json"
+        "synthesize", folder / "task.csv", "--six-bars", *WATT, "--chains", 1000, "--json"
     )
     data = json.loads(out)
     assert code == 0
@@ -53,7 +46,7 @@ def test_command_and_python_give_the_same_six_bars(folder, result, capsys):
         assert mine.id == theirs["id"]
         assert mine.lengths == theirs["lengths"]
     assert data["linkages"] == []
-    text = run(capsys, "synthesize", folder / "task.csv", "--six-bars", *WATT, "--chains", 1000)[1]
+    text = run("synthesize", folder / "task.csv", "--six-bars", *WATT, "--chains", 1000)[1]
     assert text.startswith("S1 is a Watt I six-bar, driven at ")
     for bar in ("AC", "GH"):
         assert f"{found[0]['lengths'][bar]:.7g}" in text
@@ -61,19 +54,19 @@ def test_command_and_python_give_the_same_six_bars(folder, result, capsys):
         assert f"{number:.7g}" in text
 
 
-def test_none_is_an_answer_with_exit_code_1(folder, capsys):
+def test_none_is_an_answer_with_exit_code_1(folder):
     words = "synthesize", folder / "task.csv", "--six-bars", "--chains", 5
-    code, out, _ = run(capsys, *words, "--min-transmission", 85)
+    code, out, _ = run(*words, "--min-transmission", 85)
     assert code == 1
     assert out.startswith("result[R371]: no six-bar that works")
 
 
-def test_the_files_of_a_six_bar(folder, result, capsys):
+def test_the_files_of_a_six_bar(folder, result):
     saved = result.save(folder / "result.json")
     best = result.best
     for name in ("motion.csv", "bar.json", "bar.svg", "bar.gif"):
         words = ["--seconds", "0.3", "--pixels", "200"] if name.endswith("gif") else []
-        code, out, _ = run(capsys, "export", saved, "-o", folder / name, *words)
+        code, out, _ = run("export", saved, "-o", folder / name, *words)
         assert code == 0
         assert "S1, Watt I six-bar; read back and verified" in out
     with open(folder / "motion.csv", newline="") as file:
@@ -119,11 +112,11 @@ def test_what_a_result_in_python_holds(result):
     assert np.linalg.norm(joints["G"] - joints["H"], axis=1) == pytest.approx(best.lengths["GH"])
 
 
-def test_a_task_that_no_four_bar_does_offers_six_bars(folder, capsys):
+def test_a_task_that_no_four_bar_does_offers_six_bars(folder):
     (folder / "hard.csv").write_text(
         table([(0, 0, 0), (4, 9, 70), (9, 2, 95), (1, 6, 20), (7, 7, 150)])
     )
-    code, out, _ = run(capsys, "synthesize", folder / "hard.csv")
+    code, out, _ = run("synthesize", folder / "hard.csv")
     assert code == 1
     assert "--six-bars" in out
-    assert "--six-bars" not in run(capsys, "synthesize", folder / "hard.csv", "--kinds", "PR")[1]
+    assert "--six-bars" not in run("synthesize", folder / "hard.csv", "--kinds", "PR")[1]

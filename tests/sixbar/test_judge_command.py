@@ -10,12 +10,12 @@ import numpy as np
 import pytest
 
 import burmester
-from burmester import cli
 from burmester.errors import InputError
 from burmester.io.linkage_file import read_linkage
 from burmester.io.saved import read_result
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.watt import WattLinkage
+from tests.command import run
 from tests.oracles.six_bars import dimensions
 from tests.sixbar.tasks import TURNING, task
 
@@ -92,20 +92,13 @@ def typed(linkage, **changed):
     return TYPED.format(**{**values, **changed})
 
 
-def run(capsys, *words):
-    with pytest.raises(SystemExit) as end:
-        cli.main([str(word) for word in words])
-    done = capsys.readouterr()
-    return end.value.code, done.out, done.err
-
-
 @pytest.mark.parametrize(
     ("file", "id"), [("found.json", "S2"), ("exported.json", None), ("found.json", None)]
 )
-def test_results_and_exports_are_judged_at_their_own_poses(folder, capsys, file, id):
+def test_results_and_exports_are_judged_at_their_own_poses(folder, file, id):
     chosen = ["--id", id] if id else []
     words = ["judge", folder / "task.csv", "--linkage", folder / file, *chosen]
-    code, out, _ = run(capsys, *words, "--json")
+    code, out, _ = run(*words, "--json")
     data = json.loads(out)
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
     own = made()[1 if id or file == "exported.json" else 0]
@@ -117,9 +110,9 @@ def test_results_and_exports_are_judged_at_their_own_poses(folder, capsys, file,
     assert told["position_error"]["max"] < 1e-9
 
 
-def test_a_file_that_a_person_types(folder, capsys):
+def test_a_file_that_a_person_types(folder):
     words = "judge", folder / "task.csv", "--linkage", folder / "typed.toml"
-    code, out, _ = run(capsys, *words)
+    code, out, _ = run(*words)
     assert code == 0
     assert out.startswith("result[R330]: the linkage works\n")
     assert "At the poses" in out
@@ -128,18 +121,18 @@ def test_a_file_that_a_person_types(folder, capsys):
     for name in ("coupler_joint", "crank_joint"):  # not their mirror images
         wanted = getattr(made().best.linkage, name)
         assert getattr(linkage, name) == pytest.approx(wanted, abs=1e-3)
-    code, out, _ = run(capsys, *words, "--min-transmission", 80)
+    code, out, _ = run(*words, "--min-transmission", 80)
     assert code == 1
     assert out.startswith("result[R331]: the linkage does not work within the requirements")
     assert "with --min-transmission" in out
-    assert run(capsys, *words, "--within", 1e-5)[0] == 1
+    assert run(*words, "--within", 1e-5)[0] == 1
 
 
 @pytest.mark.parametrize("poses", ["task.csv", "swapped.csv"])
-def test_what_is_saved_is_read_again(folder, capsys, poses):
+def test_what_is_saved_is_read_again(folder, poses):
     saved = folder / f"{poses}.json"
     words = "judge", folder / poses, "--linkage", folder / "typed.toml", "-o", saved
-    code, _, _ = run(capsys, *words)
+    code, _, _ = run(*words)
     assert code == (poses == "swapped.csv")
     result = read_result(saved)
     assert result.synthesis.outcome.code == ("R331" if code else "R330")
@@ -150,7 +143,7 @@ def test_what_is_saved_is_read_again(folder, capsys, poses):
     assert chosen.usable is judged.best.usable is not bool(code)
     assert chosen.drive == pytest.approx(judged.best.drive, abs=1e-7)
     for name in ("csv", "json"):
-        done = run(capsys, "export", saved, "-o", f"{saved}.{name}")
+        done = run("export", saved, "-o", f"{saved}.{name}")
         assert done[0] == 0
         assert ("not usable: `burmester judge`" in done[2]) == bool(code)
     again = json.loads((folder / f"{poses}.json.json").read_text())
@@ -201,14 +194,14 @@ def test_what_a_file_of_a_six_bar_lacks(tmp_path, folder):
         read_linkage(folder / "typed.toml", unit="m")
 
 
-def test_options_of_four_bars_are_refused(folder, capsys):
+def test_options_of_four_bars_are_refused(folder):
     words = "judge", folder / "task.csv", "--linkage", folder / "typed.toml"
     for option in (["--improve"], ["--norm", "worst"], ["--tolerance", "0.1"]):
-        code, _, err = run(capsys, *words, *option)
+        code, _, err = run(*words, *option)
         assert code == 2
         assert "error[E197]" in err
         assert option[0] in err
-    code, _, err = run(capsys, *words, "--type", "crank-rocker")
+    code, _, err = run(*words, "--type", "crank-rocker")
     assert (code, "error[E196]" in err) == (2, True)
     with pytest.raises(InputError) as refused:
         burmester.judge(task(TURNING), made().best, improve=True)

@@ -11,7 +11,7 @@ from burmester.mechanisms.branches import branches_of
 from burmester.mechanisms.circuits import circuits_of
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.sixbar.watt import WattLinkage
-from burmester.synthesis.six_bar_judgement import judge_six_bar
+from burmester.synthesis.six_bar_judgement import judge_six_bar, judged_at_poses
 from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import SynthesisOptions
@@ -21,6 +21,7 @@ from tests.oracles.six_bar_places import in_order, nearest, places, runs
 from tests.sixbar.tasks import BENT, REACH, TURNING, task
 
 RADIAN = 2.0
+DRIVERS = ["first", "second"]
 OPTIONS = SynthesisOptions(length_per_radian=RADIAN)
 
 
@@ -67,6 +68,21 @@ def test_at_its_own_poses_it_is_what_the_search_said(six_bars, which):
         assert found.transmission == pytest.approx(made.transmission, abs=1e-8)
         assert found.extent == pytest.approx(made.extent, rel=1e-8)
         assert found.shortcomings == made.shortcomings
+
+
+def test_of_two_drivers_with_which_it_works_the_better_one_is_told(six_bars):
+    """Three of the poses are met by more of the branches than all five are."""
+    seen = 0
+    for rows, some in zip((REACH, TURNING), six_bars, strict=True):
+        for made in some:
+            answer = judge_six_bar(task(rows[1:4]), made.linkage, OPTIONS)
+            both = [judged_at_poses(made.linkage, answer.problem, each) for each in DRIVERS]
+            if [each.driver for each in both if each.usable] == DRIVERS:
+                transmission = [each.transmission for each in both]
+                seen += abs(np.subtract(*transmission)) > 0.05
+                (found,) = answer.six_bars.found
+                assert found.transmission == pytest.approx(max(transmission))
+    assert seen >= 2
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -7,8 +7,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from tests.oracles import strange_requests as strange
+from tests.samples import share
 
-house = settings(max_examples=150, suppress_health_check=list(HealthCheck))
+house = settings(max_examples=share(150), suppress_health_check=list(HealthCheck))
 
 
 @house
@@ -17,7 +18,7 @@ def test_no_request_breaks_the_server_or_gets_what_it_must_not(visitor, request)
     assert strange.fault(request, *strange.sent(visitor, request)) is None
 
 
-@settings(house, max_examples=30)
+@settings(house, max_examples=share(30))
 @given(said=st.lists(strange.messages(), min_size=1, max_size=4))
 def test_no_message_breaks_a_tab(visitor, said):
     assert strange.fault_of_messages(visitor, said) is None

@@ -397,7 +397,6 @@ def test_a_limit_that_no_dyad_meets_exactly_leaves_the_other_dyad_open():
         assert np.allclose(found.dyad.fixed_pivot, [100, -20])
 
 
-@pytest.mark.slow
 def test_no_real_dyad_is_said_and_the_nearest_is_shown():
     rng = np.random.default_rng(0)
     seen, told = set(), 0
@@ -448,7 +447,6 @@ def test_weights_that_do_not_fit_are_refused(weights):
     assert caught.value.code == "E122"
 
 
-@pytest.mark.slow
 def test_a_repeated_pose_is_exact_where_one_of_them_is_marked():
     rng = np.random.default_rng(6)
     rows = random_poses(random_four_bar(rng), rng, 8, ordered=True) + 0.01 * rng.normal(size=(8, 3))

@@ -74,7 +74,6 @@ def test_the_nearest_linkage_that_keeps_all_else_is_named_with_the_options_that_
     assert comes_by(best, np.radians(35) - 1e-6)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("number", samples(150, 4))
 def test_advice_that_names_options_keeps_what_it_promises(number):
     """A sample of `python -m benchmarks.advice`."""

@@ -3,7 +3,6 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 from benchmarks.small_turns import judged
 
 from burmester import Displacement, Task, synthesize
@@ -14,7 +13,6 @@ from tests.oracles.small_turns import any_four_bar, driven, small_turn
 from tests.samples import samples
 
 
-@pytest.mark.slow
 def test_no_dyad_is_lost_in_silence():
     """Twenty-four planted four-bars, two dyads each."""
     words, carried = [], []

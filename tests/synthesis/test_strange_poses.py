@@ -16,8 +16,6 @@ from burmester.tasks.motion_task import Task
 from tests.oracles.strange_poses import STRANGE
 from tests.samples import samples
 
-pytestmark = pytest.mark.slow
-
 
 def answer(task, method):
     try:

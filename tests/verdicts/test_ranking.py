@@ -165,7 +165,6 @@ def test_the_standard(synthesis, links, transmission, asked, short):
     assert " and ".join(each.message for each in below) == short
 
 
-@pytest.mark.slow
 def test_tasks_of_practice_recommend_what_one_would_build():
     """Hinges, lids, lifts: what comes first works, and nothing in the list is better in all."""
     trades = sound = 0

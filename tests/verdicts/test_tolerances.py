@@ -206,7 +206,6 @@ def near_dead_points(seed):
 TOLERANCE = 0.05
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("seed", samples(6, 3))
 def test_short_links_near_dead_points_err_as_those_that_are_driven(seed):
     """95 % within what is told, and none worse than the greatest one, by brute force."""
@@ -235,7 +234,6 @@ def test_first_order_is_kept_only_where_it_is_right():
     assert {(False, False), (True, True)} <= methods
 
 
-@pytest.mark.slow
 def test_what_is_told_holds_where_first_order_does_not():
     """A sample of `python -m benchmarks.tolerances`."""
     found = campaign.rows(4, 3, 300)
@@ -246,7 +244,6 @@ def test_what_is_told_holds_where_first_order_does_not():
     assert (worst[:, 1] > campaign.WORSE).any()
 
 
-@pytest.mark.slow
 def test_six_poses_of_the_readme():
     """Where the tolerance is a tenth of the links: 95 % within what is told, and lost ones told."""
     given = np.loadtxt(ROOT / "examples/poses.csv", delimiter=",", skiprows=3)[:6]

@@ -1,15 +1,8 @@
-"""A browser for the studio's page, and the page open in it."""
+"""The studio's page, open in the browser."""
 
 import pytest
 
-from tests.oracles import browser as browsers
 from tests.oracles.studio_page import as_opened, studio_page
-
-
-@pytest.fixture(scope="package")
-def browser():
-    with browsers.launched() as found:
-        yield found
 
 
 @pytest.fixture
