@@ -1,8 +1,8 @@
 """Plant known faults, one at a time, and see a test turn red: python -m tests.planted [WORD ...].
 
-`planted.toml` lists them: what is wrong, the file below src/burmester, the text that is there and
-what takes its place, and the test that has to notice.  The sources are not touched, as the tests
-run on a copy of them.  With words only those faults are planted whose file or text has one.
+`planted.toml` lists them: what is wrong, the room of src/burmester, the text that is there and what
+takes its place, and the test that has to notice.  The sources are not touched, as the tests
+run on a copy of them.  With words only those faults are planted whose room or text has one.
 """
 
 import os
@@ -19,20 +19,22 @@ PACKAGE = ROOT / "src" / "burmester"
 
 
 class Fault(NamedTuple):
-    """One fault of the list."""
+    """One fault of the list: a text that one file of a room has once, and what takes its place."""
 
     what: str
-    file: str
+    room: str
     old: str
     new: str
     test: str
 
-    def planted(self) -> str:
-        """The text of the file with the fault."""
-        text = (PACKAGE / self.file).read_text()
-        if text.count(self.old) != 1:
-            raise ValueError(f"{self.file} has {text.count(self.old)} times: {self.old}")
-        return text.replace(self.old, self.new)
+    def planted(self) -> tuple[Path, str]:
+        """The file, from the package on, and its text with the fault."""
+        texts = {file: file.read_text() for file in sorted((PACKAGE / self.room).rglob("*.py"))}
+        found = [file for file, text in texts.items() for _ in range(text.count(self.old))]
+        if len(found) != 1:
+            raise ValueError(f"{self.room} has {len(found)} times: {self.old}")
+        (file,) = found
+        return file.relative_to(PACKAGE), texts[file].replace(self.old, self.new)
 
 
 def faults() -> list[Fault]:
@@ -46,8 +48,9 @@ def run(fault: Fault) -> tuple[int, str]:
     with tempfile.TemporaryDirectory() as folder:
         package = Path(folder, "burmester")
         copytree(PACKAGE, package, copy_function=os.link)
-        (package / fault.file).unlink()
-        (package / fault.file).write_text(fault.planted())
+        file, text = fault.planted()
+        (package / file).unlink()
+        (package / file).write_text(text)
         words = ("-q", "-x", "--tb=no", "-p", "no:cacheprovider", "--color=no")
         done = subprocess.run(
             [sys.executable, "-m", "pytest", *words, *fault.test.split()],
@@ -65,11 +68,11 @@ def main() -> int:
     """Print each fault with what came of it; 1 where a test stayed green."""
     words, missed = sys.argv[1:], 0
     for fault in faults():
-        if words and not any(word in f"{fault.file} {fault.what}" for word in words):
+        if words and not any(word in f"{fault.room}/ {fault.what}" for word in words):
             continue
         code, told = run(fault)
         missed += code != 1
-        print(f"{'red ' if code == 1 else 'MISS'}  {fault.file}: {fault.what}", flush=True)
+        print(f"{'red ' if code == 1 else 'MISS'}  {fault.room}: {fault.what}", flush=True)
         if code != 1:
             print(told)
     return int(missed > 0)
