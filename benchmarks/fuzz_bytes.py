@@ -14,8 +14,8 @@ import atheris
 
 with atheris.instrument_imports(include=["burmester.io", "tomllib", "json"]):
     import burmester.io.reading.poses
-    import burmester.io.reading.tables.csv_poses
     import burmester.io.reading.tables.parquet
+    import burmester.io.reading.tables.pose_rows
     import burmester.io.reading.trees.documents
     import burmester.io.reading.trees.requirements_tree  # noqa: F401
 

@@ -10,9 +10,10 @@ object and Python callers get the same five fields.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import final
+from importlib import import_module
+from typing import Any, final
 
-__all__ = ["Advice", "BurmesterError", "InputError"]
+__all__ = ["Advice", "BurmesterError", "InputError", "library"]
 
 
 class BurmesterError(Exception):
@@ -103,3 +104,16 @@ class Advice:
     message: str
     help: str | None = None
     why: str | None = None
+
+
+def library(name: str, purpose: str, extra: str) -> Any:
+    """A library that comes with an extra; raises E130 where it cannot be imported."""
+    try:
+        return import_module(name)
+    except ImportError:
+        raise InputError(
+            "E130",
+            f"{purpose} needs {name}",
+            why="it cannot be imported",
+            help=f'pip install "burmester[{extra}]"',
+        ) from None

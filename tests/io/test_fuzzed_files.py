@@ -20,7 +20,7 @@ from burmester.errors import InputError
 from burmester.io.reading import limits_text, option_text, requirements_text
 from burmester.io.reading.pose_table import Source
 from burmester.io.reading.poses import read_task
-from tests.oracles import fuzzed_files, plain_reader
+from tests.oracles import fuzzed_files, plain_reader, recordings
 from tests.oracles.file_verdicts import check_refusal, judged
 from tests.oracles.fuzzed_files import File
 from tests.oracles.plain_reader import Plain
@@ -95,11 +95,23 @@ def test_every_double_is_read_back(path, rows, language, rng):
     assert judged(File(data, f".{language}", {}, key, "doubles"), path) == "exact"
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+def sound(language, rng):
+    if language == "recordings":
+        write = rng.choice(
+            (recordings.nexus, recordings.motive, recordings.trc, recordings.tracker)
+        )
+        text, options = write(*recordings.recording(12)), {"points": "M1,M2"}
+        return File(text.encode(), ".csv", options, None, "recording")
+    if language == "workbooks":
+        return fuzzed_files.workbook_file(rng)
+    return fuzzed_files.sound_file(language, rng)
+
+
+@pytest.mark.parametrize("language", [*LANGUAGES, "workbooks", "recordings"])
 @settings(max_examples=share(60))
 @given(rng=SEEDS, at=st.integers(0, 3000), cut=st.integers(0, 40), new=st.binary(max_size=12))
 def test_other_bytes_in_a_file_do_no_harm(language, path, *, rng, at, cut, new):
-    file = fuzzed_files.sound_file(language, rng)
+    file = sound(language, rng)
     at %= len(file.data) + 1
     data = file.data[:at] + new + file.data[at + cut :]
     judged(file._replace(data=data, key=None, maker="bytes"), path)

@@ -10,7 +10,7 @@ from burmester.errors import InputError
 from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io.reading.limits_text import limits_from_options
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.tables import csv_poses
+from burmester.io.reading.tables import pose_rows
 from burmester.tasks.limits import Limits
 from tests.oracles.marked import carets, marked
 
@@ -78,7 +78,7 @@ BOX = ("polygon", 0, 0, 4, 0, 4, 2.5, 0, 2.5)
     ["yes,no,x,", "TRUE,False,True,FALSE", "1,0,1,0", "X,,x,", " x ,, yes,no ", '"x","","1","0"'],
 )
 def test_every_way_to_mark_an_exact_pose_in_csv(read, monkeypatch, block, marks):
-    monkeypatch.setattr(csv_poses, "BLOCK", block)
+    monkeypatch.setattr(pose_rows, "BLOCK", block)
     rows = "".join(f"{i},{-i}.5,{10 * i},{mark}\n" for i, mark in enumerate(marks.split(",")))
     task = read(H + rows)
     assert task.exact.tolist() == [True, False, True, False]

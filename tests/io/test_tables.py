@@ -26,7 +26,7 @@ from burmester.errors import InputError
 from burmester.io.explain import pages
 from burmester.io.reading.pose_table import POINTS
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.tables import csv_poses
+from burmester.io.reading.tables import pose_rows
 from burmester.io.reading.tables.column_words import UNITS, WORDS
 from burmester.tasks.motion_task import Task
 from tests.oracles.refusals import outcome, refusal
@@ -652,7 +652,7 @@ def test_points_are_the_same_from_all_blocks(
     p, q, _ = moved(rng, 25, 5, (0, 3))
     text = as_points(p, q).replace(",", ";").replace(".", ",")
     whole = read(text)
-    monkeypatch.setattr(csv_poses, "BLOCK", block)
+    monkeypatch.setattr(pose_rows, "BLOCK", block)
     require_same(read(text), whole)
 
 
@@ -785,20 +785,6 @@ def test_times_that_python_cannot_hold_are_refused_where_they_matter(
         assert isinstance(result, InputError)
         assert result.code in ("E101", "E104")
         assert str(result.where).endswith(f"column {column}")
-
-
-def test_a_damaged_parquet_file_is_read_or_refused(read: Read) -> None:
-    whole = parquet({"x": [1.5, 2, 3], "y": [1, 2, 3], "angle_rad": [1, 2, 3]})
-    rng = np.random.default_rng(2)
-    for k in range(300):
-        data = bytearray(whole)
-        if k % 3:
-            for at in rng.integers(4, len(data), size=rng.integers(1, 4)):
-                data[at] = rng.integers(256)
-        else:
-            del data[rng.integers(4, len(data)) :]
-        result = outcome(functools.partial(read, bytes(data), ".parquet"))
-        assert isinstance(result, Task) or re.fullmatch(r"E1\d\d", result.code)
 
 
 def test_without_pyarrow_there_is_help(read: Read, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,7 +1,6 @@
 """Workbooks: sheets read as the same CSV would be, and nothing hostile gets through."""
 
 import io
-import random
 import re
 import sys
 import time
@@ -12,10 +11,9 @@ import numpy as np
 import openpyxl
 import pytest
 
-from burmester.errors import InputError
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.tables import workbook as reader
-from burmester.tasks.motion_task import Task
+from tests.oracles.refusals import refusal
 from tests.oracles.workbooks import (
     DATE,
     HEAD,
@@ -44,20 +42,6 @@ def read(tmp_path):
         return read_task(path, **options)
 
     return read
-
-
-def refusal(attempt):
-    with pytest.raises(InputError) as caught:
-        attempt()
-    assert caught.value.help
-    return caught.value
-
-
-def outcome(attempt):
-    try:
-        return attempt()
-    except InputError as error:
-        return error
 
 
 def require_poses(task, poses=POSES):
@@ -392,21 +376,6 @@ def test_pictures_links_and_macros_are_never_opened(read, monkeypatch):
     require_poses(read(data))
     assert "xl/worksheets/sheet1.xml" in opened
     assert not [n for n in opened if re.search("drawing|media|vba|docProps|sheet1.xml.rels", n)]
-
-
-def test_a_damaged_workbook_is_read_or_refused(read):
-    whole = workbook([HEADER, *ROWS], merged=["E1:F2"], hidden=(3,))
-    stored = packed(parts({"A": sheet_xml([HEADER, *ROWS])}), zipfile.ZIP_STORED)
-    rng = random.Random(3)
-    for k in range(300):
-        data = bytearray(rng.choice((whole, stored)))
-        if k % 3:
-            for _ in range(rng.randrange(1, 4)):
-                data[rng.randrange(4, len(data))] = rng.randrange(256)
-        else:
-            del data[rng.randrange(4, len(data)) :]
-        result = outcome(lambda data=data: read(bytes(data)))
-        assert isinstance(result, Task) or (result.code.startswith("E1") and result.help)
 
 
 def test_a_large_workbook_is_refused_with_its_size(read, monkeypatch):

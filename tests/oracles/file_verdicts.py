@@ -4,7 +4,7 @@ import re
 
 from burmester.errors import InputError
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.tables import csv_poses
+from burmester.io.reading.tables import pose_rows
 from tests.oracles import plain_reader
 
 
@@ -18,14 +18,14 @@ def judged(file, path):
     path = path.with_suffix(file.suffix)
     path.write_bytes(file.data)
     plain = plain_reader.read(file.data, file.suffix)
-    error, block = None, csv_poses.BLOCK
-    csv_poses.BLOCK = 80 if len(file.data) % 2 else block  # small ones have more than one block
+    error, block = None, pose_rows.BLOCK
+    pose_rows.BLOCK = 80 if len(file.data) % 2 else block  # small ones have more than one block
     try:
         task = read_task(path, **file.options)
     except InputError as refused:
         error = refused
     finally:
-        csv_poses.BLOCK = block
+        pose_rows.BLOCK = block
     if error:
         check_refusal(error)
         if error.code == "E112" and (meant := file.key or plain) is not None:

@@ -25,6 +25,7 @@ from burmester.batch.parts import Part, TableTasks
 from burmester.batch.task_names import TaskNames
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import MARKS, is_held, shown, unheld
+from burmester.io.reading.tables.parquet import holds_numbers
 from burmester.io.reading.trees.locations import close_match
 from burmester.printable import printable
 from burmester.wording import listed
@@ -170,7 +171,8 @@ def _required(names: list[str], label: str) -> list[str]:
     if not names:
         help = f"write `{EXAMPLE}` on line 1, and a pose on each line below"
         raise InputError("E102", "there are no tasks: the file is empty", where=label, help=help)
-    known = PAIR_COLUMNS if _of_pairs(names) else COLUMNS
+    pairs = _of_pairs(names)
+    known = PAIR_COLUMNS if pairs else COLUMNS
     for name in names:
         if name not in known:
             near = close_match(name, known)
@@ -181,10 +183,7 @@ def _required(names: list[str], label: str) -> list[str]:
         if names.count(name) > 1:
             message = f"the column {name} is given twice"
             raise InputError("E108", message, where=label, help="leave one of the two out")
-    if known is PAIR_COLUMNS:
-        return _required_pairs(names, label)
-    for angles in (("angle_deg", "angle_rad"), CRANKS):
-        if set(angles) <= set(names):
+        if name.endswith("_deg") and name.replace("_deg", "_rad") in names:
             message = "the angles are given in degrees and in radians"
             raise InputError("E108", message, where=label, help="leave one of the two columns out")
     if {"angle_deg", "angle_rad"} & set(names) and (cranks := set(CRANKS) & set(names)):
@@ -192,11 +191,13 @@ def _required(names: list[str], label: str) -> list[str]:
         why = "crank angles time points, whose angles are free"
         help = "leave one of the two columns out"
         raise InputError("E107", message, where=label, why=why, help=help)
-    lacking = [each for each in ("task", "x", "y") if each not in names]
-    if lacking:
+    unit = "rad" if {"input_rad", "output_rad"} & set(names) else "deg"
+    needed = ("task", f"input_{unit}", f"output_{unit}") if pairs else ("task", "x", "y")
+    if lacking := [each for each in needed if each not in names]:
+        row, example = ("pair of angles", PAIR_EXAMPLE) if pairs else ("pose", EXAMPLE)
+        why = f"a table of tasks has a row for each {row}, with the name of its task"
+        help = f"name the columns {example}; one task alone is for `burmester synthesize`"
         message = f"the column {lacking[0]} is missing"
-        why = "a table of tasks has a row for each pose, with the name of its task"
-        help = f"name the columns {EXAMPLE}; one task alone is for `burmester synthesize`"
         raise InputError("E105", message, where=label, why=why, help=help)
     return names
 
@@ -204,21 +205,6 @@ def _required(names: list[str], label: str) -> list[str]:
 def _of_pairs(names: list[str]) -> bool:
     """Whether a table is one of pairs of angles."""
     return not {"x", "y"} & set(names) and bool({*PAIR_COLUMNS[1:5]} & set(names))
-
-
-def _required_pairs(names: list[str], label: str) -> list[str]:
-    """The same of a table of pairs; raises E105."""
-    unit = "rad" if {"input_rad", "output_rad"} & set(names) else "deg"
-    for name in ("task", f"input_{unit}", f"output_{unit}"):
-        if name not in names:
-            message = f"the column {name} is missing"
-            why = "a table of tasks has a row for each pair of angles, with the name of its task"
-            help = f"name the columns {PAIR_EXAMPLE}; one task alone is for `burmester synthesize`"
-            raise InputError("E105", message, where=label, why=why, help=help)
-    if len(names) > 3 + ("weight" in names):
-        message = "the angles are given in degrees and in radians"
-        raise InputError("E108", message, where=label, help="leave the columns of one unit out")
-    return names
 
 
 def _columns(batch: Any, label: str) -> dict[str, Any]:
@@ -243,7 +229,7 @@ def _columns(batch: Any, label: str) -> dict[str, Any]:
             out[name] = column.cast(pa.string() if text else pa.int64())
         elif name == "exact":
             out[name] = _marks(column, label)
-        elif _holds_numbers(kind):
+        elif holds_numbers(kind):
             numbers = column.cast(pa.float64())
             out[name] = numbers.to_numpy(zero_copy_only=False)
         else:
@@ -251,18 +237,6 @@ def _columns(batch: Any, label: str) -> dict[str, Any]:
             where = f"{label}, column {name}"
             raise InputError("E104", message, where=where, help="store it as float64")
     return out
-
-
-def _holds_numbers(kind: Any) -> bool:
-    """Whether a type of Arrow is one of numbers; null: a column that holds nothing at all."""
-    from pyarrow import types  # noqa: PLC0415
-
-    return bool(
-        types.is_floating(kind)
-        or types.is_integer(kind)
-        or types.is_decimal(kind)
-        or types.is_null(kind)
-    )
 
 
 def _marks(column: Any, label: str) -> Any:

@@ -1,8 +1,8 @@
 """Tasks from files and from options: `poses` reads them, the other modules are its parts.
 
-Tables: `file_content` (bytes and text), `csv_poses` (with `csv_header`, `csv_cells`), `columns`
-(by `column_words`), `pose_table` (numbers as printed), `written_numbers`, `wrong_numbers`,
-`workbook`, `tracked_points`, `parquet`.
+Tables: `file_content` (bytes and text), `workbook` and `parquet` (as text), `grid` (cells with
+their places), `header`, `columns` (by `column_words`), `cell_numbers`, `pose_rows`, `cad_rows`,
+`pose_table` (numbers as printed), `tracked_points`.
 JSON and TOML: `documents`, `pose_tree`, `plain_poses`, `pose_model`, `locations` (in the text),
 `syntax_faults` (with `syntax_checks`, `parser_stop`).  Limits and requirements: `specification` and
 `stated_requirements`, as text (`limits_text`, `requirements_text`) and in files (`limits_tree`,

@@ -11,17 +11,6 @@ from burmester.errors import Advice, InputError
 from burmester.io import cases
 from burmester.io.reading.pose_table import HEADER, no_poses, shown
 
-__all__ = [
-    "ARCHIVE_HELP",
-    "MAX_LINES",
-    "decode_text",
-    "is_archive",
-    "is_parquet",
-    "read_source",
-    "require_moderate",
-    "too_large",
-]
-
 MAX_BYTES = 50_000_000  # of a file: some two million poses, or what is no pose file
 MAX_LINES = 1_100_000  # of a text: `check` takes 0.5 kB of memory a line, and 12 s for all
 MAX_TREE_CHARACTERS = 20_000_000  # of JSON and TOML

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Container
+from collections.abc import Callable, Container, Mapping
 from decimal import Decimal
 from typing import NamedTuple
 
@@ -19,37 +19,6 @@ from burmester.io.reading.stated_tolerances import DefaultTolerance, StatedToler
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked
 from burmester.tasks.traced_path import TracedPath
-
-__all__ = [
-    "DIRECTION",
-    "HEADER",
-    "MARKS",
-    "NOT_FINITE",
-    "NUMBER",
-    "NUMBER_LIKE",
-    "NUMERIC",
-    "POINTS",
-    "SHEET_HEAD",
-    "UNITS",
-    "CrankOptions",
-    "PoseTable",
-    "Rows",
-    "Sheet",
-    "Source",
-    "brief",
-    "cell_name",
-    "decimals",
-    "extent",
-    "held_float",
-    "is_held",
-    "no_poses",
-    "numeric_roles",
-    "plain_number",
-    "resolution_by_digits",
-    "shown",
-    "unheld",
-    "with_angles",
-]
 
 HEADER = "x,y,angle_deg"  # what a file may begin with
 UNITS = {"deg": "degrees", "rad": "radians"}
@@ -99,7 +68,9 @@ class Rows(NamedTuple):
         lengths = None
         if direction:
             # Errors of both that are alike are errors of the angle as great, whatever it is.
-            values, lengths = with_angles(values)
+            cosine, sine = values[:, 2], values[:, 3]
+            lengths, angle = np.hypot(cosine, sine), np.arctan2(sine, cosine)
+            values = np.column_stack([values[:, :2], angle, values[:, 4:]])
         exact = [MARKS[mark.lower()] for mark in columns.get("exact", [])]
         tolerances = StatedTolerances.read(columns, len(values))
         names = columns.get("name", [])
@@ -109,29 +80,25 @@ class Rows(NamedTuple):
     @classmethod
     def joined(cls, parts: list[Rows]) -> Rows:
         """The rows of all parts, one after the other."""
+
+        def together(arrays: list[FloatArray | None]) -> FloatArray | None:
+            given = [each for each in arrays if each is not None]
+            return np.concatenate(given) if given else None
+
         lengths, angles = zip(*(part.decimals for part in parts), strict=True)
-        values = np.concatenate([part.values for part in parts])
-        names = [name for part in parts for name in part.names]
-        exact = [mark for part in parts for mark in part.exact]
         tolerances = None
         if any(part.tolerances is not None for part in parts):
             tolerances = StatedTolerances.joined(
                 [part.tolerances or StatedTolerances.none(len(part.values)) for part in parts]
             )
-        most = max(lengths), max(angles)
-        directions = None
-        if parts[0].lengths is not None:
-            directions = np.concatenate([part.lengths for part in parts])
-        crank = [part.crank for part in parts if part.crank is not None]
-        return cls(
-            values,
-            most,
-            names,
-            exact,
-            parts[0].points,
-            tolerances,
-            directions,
-            np.concatenate(crank) if crank else None,
+        return parts[0]._replace(
+            values=np.concatenate([part.values for part in parts]),
+            decimals=(max(lengths), max(angles)),
+            names=[name for part in parts for name in part.names],
+            exact=[mark for part in parts for mark in part.exact],
+            tolerances=tolerances,
+            lengths=together([part.lengths for part in parts]),
+            crank=together([part.crank for part in parts]),
         )
 
     def at(self, kept: NDArray[np.intp]) -> Rows:
@@ -187,10 +154,25 @@ SHEET_HEAD = "sep=\t\n"  # how the text of a sheet begins; row 1 is behind it
 
 
 class Sheet(NamedTuple):
-    """The sheet of a workbook that was made a text, with a tab between cells."""
+    """A sheet of a workbook, or Parquet, that was made a text with a tab between cells."""
 
     name: str
     merged: dict[tuple[int, int], str]  # (row, column) from 1 -> the cell that it is merged with
+    columns: tuple[str, ...] = ()  # the names of the columns of Parquet; its row 0 are these
+    printed: Mapping[int, float] | None = None  # column -> decimals, of what Parquet stores
+
+    def place(self, row: int, column: int | None) -> str:
+        """A cell by its numbers, or a row, in words; nothing for all names of columns."""
+        if self.columns:
+            parts = [f"row {row}"] if row else []
+            if column is not None:
+                name = brief(f"column {self.columns[column - 1]}", f"column number {column}")
+                parts.append(name)
+            return ", ".join(parts)
+        if column is None:
+            return f"row {row}"
+        merged = self.merged.get((row, column))
+        return f"cell {cell_name(row, column)}" + (f", merged with {merged}" if merged else "")
 
 
 class Source(NamedTuple):
@@ -200,6 +182,11 @@ class Source(NamedTuple):
     text: str
     notes: tuple[Advice, ...] = ()  # what was assumed to get the text
     sheet: Sheet | None = None  # where the text is that of a sheet, behind SHEET_HEAD
+
+    @property
+    def names_columns(self) -> bool:
+        """Whether its columns have names that nothing can replace, as those of Parquet do."""
+        return bool(self.sheet and self.sheet.columns)
 
     @property
     def line_word(self) -> str:
@@ -215,7 +202,12 @@ class Source(NamedTuple):
         number, column = self.line_number(start), position - start
         place = f"{self.label}:{number}:{column + 1}"
         if self.sheet:
-            place = f"{self.label}: {self._cell(start, position, width)}"
+            whole = "\t" in self.text[position : position + width]
+            cell = None if whole else self.text.count("\t", start, position) + 1
+            named = self.sheet.place(number - self.names_columns, cell)
+            place = f"{self.label}: {named}" if named else self.label
+            if self.names_columns:
+                return place
         start += max(0, column - 60)  # a whole JSON file may be one line
         line = self.text[start : start + 100].partition("\n")[0]
         line = blanked(line)
@@ -224,15 +216,6 @@ class Source(NamedTuple):
         return (
             f"{place}\n{number:>{gutter}} | {line}\n{'':>{gutter}} | {'':>{blanks}}{carets} {note}"
         ).rstrip()
-
-    def _cell(self, start: int, position: int, width: int) -> str:
-        """The cell or the row at a position in the text of a sheet; its line begins at `start`."""
-        sheet, row = self.sheet, self.line_number(start)
-        if sheet is None or "\t" in self.text[position : position + width]:
-            return f"row {row}"
-        column = self.text.count("\t", start, position) + 1
-        merged = sheet.merged.get((row, column))
-        return f"cell {cell_name(row, column)}" + (f", merged with {merged}" if merged else "")
 
 
 def cell_name(row: int, column: int) -> str:
@@ -248,13 +231,6 @@ def numeric_roles(columns: Container[str]) -> list[str]:
     """The roles of numbers among the columns, in the order in which `Rows.values` has them."""
     order = (*NUMERIC[:3], *DIRECTION, *POINTS, NUMERIC[3])
     return [role for role in order if role in columns]
-
-
-def with_angles(values: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Rows with the angle in place of its cosine and sine, columns 2 and 3, and their lengths."""
-    cosine, sine = values[:, 2], values[:, 3]
-    angle = np.arctan2(sine, cosine)
-    return np.column_stack([values[:, :2], angle, values[:, 4:]]), np.hypot(cosine, sine)
 
 
 def plain_number(cell: str, separator: str) -> tuple[str, str | None]:

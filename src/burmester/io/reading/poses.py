@@ -28,27 +28,19 @@ E193 the task of a function generator, not of poses
 
 from __future__ import annotations
 
-import functools
 import math
 import os
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import PurePath
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.io.reading.conventions import convention_names, in_convention, with_stated_unit
-from burmester.io.reading.file_content import (
-    decode_text,
-    is_archive,
-    is_parquet,
-    read_source,
-    require_moderate,
-)
+from burmester.io.reading.file_content import read_source, require_moderate
 from burmester.io.reading.markers.tracked_points import TrackedRows, tracked_poses
 from burmester.io.reading.outline_options import OutlineOptions
 from burmester.io.reading.pose_table import (
@@ -67,6 +59,7 @@ from burmester.io.reading.stated_tolerances import (
     combined_tolerances,
     with_nominal_values,
 )
+from burmester.io.reading.tables.text_source import label_of, text_source
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable
 from burmester.tasks.crank_timing import CrankTiming
@@ -75,8 +68,6 @@ from burmester.tasks.traced_path import TracedPath
 
 if TYPE_CHECKING:  # a reader is loaded with the first file that needs it
     from burmester.io.reading.markers.marker_recording import MarkerRecording
-
-__all__ = ["read_task"]
 
 _DRAWING = re.compile(r"\.(?:svg|dxf)(?::|$)", re.IGNORECASE)
 _FORMATS = {".csv": "CSV", ".tsv": "CSV", ".txt": "CSV", ".json": "JSON", ".toml": "TOML"}
@@ -193,7 +184,7 @@ def read_task(
     if angle_unit not in (None, *UNITS):
         raise InputError("E110", f"there is no angle unit {angle_unit!r}", help="give deg or rad")
     names, path = convention_names(convention), os.fspath(source)
-    label = "<stdin>" if path == "-" else printable(path)
+    label = label_of(path)
     try:
         table = _table(path, data, columns, sheet=sheet, points=points, closed=closed)
         if closed:
@@ -230,16 +221,9 @@ def _refuse_function(label: str, text: str) -> None:
         )
 
 
-class _Recording(NamedTuple):
-    """A recording of markers, and whether those were chosen without --points."""
-
-    markers: MarkerRecording
-    chosen: bool
-
-
-def _closed(table: PoseTable | _Recording) -> PoseTable:
+def _closed(table: PoseTable | MarkerRecording) -> PoseTable:
     """The points of a table as a closed path; raises E187."""
-    if isinstance(table, _Recording) or table.path is None:
+    if not isinstance(table, PoseTable) or table.path is None:
         raise InputError(
             "E187",
             "--closed is for points that are traced, and this file has poses",
@@ -247,12 +231,6 @@ def _closed(table: PoseTable | _Recording) -> PoseTable:
             help="leave --closed out, or give the points alone, in columns x and y",
         )
     return table._replace(path=TracedPath(True, table.path.crank_angles))
-
-
-def _require_no_sheet(sheet: str | None) -> None:
-    if sheet is not None:
-        message = "--sheet is for .xlsx workbooks; this file has one table"
-        raise InputError("E108", message, help="leave --sheet out")
 
 
 def _table(
@@ -263,9 +241,9 @@ def _table(
     sheet: str | None,
     points: str | None,
     closed: bool,
-) -> PoseTable | _Recording:
+) -> PoseTable | MarkerRecording:
     """The table in a file, by its first bytes and its suffix."""
-    label = "<stdin>" if path == "-" else printable(path)
+    label = label_of(path)
     if _DRAWING.search(path):
         from burmester.io.reading.outlines.drawn_path import drawing_named, read_drawn_path
 
@@ -280,56 +258,40 @@ def _table(
         message = "--columns names the columns of poses, --points markers of a recording"
         raise InputError("E108", message, where=label, help="leave one of the two out")
     suffix = PurePath(label).suffix.lower()
-    if is_parquet(data) or (suffix == ".parquet" and data):
-        from burmester.io.reading.tables.parquet import read_parquet
-
-        _require_no_sheet(sheet)
-        read: Callable[[], PoseTable] = functools.partial(read_parquet, label, data)
-    else:
-        if is_archive(data):
-            from burmester.io.reading.tables.workbook import read_sheet
-
-            source = read_sheet(label, data, sheet)
-        else:
-            _require_no_sheet(sheet)
-            source = Source(label, *decode_text(data, label))
-        del data  # a million poses are many bytes
-        by_content = "JSON" if source.text.lstrip().startswith(("{", "[")) else "CSV"
-        language = "CSV" if source.sheet else _FORMATS.get(suffix, by_content)
-        require_moderate(source.text, tree=language != "CSV")
-        if columns is None:
-            _refuse_function("" if source.sheet else label, source.text)
-        if language == "CSV":
-            return _rows(source, columns, points, closed=closed)
-        from burmester.io.reading.trees.documents import read_json, read_toml
-
-        read = functools.partial(read_json if language == "JSON" else read_toml, source)
-    if columns is not None:
+    source = text_source(data, path, sheet)
+    del data  # a million poses are many bytes
+    by_content = "JSON" if source.text.lstrip().startswith(("{", "[")) else "CSV"
+    language = "CSV" if source.sheet else _FORMATS.get(suffix, by_content)
+    require_moderate(source.text, tree=language != "CSV")
+    if columns is not None and (source.names_columns or language != "CSV"):
         message = "--columns is for CSV files and sheets; this file names its columns itself"
         raise InputError("E108", message, help="leave --columns out")
+    if columns is None:
+        _refuse_function("" if source.sheet else label, source.text)
+    if language == "CSV":
+        return _rows(source, columns, points, closed=closed)
+    from burmester.io.reading.trees.documents import read_json, read_toml
+
     _require_no_points(label, points)
-    return read()
+    return read_json(source) if language == "JSON" else read_toml(source)
 
 
 def _rows(
     source: Source, columns: str | None, points: str | None, *, closed: bool
-) -> PoseTable | _Recording:
+) -> PoseTable | MarkerRecording:
     """The table in CSV or in a sheet: poses, markers, or rows pasted from CAD."""
     from burmester.io.reading.markers.marker_header import read_marker_header
     from burmester.io.reading.tables.cad_rows import is_cad_text, read_cad_rows
-    from burmester.io.reading.tables.csv_poses import read_csv
-    from burmester.io.reading.tables.path_table import read_path_table
+    from burmester.io.reading.tables.pose_rows import read_poses
 
     if columns is None and (header := read_marker_header(source)) is not None:
         from burmester.io.reading.markers.marker_choice import chosen_markers
 
-        return _Recording(*chosen_markers(header, points))
+        return chosen_markers(header, points)
     _require_no_points(source.label, points)
-    if columns is None and (path := read_path_table(source, closed=closed)) is not None:
-        return path
     if columns is None and is_cad_text(source.text):
         return read_cad_rows(source)
-    return read_csv(source, columns)
+    return read_poses(source, columns, closed=closed)
 
 
 def _require_no_points(label: str, points: str | None) -> None:
@@ -341,66 +303,56 @@ def _require_no_points(label: str, points: str | None) -> None:
     raise InputError("E114", message, where=label, why=why, help="leave --points out")
 
 
-class _SelectedRows(NamedTuple):
-    """The rows of a file that are taken, what they are called, and which must be met exactly."""
-
-    table: PoseTable
-    left_out: int  # the number of the others
-    names: list[str]
-    exact: NDArray[np.bool_] | None
-    tracked: TrackedRows
-
-
 def _selected(
-    table: PoseTable | _Recording,
+    table: PoseTable | MarkerRecording,
     selection: RowSelection,
     exact: Sequence[str],
     plane: str | None,
-) -> _SelectedRows:
-    """The rows that are asked for, of poses or of a recording."""
-    if isinstance(table, _Recording):
+) -> tuple[PoseTable, TrackedRows, int]:
+    """The rows that are asked for, of poses or of a recording, and how many are left out."""
+    if not isinstance(table, PoseTable):
         from burmester.io.reading.markers.marker_poses import recorded_poses
 
-        recording, labels = table.markers, table.markers.labels
-        wanted = selection.kept(labels)
+        labels = table.labels
         usable = selection.in_range(labels) & ~row_marks("--drop", selection.drop, labels)
-        poses, kept = recorded_poses(recording, wanted, usable, plane, chosen=table.chosen)
-        names = labels.of_kept(kept)
+        poses, kept = recorded_poses(table, selection.kept(labels), usable, plane)
         frames = [labels.names[k] for k in kept] if labels.frames else None
-        tracked = TrackedRows(kept, recording.locate_row, recording.names, frames)
-        marks = row_marks("--exact", exact, labels) if exact else None
+        tracked = TrackedRows(kept, table.locate_row, table.names, frames)
+        marks = row_marks("--exact", exact, labels)
     else:
         if plane is not None:
             message = "--plane is for recordings of markers, and this file has poses"
             raise InputError("E108", message, help="leave --plane out")
-        poses = table
         labels = RowLabels(len(table.rows.values), table.rows.names, times=table.times)
         kept = np.flatnonzero(selection.kept(labels))
-        names = labels.of_kept(kept)
+        poses = table
         if len(kept) < labels.size:
             path = table.path and table.path.at(kept)
             poses = table._replace(rows=table.rows.at(kept), path=path)
         tracked = TrackedRows(kept, table.locate_row)
-        marks = _marked(table, labels, exact)
-    if marks is not None:
-        lost = marks.copy()
-        lost[kept] = False
-        if exact and lost.any():
-            number = int(lost.argmax())
-            name = labels.names[number] if labels.frames else str(number + 1)
-            message = f"pose {name} is left out and marked by --exact"
-            help = "leave it out of --exact, or take it in with --drop, --every, --from and --to"
-            raise InputError("E108", message, help=help)
-        marks = marks[kept] if marks[kept].any() else None
-    return _SelectedRows(poses, labels.size - len(kept), names, marks, tracked)
+        marks = row_marks("--exact", exact, labels)
+        if any(table.rows.exact):
+            if exact:
+                message = "poses are marked exact in the file and by --exact"
+                help = "leave --exact out, or the marks in the file"
+                raise InputError("E108", message, help=help)
+            marks = np.array(table.rows.exact)
+    lost = marks.copy()
+    lost[kept] = False
+    if exact and lost.any():
+        number = int(lost.argmax())
+        name = labels.names[number] if labels.frames else str(number + 1)
+        message = f"pose {name} is left out and marked by --exact"
+        help = "leave it out of --exact, or take it in with --drop, --every, --from and --to"
+        raise InputError("E108", message, help=help)
+    rows = poses.rows._replace(names=labels.of_kept(kept), exact=marks[kept].tolist())
+    return poses._replace(rows=rows), tracked, labels.size - len(kept)
 
 
 def _task(
     table: PoseTable,
-    left_out: int,
-    names: list[str],
-    exact: NDArray[np.bool_] | None,
     tracked: TrackedRows,
+    left_out: int,
     *,
     angle_unit: str | None,
     specification: Specification | None,
@@ -413,7 +365,7 @@ def _task(
     """The task in the rows of a table that are taken."""
     table = with_stated_unit(table, convention)
     rows = table.rows
-    values = rows.values
+    values, exact = rows.values, np.array(rows.exact) if any(rows.exact) else None
     measured = None
     if rows.points:
         coordinates = values[:, : 2 * rows.points]
@@ -450,7 +402,7 @@ def _task(
         return Task(
             poses,
             weights=values[:, numbers] if values.shape[1] > numbers else None,
-            names=tuple(names) or None,
+            names=tuple(rows.names) or None,
             length_unit=table.length_unit,
             resolution=resolution,
             exact=exact,
@@ -553,17 +505,6 @@ def _oriented(
         angles, angle = np.radians(angles), math.radians(angle)
     known = resolution_by_digits(length, extent(values[:, :2])), resolution_by_digits(angle, 1.0)
     return Displacement(values[:, :2], angles), known
-
-
-def _marked(table: PoseTable, labels: RowLabels, exact: Sequence[str]) -> NDArray[np.bool_] | None:
-    """Which poses must be met exactly, by the file or by --exact."""
-    marks = table.rows.exact
-    if exact and any(marks):
-        message = "poses are marked exact in the file and by --exact"
-        raise InputError("E108", message, help="leave --exact out, or the marks in the file")
-    if exact:
-        return row_marks("--exact", exact, labels)
-    return np.array(marks) if any(marks) else None
 
 
 def _both_readings(least: float, most: float, count: int) -> str:

@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import Source, shown
+from burmester.io.reading.tables.grid import Row
 from burmester.numerics.arrays import FloatArray
-
-__all__ = ["RowLabels", "RowSelection", "row_marks"]
 
 _TIME = re.compile(r"([+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)) *(s|ms)")
 TIME_ROUNDING = 1e-9  # seconds; a row this far outside still counts as inside
@@ -78,12 +77,9 @@ def row_marks(option: str, texts: Sequence[str], labels: RowLabels) -> NDArray[n
     """Which rows an option names, by numbers from 1 or by names; raises E122."""
     marks = np.zeros(labels.size, dtype=np.bool_)
     for text in texts:
-        source, at = Source(option, text), 0
-        for item in [text] if text in labels.names else text.split(","):
-            word = item.strip()
-            where = source.where(at + len(item) - len(item.lstrip()), len(word))
-            marks[_row(word, labels, option, where)] = True
-            at += len(item) + 1
+        items = Row(Source(option, text), 0, [text] if text in labels.names else text.split(","))
+        for i, item in enumerate(items.cells):
+            marks[_row(item.strip(), labels, option, items.where(i))] = True
     return marks
 
 

@@ -16,20 +16,16 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
-from burmester.io.reading.file_content import is_parquet, require_moderate
-from burmester.io.reading.functions.function_kind import source_of
+from burmester.io.reading.file_content import require_moderate
 from burmester.io.reading.functions.function_options import (
     KEPT,
     FunctionSettings,
     task_of_function,
     task_of_pairs,
 )
-from burmester.io.reading.functions.pair_table import (
-    read_pair_parquet,
-    read_pair_text,
-    require_weights,
-)
+from burmester.io.reading.functions.pair_table import read_pairs, require_weights
 from burmester.io.reading.pose_table import Source
+from burmester.io.reading.tables.text_source import text_source
 from burmester.io.reading.trees.documents import json_tree, toml_tree
 from burmester.io.reading.trees.node import Field, Fields, Node
 from burmester.io.reading.trees.requirements_tree import REQUIREMENT_FIELDS
@@ -62,9 +58,7 @@ def read_function(
     label = "<stdin>" if path == "-" else os.fspath(path)
     suffix = PurePath(path).suffix.lower()
     try:
-        if is_parquet(data):
-            return read_pair_parquet(label, data, settings)
-        source = source_of(data, path, sheet)
+        source = text_source(data, path, sheet)
         require_moderate(source.text, tree=suffix in (".toml", ".json"))
         toml = suffix == ".toml"
         if source.sheet is None and (
@@ -74,7 +68,7 @@ def read_function(
             if isinstance(tree, dict) and isinstance(tree.get("task"), dict):
                 tree, document = tree["task"], document._replace(root=("task",))
             return task_of(Node(document, (), tree), settings)
-        return read_pair_text(source, settings)
+        return read_pairs(source, settings)
     except InputError as error:
         error.where = error.where or label
         raise

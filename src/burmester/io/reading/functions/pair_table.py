@@ -1,13 +1,13 @@
-"""Pairs of angles in tables: CSV, a sheet of a workbook, Parquet.
+"""Pairs of angles in a grid: CSV, a sheet of a workbook, Parquet.
 
-E101 not readable                  E105 a column is missing
-E102 no rows                       E107 a column that is not known
-E104 not a number                  E108 a column twice
-E106 a row of the wrong length
+E102 no rows                       E106 a row of the wrong length
+E103 and E104 not a number         E107 a column that is not known
+E105 a column is missing           E108 a column twice
 """
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Sequence
 from typing import Final, NamedTuple
@@ -16,24 +16,12 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.functions.function_task import FunctionTask
-from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, header_of
+from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, head_of
 from burmester.io.reading.functions.function_options import FunctionSettings, task_of_pairs
-from burmester.io.reading.pose_table import (
-    NUMBER,
-    Source,
-    no_poses,
-    plain_number,
-    shown,
-    unheld,
-)
+from burmester.io.reading.pose_table import SHEET_HEAD, Source, no_poses, shown
+from burmester.io.reading.tables.cell_numbers import CellNumbers
+from burmester.io.reading.tables.grid import rows_of
 from burmester.numerics.arrays import FloatArray
-
-__all__ = [
-    "WEIGHT",
-    "read_pair_parquet",
-    "read_pair_text",
-    "require_weights",
-]
 
 WEIGHT: Final = "weight"
 
@@ -77,65 +65,36 @@ def _columns(names: Sequence[str], where: str | None) -> dict[str, Column]:
     return columns
 
 
-def read_pair_text(source: Source, settings: FunctionSettings) -> FunctionTask:
-    """The task in a text with a separator between its cells."""
-    first, names, separator = header_of(source.text)
-    lines = source.text.split("\n")
-    starts = np.cumsum([0, *(len(line) + 1 for line in lines)]).tolist()
-    head = source.where(starts[first], len(lines[first]))
-    columns = _columns(names, head)
+def read_pairs(source: Source, settings: FunctionSettings) -> FunctionTask:
+    """The task in a header and a pair a line."""
+    _, separator = head_of(source.text)
+    rows = list(rows_of(source, separator, len(SHEET_HEAD) if source.sheet else 0))
+    if not rows:
+        raise no_poses("the file has only comments")
+    head = rows.pop(0)
+    names = [name.lower() for name in map(head.value, range(len(head.cells)))]
+    columns = _columns(names, head.where())
+    own = CellNumbers(separator, stored=source.sheet is not None)
     numbers: dict[str, list[float]] = {role: [] for role in columns}
-    places: list[str] = []
-    for number, line in enumerate(lines[first + 1 :], start=first + 1):
-        if not line.strip() or line.lstrip().startswith("#"):
-            continue
-        cells = line.split(separator)
-        where = source.where(starts[number], len(line))
-        if len(cells) != len(names):
+    for number, row in enumerate(rows, start=1):
+        if len(row.cells) != len(names):
             raise InputError(
                 "E106",
-                f"{len(cells)} cells where the header has {len(names)}",
-                where=where,
+                f"{len(row.cells)} cells where the header has {len(names)}",
+                where=row.where(),
                 help=f"give {len(names)} cells in every row",
             )
         for role, (column, unit) in columns.items():
-            cell = cells[column].strip().strip('"')
-            plain, mark = plain_number(cell, separator)
-            if mark is None:
-                raise InputError(
-                    "E104",
-                    f"{shown(cell)} is not a number",
-                    where=where,
-                    why=unheld(plain) if NUMBER.fullmatch(plain) else None,
-                    help="write a number with a decimal point, such as 12.5",
-                )
-            value = float(plain)
-            numbers[role].append(math.degrees(value) if unit == "rad" else value)
-        places.append(where)
+            where = functools.partial(row.where, column, role)
+            quoted = '"' in row.cells[column]
+            text = own.read(row.value(column), number, where, unit=unit or None, quoted=quoted)
+            numbers[role].append(math.degrees(float(text)) if unit == "rad" else float(text))
+    own.require_one_mark()
     arrays = {role: np.array(values) for role, values in numbers.items()}
     weights = arrays.get(WEIGHT)
-    require_weights(weights, head)
+    require_weights(weights, head.where())
     inputs, outputs = arrays["input"], arrays["output"]
-    return task_of_pairs(inputs, outputs, weights, settings, where=places.__getitem__)
-
-
-def read_pair_parquet(label: str, data: bytes, settings: FunctionSettings) -> FunctionTask:
-    """The task in the bytes of a Parquet file whose columns `is_pair_parquet` knows."""
-    import pyarrow
-    import pyarrow.parquet
-
-    try:
-        table = pyarrow.parquet.read_table(pyarrow.BufferReader(data))
-    except Exception as error:  # of many kinds, for files that are damaged
-        why = str(error).partition("\n")[0][:200]
-        help = "write the file again, or save the pairs as CSV"
-        raise InputError("E101", "this Parquet file cannot be read", why=why, help=help) from None
-    if not table.num_rows:
-        raise no_poses("the file has no rows")
-    names = [str(name).strip().lower() for name in table.column_names]
-    rows = zip(*(map(str, column.to_pylist()) for column in table.columns), strict=True)
-    text = "\n".join(map(",".join, [names, *rows]))
-    return read_pair_text(Source(label, text), settings)
+    return task_of_pairs(inputs, outputs, weights, settings, where=lambda k: rows[k].where())
 
 
 def require_weights(weights: FloatArray | None, where: str | None) -> None:

@@ -15,28 +15,26 @@ from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import listed, shortened
 
-__all__ = ["chosen_markers"]
-
 MAX_SUGGESTED = 24  # markers among which a pair is looked for that stays on one body
 MIN_MOTION = 0.1  # of the motion of the marker that moves most; one that moves less is at rest
 MAX_LISTED = 12  # markers that a message lists
 
 
-def chosen_markers(header: MarkerHeader, points: str | None) -> tuple[MarkerRecording, bool]:
-    """The recording of the markers that `points` names, and whether they were chosen here.
+def chosen_markers(header: MarkerHeader, points: str | None) -> MarkerRecording:
+    """The recording of the markers that `points` names.
 
     points: names separated by commas; None takes the only two of a file.  Raises E102 to E108,
     and E114 where the markers are not known or not chosen.
     """
     if points is None:
         if len(header.markers) == 2:
-            return read_recording(header, tuple(header.markers)), True
+            return read_recording(header, tuple(header.markers))._replace(chosen=True)
         raise _no_choice(header)
     names = tuple(_marker(word, header, points) for word in points.split(","))
     if len(names) < 2 or len(set(names)) < len(names):
         message = "a pose takes two different markers or more"
         raise _refusal(header, message, points)
-    return read_recording(header, names), False
+    return read_recording(header, names)
 
 
 def _marker(word: str, header: MarkerHeader, points: str) -> str:

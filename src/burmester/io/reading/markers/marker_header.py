@@ -15,10 +15,9 @@ from itertools import islice
 from typing import NamedTuple
 
 from burmester.io.reading.pose_table import Source
-from burmester.io.reading.tables.columns import LENGTHS, has_poses
-from burmester.io.reading.tables.csv_cells import split_cells, unquoted
-
-__all__ = ["AXES", "CONFIDENCE", "MarkerHeader", "read_marker_header"]
+from burmester.io.reading.tables.column_words import LENGTHS
+from burmester.io.reading.tables.columns import has_poses
+from burmester.io.reading.tables.grid import split_cells, unquoted
 
 AXES = ("X", "Y", "Z")
 CONFIDENCE = "likelihood"  # the column by which DeepLabCut says how sure it is of a place

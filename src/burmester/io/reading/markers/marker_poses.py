@@ -18,8 +18,6 @@ from burmester.io.reading.pose_table import PoseTable, Rows, extent, resolution_
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import listed, shortened
 
-__all__ = ["recorded_poses"]
-
 MAX_LISTED = 12  # ranges of frames that a message lists
 MIN_TRIPLES = 20  # of frames one after the other, to tell noise from slow changes of a shape
 NOISE_RATIO = 2.0  # of a shape's changes to its noise from frame to frame; above it is no noise
@@ -31,13 +29,11 @@ def recorded_poses(
     selected: NDArray[np.bool_],
     usable: NDArray[np.bool_],
     plane: str | None,
-    *,
-    chosen: bool,
 ) -> tuple[PoseTable, NDArray[np.intp]]:
     """The selected frames in which no marker is missing as a table, and their numbers from 0.
 
     usable: the frames by which the plane and the noise are judged, also those between the
-    selected ones.  chosen: whether the markers were chosen here.  Raises E102, E108 and E113.
+    selected ones.  Raises E102, E108 and E113.
     """
     header = recording.header
     unit = _unit(header)
@@ -60,7 +56,7 @@ def recorded_poses(
         sentences.append("y is taken as it stands; in pictures it counts downwards")
     who = listed(recording.names)
     message = f"{len(kept)} poses are those of the markers {who}"
-    if chosen:
+    if recording.chosen:
         message = f"{message}, the only two of this file"
     help = "name other markers with --points, other frames with --from, --to and --drop"
     if len(recording.axes) > 2:

@@ -6,6 +6,7 @@ likelihood.  Numbers are read as in any CSV file.
 
 from __future__ import annotations
 
+import functools
 import re
 from array import array
 from collections.abc import Iterator, Sequence
@@ -15,17 +16,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
-from burmester.io.reading import pose_table
 from burmester.io.reading.markers.marker_header import AXES, CONFIDENCE, MarkerHeader
-from burmester.io.reading.pose_table import decimals
+from burmester.io.reading.pose_table import NUMBER_LIKE, decimals, no_poses, plain_number
 from burmester.io.reading.row_selection import RowLabels
-from burmester.io.reading.tables.csv_cells import cell_location, row_values, split_cells, unquoted
-from burmester.io.reading.tables.csv_poses import require_one_mark
-from burmester.io.reading.tables.wrong_numbers import not_a_number
+from burmester.io.reading.tables.cell_numbers import CellNumbers
+from burmester.io.reading.tables.grid import Row, split_cells
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import listed
-
-__all__ = ["MarkerRecording", "read_recording"]
 
 MIN_LIKELIHOOD = 0.6  # DeepLabCut's own default; a place less likely counts as missing
 MAX_COORDINATE = 1e60  # beyond it, fourth powers leave a double's range
@@ -46,16 +43,12 @@ class MarkerRecording(NamedTuple):
     labels: RowLabels
     starts: NDArray[np.intp]  # where the line of each frame begins in the text
     reasons: dict[str, NDArray[np.bool_]]  # why markers are missing, and in which frames
+    chosen: bool = False  # whether these are the only markers, and nobody named them
 
     def locate_row(self, row: int | None) -> str:
         """Where a frame stands, by its number from 0; the file for None."""
         source = self.header.source
-        if row is None:
-            return source.label
-        start = int(self.starts[row])
-        end = source.text.find("\n", start)
-        line = source.text[start : end if end >= 0 else len(source.text)]
-        return source.where(start, len(line.strip()))
+        return source.label if row is None else Row(source, int(self.starts[row]), []).where()
 
     def row_name(self, row: int) -> str:
         return self.labels.names[row] if self.labels.frames else str(row + 1)
@@ -76,27 +69,27 @@ def read_recording(
     columns = [header.markers[name][axis] for name in names for axis in axes]
     sure = [header.markers[name].get(CONFIDENCE) for name in names]
     used = columns + [column for column in sure if column is not None]
-    marks: dict[str, str] = {}  # mark of `plain_number` -> its first location
+    own = CellNumbers(header.separator)
     numbers, starts, most = array("d"), array("q"), 0.0
     frames: list[str] = []
     times: list[str] = []
-    for line, cells in _rows(header):
-        _require_width(header, line, cells, len(starts) + 1)
+    for number, row in enumerate(_rows(header), start=1):
+        _require_width(header, row, number)
         for place, column in enumerate(used):
-            text = _number(header, (line, cells), column, len(starts) + 1, marks)
+            text = _number(row, column, number, own)
             numbers.append(float(text))
             if place < len(columns) and "." in text:
                 most = max(most, decimals(text))
-        starts.append(line.start())
-        frames.append(_cell(cells, header.frame))
-        times.append(_cell(cells, header.time))
+        starts.append(row.start)
+        frames.append(row.value(header.frame))
+        times.append(row.value(header.time))
     if not starts:
-        raise pose_table.no_poses("the file has only a header")
-    shown_marks = (pose_table.plain_number(text, header.separator)[1] for text in times[:100])
+        raise no_poses("the file has only a header")
+    shown_marks = (plain_number(text, header.separator)[1] for text in times[:100])
     for mark in {".", ","}.intersection(filter(None, shown_marks)):
-        marks.setdefault(mark, "")  # a time, too, shows what a comma is
+        own.marks.setdefault(mark, "")  # a time, too, shows what a comma is
     if one_mark:
-        require_one_mark(marks)
+        own.require_one_mark()
     values = np.array(numbers).reshape(len(starts), len(used))
     places, likely = values[:, : len(columns)].copy(), values[:, len(columns) :]
     _require_near(header, places, starts)
@@ -106,78 +99,50 @@ def read_recording(
     return MarkerRecording(header, names, axes, places, most, labels, np.array(starts), reasons)
 
 
-def _number(
-    header: MarkerHeader,
-    row: tuple[re.Match[str], list[str]],
-    column: int,
-    number: int,
-    marks: dict[str, str],
-) -> str:
-    """A cell with a decimal point, "nan" where it is missing; raises E103 and E104.
-
-    number: of the row, from 1.
-    """
-    line, cells = row
-    cell = _cell(cells, column)
-    if "." in marks and _PLAIN.fullmatch(cell):
+def _number(row: Row, column: int, number: int, own: CellNumbers) -> str:
+    """A cell with a decimal point, "nan" where it is missing; number: of the row, from 1."""
+    cell = row.value(column)
+    if "." in own.marks and _PLAIN.fullmatch(cell):
         return cell
     if cell.lower() in _MISSING:
         return "nan"
-    plain, mark = pose_table.plain_number(cell, header.separator)
-    if mark is None or not marks.get(mark):
-        where = cell_location(header.source, line.start(), cells, column)
-        if mark is None:
-            raise not_a_number(
-                cell, plain, row=number, unit=None, where=where, separator=header.separator
-            )
-        marks[mark] = where
-    return plain
+    return own.read(cell, number, functools.partial(row.where, column))
 
 
 def _require_near(header: MarkerHeader, places: FloatArray, starts: Sequence[int]) -> None:
     """Refuse places that cannot be computed with: E112."""
     far = np.abs(places) > MAX_COORDINATE
-    if not far.any():
-        return
-    row, column = (int(k) for k in np.argwhere(far)[0])
-    source, start = header.source, starts[row]
-    end = source.text.find("\n", start)
-    where = source.where(start, (end if end >= 0 else len(source.text)) - start)
-    message = f"row {row + 1} has a place that is too far away to compute with"
-    why = f"it is {places[row, column]:g}, the limit is {MAX_COORDINATE:g}"
-    raise InputError("E112", message, where=where, why=why, help="write it in another unit")
+    if far.any():
+        row, column = (int(k) for k in np.argwhere(far)[0])
+        message = f"row {row + 1} has a place that is too far away to compute with"
+        why = f"it is {places[row, column]:g}, the limit is {MAX_COORDINATE:g}"
+        where = Row(header.source, starts[row], []).where()
+        raise InputError("E112", message, where=where, why=why, help="write it in another unit")
 
 
-def _rows(header: MarkerHeader) -> Iterator[tuple[re.Match[str], list[str]]]:
-    """The lines with numbers, with their cells; a blank line and a line of words end them."""
+def _rows(header: MarkerHeader) -> Iterator[Row]:
+    """The lines with numbers; a blank line and a line of words end them."""
     text, end, separator = header.source.text, header.end, header.separator
     for line in _LINE.finditer(text, header.end):
-        cells = split_cells(line[0], separator) if '"' in line[0] else line[0].split(separator)
         if not line[0].strip(f'{separator}" '):
             end = line.end()
             continue
+        row = Row(header.source, line.start(), split_cells(line[0], separator))
         apart = text[end : line.start()].count("\n") > 1 and end > header.end
-        if apart and not pose_table.NUMBER_LIKE.fullmatch(next(filter(None, map(unquoted, cells)))):
+        if apart and not NUMBER_LIKE.fullmatch(next(filter(None, row.values()))):
             return
-        yield line, cells
+        yield row
         end = line.end()
 
 
-def _require_width(
-    header: MarkerHeader, line: re.Match[str], cells: list[str], number: int
-) -> None:
+def _require_width(header: MarkerHeader, row: Row, number: int) -> None:
     """Refuse a row with a number below no name (E106): a comma in a number may have split it."""
     # an unquoted decimal comma makes two cells of one, and the last of them may be blank
-    given = len(cells) if header.separator == "," else len(row_values(cells))
+    given = len(row.cells) if header.separator == "," else len(row.values())
     if given > header.width:
-        where = cell_location(header.source, line.start(), cells, header.width)
         message = f"row {number} has {given} cells, the header has {header.width}"
         help = "delete what stands behind the last column, or write decimal points"
-        raise InputError("E106", message, where=where, help=help)
-
-
-def _cell(cells: list[str], column: int | None) -> str:
-    return unquoted(cells[column]) if column is not None and column < len(cells) else ""
+        raise InputError("E106", message, where=row.where(header.width), help=help)
 
 
 def _forget_lost(
@@ -212,7 +177,7 @@ def _labels(frames: list[str], times: list[str], separator: str) -> RowLabels:
     are_frames = are_frames and len(set(frames)) == len(frames)
 
     def seconds() -> FloatArray | None:
-        plain = [pose_table.plain_number(text, separator) for text in times]
+        plain = [plain_number(text, separator) for text in times]
         known = all(mark is not None for _, mark in plain)
         return np.array([float(text) for text, _ in plain]) if known else None
 

@@ -9,8 +9,6 @@ import numpy as np
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["RigidFit", "fit_rigid_body"]
-
 MAX_ROUNDS = 100  # of turning all places to the mean shape; a few are enough where noise is small
 TURN_TOLERANCE = 1e-14  # radians; the rounds end with a lesser turn
 

@@ -16,8 +16,6 @@ from burmester.io.reading.pose_table import extent, resolution_by_digits
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import listed
 
-__all__ = ["MAX_DISTANCE_CHANGE", "Tracked", "TrackedRows", "tracked_poses"]
-
 MAX_ODD_ROWS = 2  # of more rows that are not rigid the markers are to blame, and no row
 MAX_DISTANCE_CHANGE = 0.1  # relative change of |pq|; above it the points are refused
 

@@ -11,8 +11,6 @@ from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import listed
 
-__all__ = ["NEAREST", "PlanarPoints", "planar_points"]
-
 NEAREST = "fit"  # the value of --plane that asks for the nearest plane
 MAX_FLATNESS = 0.05  # of an axis' rms deviation to the largest; below it the axis is passed over
 

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.errors import InputError
+from burmester.errors import InputError, library
 from burmester.io.reading.outlines.curves import FLATNESS, Curve, Drawing, unreadable
 
 __all__ = ["read_dxf"]
@@ -29,16 +29,9 @@ ASCII_HELP: Final = "save it as DXF in text form (ASCII), of any version"
 
 def read_dxf(data: bytes, part: str | None) -> Drawing:
     """The curves of the layers of a DXF file, or of one of them; raises E170 and E130."""
-    try:
-        import ezdxf
-        from ezdxf import path as paths
-    except ImportError:
-        raise InputError(
-            "E130",
-            "reading DXF needs ezdxf",
-            why="it cannot be imported",
-            help='pip install "burmester[outlines]"',
-        ) from None
+    ezdxf = library("ezdxf", "reading DXF", "outlines")
+    from ezdxf import path as paths
+
     # What ezdxf passes over in a damaged file is no message of ours.
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())
     document = _document(ezdxf, data)

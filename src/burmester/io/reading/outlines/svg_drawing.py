@@ -17,7 +17,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from burmester.errors import InputError
+from burmester.errors import library
 from burmester.io.reading.outlines.curves import FLATNESS, Curve, Drawing, unreadable
 from burmester.numerics.arrays import FloatArray
 
@@ -48,15 +48,7 @@ _LENGTH = re.compile(r"\s*([0-9.eE+-]+)\s*([a-zA-Z%]*)\s*")
 
 def read_svg(data: bytes, part: str | None) -> Drawing:
     """The curves of an SVG file, or those of one id; raises E170 and E130."""
-    try:
-        import svgelements
-    except ImportError:
-        raise InputError(
-            "E130",
-            "reading SVG needs svgelements",
-            why="it cannot be imported",
-            help='pip install "burmester[outlines]"',
-        ) from None
+    svgelements = library("svgelements", "reading SVG", "outlines")
     root = _root(data)
     try:
         unit = _with_size(root)

@@ -13,17 +13,6 @@ from typing import NamedTuple
 
 from burmester.io.reading.pose_table import POINTS
 
-__all__ = [
-    "IGNORED",
-    "LENGTHS",
-    "MAX_NAME_CHARACTERS",
-    "UNITS",
-    "WORDS",
-    "Word",
-    "known",
-    "unit_of",
-]
-
 IGNORED = ""  # the role of a column that is left alone
 MAX_NAME_CHARACTERS = 60  # characters of a name; a longer one is not compared with known ones
 

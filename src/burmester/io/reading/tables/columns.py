@@ -17,16 +17,12 @@ from burmester.io.reading.pose_table import DIRECTION, NUMERIC, POINTS, brief, s
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
 from burmester.io.reading.tables.column_words import (
     IGNORED,
-    LENGTHS,
     MAX_NAME_CHARACTERS,
     WORDS,
     Word,
     known,
 )
 from burmester.wording import in_unit, listed, shortened
-
-__all__ = ["LENGTHS", "MAX_NAMES", "Columns", "has_poses", "is_header", "read_columns"]
-
 
 _WITH_DIRECTION = (*NUMERIC[:2], *DIRECTION)
 _PASSED_OVER = ("time", "frame", "remark")

@@ -11,14 +11,9 @@ from collections.abc import Callable, Mapping
 
 from burmester.errors import InputError
 from burmester.io.reading.pose_table import shown
-from burmester.io.reading.stated_tolerances import (
-    FREE_WORDS,
-    TOLERANCE_ROLES,
-    free_components,
-)
+from burmester.io.reading.stated_tolerances import FREE_WORDS, TOLERANCE_ROLES, free_components
+from burmester.io.reading.tables.grid import Row
 from burmester.tasks.pose_tolerances import COMPONENTS, Component
-
-__all__ = ["WORD_ROLES", "read_words", "special_text"]
 
 WORD_ROLES = ("free", "tol_axes")  # columns of words, read together at the end of a row
 
@@ -36,19 +31,19 @@ def special_text(cell: str, role: str) -> str | None:
 
 
 def read_words(
-    columns: Mapping[str, list[str]],
-    cells: Mapping[str, str],
-    row: int,
-    where: Callable[[str], str],
+    columns: Mapping[str, list[str]], row: Row, indices: Mapping[str, int], number: int
 ) -> None:
-    """Complete the columns `free` and `tol_axes` by the cells of a row, by role.
+    """Complete the columns `free` and `tol_axes` by the cells of a row.
 
-    where: the location of a role's cell.  Raises E104 and E136.
+    indices: of the cells by role; number: of the row, from 1.  Raises E104 and E136.
     """
-    words = {"free": " ".join(_free_in_row(cells, row, where))}
-    words["tol_axes"] = _axes_of_cell(cells.get("tol_axes", ""), row, where)
-    for role, text in words.items():
-        columns[role].append(text)
+
+    def where(role: str) -> str:
+        return row.where(indices.get(role), role)
+
+    cells = {role: row.value(index) for role, index in indices.items()}
+    columns["free"].append(" ".join(_free_in_row(cells, number, where)))
+    columns["tol_axes"].append(_axes_of_cell(cells.get("tol_axes", ""), number, where))
 
 
 def _is_free(cell: str) -> bool:

@@ -2,9 +2,9 @@
 
 Numbers have all the digits that are stored, not those that are shown; formulas are read by the
 values stored with them.  Only the parts of the file that hold cells are opened, after a look at
-their size; XML with a document type is refused, so no entity is ever expanded.  openpyxl reads
-which sheets and styles there are.  Cells are read here, one after the other: openpyxl would make
-an object of every cell in a range that is merged or linked.
+their size; XML with a document type is refused before it is parsed, so no entity is expanded.
+openpyxl reads which sheets and styles there are.  Cells are read here, one after the other:
+openpyxl would make an object of every cell in a range that is merged or linked.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ import io
 import re
 import warnings
 import zipfile
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any, Final
-from xml.parsers import expat
+from xml.etree import ElementTree
 
-from burmester.errors import Advice, InputError
+from burmester.errors import Advice, InputError, library
 from burmester.io.reading.pose_table import (
     NUMBER,
     SHEET_HEAD,
@@ -32,8 +32,6 @@ from burmester.io.reading.pose_table import (
     shown,
 )
 from burmester.wording import listed, shortened
-
-__all__ = ["may_hold", "read_sheet"]
 
 MAX_BYTES: Final = 60_000_000  # of XML, unpacked
 MAX_TAGS: Final = 2_200_000  # of XML; 100,000 poses with names have 2,000,000
@@ -52,6 +50,7 @@ _PARTS = re.compile(  # those that hold cells: no pictures, charts, links, queri
     re.IGNORECASE,
 )
 _CELLS = re.compile(r"xl/(sharedStrings|worksheets/[^/]+)\.xml", re.IGNORECASE)
+_LONG_ATTRIBUTE = re.compile(rb"=\s*(?:\"[^\"]{%d}|'[^']{%d})" % ((MAX_ATTRIBUTE + 1,) * 2))
 _CORNER = re.compile(r"\$?([A-Za-z]{1,3})\$?([0-9]{1,7})")
 _CSV: Final = "save the sheet as CSV and read that"
 
@@ -125,6 +124,8 @@ def _sheet_parts(data: bytes) -> dict[str, bytes]:
     if (tags := sum(text.count(b"<") for text in parts.values())) > MAX_TAGS:
         raise _too_large(f"{tags} tags of XML")
     for name, text in parts.items():
+        if b"<!DOCTYPE" in text:
+            raise _no_workbook(f"{name} declares a document type")
         encoding = re.match(rb"(?:\xef\xbb\xbf)?\s*<\?xml[^>]*encoding\s*=\s*[\"']([^\"']*)", text)
         if b"\0" in text or (encoding and encoding[1].lower() not in (b"utf-8", b"us-ascii")):
             raise _no_workbook(f"{name} is not UTF-8")
@@ -133,33 +134,18 @@ def _sheet_parts(data: bytes) -> dict[str, bytes]:
 
 def _outline(parts: dict[str, bytes]) -> Any:
     """The workbook of these parts without its cells: which sheets and styles there are."""
-    try:
-        import openpyxl
-    except ImportError:
-        raise InputError(
-            "E130",
-            "reading .xlsx needs openpyxl",
-            why="it cannot be imported",
-            help='pip install "burmester[data]"',
-        ) from None
-    tags = 0
-
-    def count(_: str, attributes: dict[str, str]) -> None:
-        nonlocal tags
-        tags += 1
-        if tags > MAX_OUTLINE[1]:
-            raise _too_large(f"more than {MAX_OUTLINE[1]} names and styles")
-        if max(map(len, attributes.values()), default=0) > MAX_ATTRIBUTE:
-            raise _too_large(f"a name or a style of more than {MAX_ATTRIBUTE} characters")
-
+    openpyxl = library("openpyxl", "reading .xlsx", "data")
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         for name, text in parts.items():
             if _CELLS.fullmatch(name):
                 archive.writestr(name, "<worksheet/>")
-            else:
-                _parse(name, text, count)
-                archive.writestr(name, text)
+                continue
+            if len(re.findall(rb"<[^/?!]", text)) > MAX_OUTLINE[1]:
+                raise _too_large(f"more than {MAX_OUTLINE[1]} names and styles")
+            if _LONG_ATTRIBUTE.search(text):
+                raise _too_large(f"a name or a style of more than {MAX_ATTRIBUTE} characters")
+            archive.writestr(name, text)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of styles, which do not matter
@@ -168,28 +154,10 @@ def _outline(parts: dict[str, bytes]) -> Any:
         raise _no_workbook(str(error).partition("\n")[0][:200] or type(error).__name__) from None
 
 
-def _parse(
-    name: str,
-    text: bytes,
-    start: Callable[[str, dict[str, str]], None],
-    end: Callable[[str], None] | None = None,
-    characters: Callable[[str], None] | None = None,
-) -> None:
-    """Go through the XML of a part; raises E101."""
-
-    def declared(*_: object) -> None:
-        raise _no_workbook(f"{name} declares a document type")
-
-    parser = expat.ParserCreate()
-    parser.buffer_text = True
-    parser.StartElementHandler = start
-    parser.EndElementHandler = end
-    parser.CharacterDataHandler = characters
-    parser.StartDoctypeDeclHandler = declared
-    try:
-        parser.Parse(text, True)
-    except (expat.ExpatError, LookupError, ValueError, OverflowError) as error:
-        raise _no_workbook(f"{name} is damaged: {error}") from None
+def _written(element: ElementTree.Element) -> str:
+    """The text in an element with runs; how it is read aloud is no part of it."""
+    pieces = [*element.findall("{*}t"), *element.findall("{*}r/{*}t")]
+    return "".join(each.text or "" for each in pieces)
 
 
 def _chosen(workbook: Any, given: str | None) -> tuple[Any, tuple[Advice, ...]]:
@@ -239,66 +207,44 @@ class _Cells:
         self._workbook = workbook
         self._shared: list[str] = []  # texts that cells name by their number
         self._row = self._column = 0
-        self._kind, self._style = "n", 0
-        self._found: dict[str, list[str]] | None = None  # pieces in the cell: v, f and t
-        self._pieces: list[str] | None = None  # those of the element that is gone through
-        self._phonetic = False  # how a text is read aloud is no part of it
-        self._size = self._length = 0  # characters of all cells, and of the element
+        self._size = 0  # characters of all cells
         self._hidden_rows: set[int] = set()
         self._hidden_columns: list[int] = []
 
     def read(self, name: str, text: bytes) -> None:
         """Go through a sheet, or through the shared texts, which come first; raises E101."""
-        _parse(name, text, self._begin, self._end, self._add)
+        try:
+            for _, element in ElementTree.iterparse(io.BytesIO(text)):
+                match element.tag.rpartition("}")[2]:
+                    case "row":
+                        self._read_row(element)
+                    case "si":
+                        shared = _written(element).replace("x005F_", "")
+                        self._shared.append(self._counted(shared))
+                    case "col" if element.get("hidden") in ("1", "true"):
+                        self._hidden_columns.append(int(element.attrib["min"]))
+                    case "mergeCell":
+                        self._merge(element.attrib["ref"])
+                    case _:
+                        continue
+                element.clear()
+        except (ElementTree.ParseError, LookupError, ValueError, OverflowError) as error:
+            raise _no_workbook(f"{name} is damaged: {error}") from None
         for row, column in self.merged:  # no program shows what is below the first of them
             self.rows.get(row, {}).pop(column, None)
 
-    def _begin(self, name: str, given: dict[str, str]) -> None:
-        match name.rpartition(":")[2]:
-            case "v" | "f" | "t" as kind:
-                if self._found is not None and not self._phonetic:
-                    self._pieces, self._length = self._found.setdefault(kind, []), 0
-            case "c":
-                self._place(given.get("r"))
-                self._kind, self._style = given.get("t", "n"), int(given.get("s", 0))
-                self._found = {}
-            case "si":
-                self._found = {}
-            case "rPh":
-                self._phonetic = True
-            case "row":
-                self._row, self._column = int(float(given.get("r", self._row + 1))), 0
-                if given.get("hidden") in ("1", "true"):
-                    self._hidden_rows.add(self._row)
-            case "col":
-                if given.get("hidden") in ("1", "true"):
-                    self._hidden_columns.append(int(given["min"]))
-            case "mergeCell":
-                self._merge(given["ref"])
-
-    def _add(self, text: str) -> None:
-        if self._pieces is not None:
-            self._length += len(text)
-            if self._length > MAX_CELL:
-                raise _too_large(f"a cell of more than {MAX_CELL} characters")
-            self._pieces.append(text)
-
-    def _end(self, name: str) -> None:
-        match name.rpartition(":")[2]:
-            case "v" | "f" | "t":
-                self._pieces = None
-            case "rPh":
-                self._phonetic = False
-            case "si" if self._found is not None:
-                text = "".join(self._found.get("t", ())).replace("x005F_", "")
-                self._shared.append(self._counted(text))
-                self._found = None
-            case "c" if self._found is not None:
-                if text := self._text({kind: "".join(each) for kind, each in self._found.items()}):
-                    self.rows.setdefault(self._row, {})[self._column] = self._counted(text)
-                self._found = None
+    def _read_row(self, row: ElementTree.Element) -> None:
+        self._row, self._column = int(float(row.get("r", self._row + 1))), 0
+        if row.get("hidden") in ("1", "true"):
+            self._hidden_rows.add(self._row)
+        for cell in row:
+            self._place(cell.get("r"))
+            if text := self._text(cell):
+                self.rows.setdefault(self._row, {})[self._column] = self._counted(text)
 
     def _counted(self, text: str) -> str:
+        if len(text) > MAX_CELL:
+            raise _too_large(f"a cell of more than {MAX_CELL} characters")
         self._size += len(text) + 1
         if self._size > MAX_TEXT:
             raise _too_large(f"more than {MAX_TEXT / 1e6:.0f} million characters")
@@ -324,16 +270,17 @@ class _Cells:
         self.merged |= {(row, column): named for row in rows for column in columns}
         self.merged.pop((top, left), None)
 
-    def _text(self, found: dict[str, str]) -> str:
-        """The cell that was gone through as text."""
-        stored = found.get("v", "")
-        match self._kind:
-            case "inlineStr":
-                return _quoted_cell(found.get("t", ""))
-            case "n" if not stored and "f" in found:  # one that is an empty text is of type str
-                return _quoted_cell(f"={found['f'].lstrip('=')}")
+    def _text(self, cell: ElementTree.Element) -> str:
+        """A cell as text."""
+        parts = {part.tag.rpartition("}")[2]: part for part in cell}
+        stored = (parts["v"].text or "") if "v" in parts else ""
+        match cell.get("t", "n"):
+            case "inlineStr" if "is" in parts:
+                return _quoted_cell(_written(parts["is"]))
+            case "n" if not stored and "f" in parts:  # one that is an empty text is of type str
+                return _quoted_cell(f"={(parts['f'].text or '').lstrip('=')}")
             case "n" if stored:
-                return self._number(stored.strip())
+                return self._number(stored.strip(), int(cell.get("s", 0)))
             case "s" if stored:
                 if not 0 <= int(stored) < len(self._shared):
                     raise ValueError(f"there is no text {shown(stored)}")
@@ -342,14 +289,14 @@ class _Cells:
                 return str(bool(int(stored))).upper()
         return _quoted_cell(stored)
 
-    def _number(self, text: str) -> str:
+    def _number(self, text: str, style: int) -> str:
         if not NUMBER.fullmatch(text):
             return _quoted_cell(text)
         value = float(text)
-        if self._style in self._workbook._date_formats:
+        if style in self._workbook._date_formats:
             from openpyxl.utils.datetime import from_excel
 
-            length = self._style in self._workbook._timedelta_formats
+            length = style in self._workbook._timedelta_formats
             try:
                 when = from_excel(value, self._workbook.epoch, timedelta=length)
             except (OverflowError, ValueError):

@@ -10,33 +10,33 @@ from __future__ import annotations
 import itertools
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from burmester.errors import Advice, InputError
-from burmester.io.reading import pose_table
 from burmester.io.reading.pose_table import (
     DIRECTION,
     HEADER,
+    NUMBER_LIKE,
     NUMERIC,
     POINTS,
     Source,
     brief,
+    no_poses,
     numeric_roles,
+    plain_number,
     shown,
 )
 from burmester.io.reading.tables.column_words import known
-from burmester.io.reading.tables.columns import Columns, has_poses, is_header, read_columns
-from burmester.io.reading.tables.csv_cells import (
+from burmester.io.reading.tables.columns import has_poses, is_header, read_columns
+from burmester.io.reading.tables.columns_together import are_directions
+from burmester.io.reading.tables.grid import (
     ROW_LINE,
     SPREADSHEET_ERRORS,
-    cell_location,
-    row_values,
+    Grid,
+    Row,
     split_cells,
     unquoted,
+    values_of,
 )
-from burmester.io.reading.tables.direction_columns import are_directions
-
-__all__ = ["SEPARATOR_NAMES", "Header", "read_header"]
 
 MAX_NAMES = 20  # columns of a text without a header that are looked at
 MAX_COMPARED_ROWS = 1000  # the same of rows
@@ -46,92 +46,42 @@ _MEASURED = NUMERIC[:3]  # roles whose columns have units, beside the coordinate
 _HEADER_LINE = re.compile(rf"(?m)^[^\S\n]*(?:[^\s#]|#[^\S\n]*[,;\t|]|{SPREADSHEET_ERRORS}).*$")
 # The begin of a cell of a row, where a number belongs: its first digit, or an error value.
 _ROW_CELL = re.compile(rf"[-+\u2212\u2013.,]*[0-9]|(?i:nan|[-+]?inf)|{SPREADSHEET_ERRORS}")
-SEPARATOR_NAMES = {  # one of them, and many
-    ",": ("a comma", "commas"),
-    "\t": ("a tab", "tabs"),
-    ";": ("a semicolon", "semicolons"),
-    "|": ("a bar", "bars"),
-    " ": ("a blank", "blanks"),
-}
 _SEPARATOR_LINE = re.compile(r'"?sep=([,;\t| ])"?[,;\t| ]*(?:\n|\Z)', re.IGNORECASE)
 
 
-class Header(NamedTuple):
-    """The columns by the header line, or by --columns."""
-
-    source: Source
-    end: int  # where the rows begin in the text
-    separator: str
-    names: list[str]  # without the empty ones at the end
-    spare: int  # the number of those
-    columns: Columns
-    where: str  # the angle column, if there is one
-    line: int = 0  # the number of the header's line, 0 for --columns
-    notes: tuple[Advice, ...] = ()  # what was passed over
-
-    def described(self, *, decimal_commas: bool, named: bool) -> str:
-        """The form of the file, and which column gives what; named: whether the rows are."""
-        source, where = self.source, "columns by --columns"
-        if self.line:
-            where = f"header in {source.line_word} {self.line}"
-        form = f"CSV with {SEPARATOR_NAMES[self.separator][1]}"
-        if source.sheet:
-            form = f"sheet {source.sheet.name}"
-        elif decimal_commas:
-            form += " and decimal commas"
-        return f"{form}; {where}: {self.columns.described(self.names, named=named)}"
-
-    @property
-    def unnamed(self) -> bool:
-        """Whether columns have no name; their cells have to be empty."""
-        return self.spare > 0 or "" in self.names
-
-
-def read_header(source: Source, given: str | None) -> Header:
-    """The header of a text; given: the names of --columns, if the text has no header."""
+def read_header(source: Source, given: str | None) -> Grid:
+    """The rows of a text below its header; given: the names of --columns, if it has none."""
     stated = _SEPARATOR_LINE.match(source.text)
     part = stated[1] if stated else None
     start = stated.end() if stated else 0
     lines = _filled_lines(source.text, start, part, header=given is None)
     first = next(lines, None)
     if not first:
-        raise pose_table.no_poses("the file has only comments")
+        raise no_poses("the file has only comments")
     following = itertools.islice(lines, MAX_TITLE_LINES)
     if given is not None:
         return _header_of_option(source, given, [first, *following], part)
     line = _header_below_titles(first, following, part)
     separator = part or _separator_of_header(line[0])
-    cells = split_cells(line[0], separator)
-    names = [unquoted(cell) for cell in cells]
-    while names and not names[-1]:
-        names.pop()
-
-    def where(i: int | None, note: str = "") -> str:
-        if i is None:
-            return source.where(line.start(), len(line[0].rstrip()))
-        return cell_location(source, line.start(), cells, i, note)
-
-    _require_header(source, line, where(None))
-    columns = read_columns(
-        names,
-        where,
-        'name it "#{}"' + " (with the quotes)" * (not source.sheet),
-        may_be_named=True,
-    )
-    angle = where(columns.indices["angle"], "angle") if "angle" in columns.indices else where(None)
+    row = Row(source, line.start(), split_cells(line[0], separator))
+    names = row.values()
+    _require_header(source, line)
+    ignore = 'name it "#{}"' + " (with the quotes)" * (not source.sheet)
+    columns = read_columns(names, row.where, ignore, may_be_named=not source.names_columns)
+    angle = columns.indices.get("angle")
     notes = () if line is first else (_passed_over(source, first, line, "above the header"),)
-    header = Header(
+    grid = Grid(
         source,
-        line.end() + 1,
         separator,
         names,
-        len(cells) - len(names),
         columns,
-        angle,
-        source.line_number(line.start()),
-        notes,
+        row.where(angle, "angle"),
+        begin=line.end() + 1,
+        spare=len(row.cells) - len(names),
+        line=source.line_number(line.start()),
+        notes=notes,
     )
-    return _with_units(header)
+    return _with_units(grid)
 
 
 def _filled_lines(
@@ -139,9 +89,8 @@ def _filled_lines(
 ) -> Iterator[re.Match[str]]:
     """The lines with content; header: also comments that are a header, such as `#,x,y`."""
     for line in (_HEADER_LINE if header else ROW_LINE).finditer(text, start):
-        comment = not ROW_LINE.fullmatch(line[0])
-        cells = split_cells(line[0], part or _separator_of_header(line[0]))
-        if is_header(row_values(cells)) or (not comment and any(map(unquoted, cells))):
+        names = values_of(line[0], part or _separator_of_header(line[0]))
+        if is_header(names) or (names and ROW_LINE.fullmatch(line[0])):
             yield line
 
 
@@ -151,7 +100,7 @@ def _header_below_titles(
     """The line that is the header: the first one, or one below a title without rows of numbers."""
     likely = None
     for line in itertools.chain((first,), following):
-        names = row_values(split_cells(line[0], part or _separator_of_header(line[0])))
+        names = values_of(line[0], part or _separator_of_header(line[0]))
         if is_header(names):
             return line
         if likely is None and has_poses(names):
@@ -163,47 +112,42 @@ def _header_below_titles(
 
 def _passed_over(source: Source, first: re.Match[str], end: re.Match[str], which: str) -> Advice:
     """W213, for the lines from the first one to the one before `end`."""
-    text = source.text
-    count = text.count("\n", first.start(), end.start())
+    count = source.text.count("\n", first.start(), end.start())
     number, word = source.line_number(first.start()), source.line_word
     title = brief(f": `{first[0].strip()[:60]}`", "")
     lines = f"{word} {number}" if count == 1 else f"{word}s {number} to {number + count - 1}"
-    verb = "is" if count == 1 else "are"
     return Advice(
         "W213",
-        f"{lines} {which} {verb} passed over{title}",
+        f"{lines} {which} {'is' if count == 1 else 'are'} passed over{title}",
         "delete such rows to have nothing said"
         if source.sheet
         else "begin such lines with # to have nothing said",
     )
 
 
-def _with_units(header: Header) -> Header:
-    """The header with the units of the line below it, if that is a line of units."""
-    source, names = header.source, list(header.names)
-    line = ROW_LINE.search(source.text, header.end)
-    cells = split_cells(line[0], header.separator) if line else []
-    if not line or len(cells) != len(names) + header.spare:
-        return header
-
-    def where(i: int | None) -> str:
-        return cell_location(source, line.start(), cells, i or 0)
-
-    units = [unquoted(cell).strip("()[]<> ") for cell in cells]
-    measured = {i for role, i in header.columns.indices.items() if role in (*_MEASURED, *POINTS)}
+def _with_units(grid: Grid) -> Grid:
+    """The grid with the units of the line below its header, if that is a line of units."""
+    source, names = grid.source, list(grid.names)
+    line = ROW_LINE.search(source.text, grid.begin)
+    row = Row(source, line.start(), split_cells(line[0], grid.separator)) if line else None
+    if not line or not row or len(row.cells) != len(names) + grid.spare:
+        return grid
+    units = [unquoted(cell).strip("()[]<> ") for cell in row.cells]
+    measured = {i for role, i in grid.columns.indices.items() if role in (*_MEASURED, *POINTS)}
     if not any(units[i] for i in measured) or re.search("[0-9]", "".join(units)):
-        return header
+        return grid
     for i in measured:
         word = known(names[i])
         stated = known(f"{word.word} [{units[i]}]") if word and units[i] else word
         if not word or not stated or stated.unit == "?":
-            return header
+            return grid
         if word.unit is None:
             names[i] = f"{word.word} [{units[i]}]" if units[i] else names[i]
         elif stated.unit != word.unit:
             message = f"the header has {shown(names[i])}, and the line below it {shown(units[i])}"
-            raise InputError("E108", message, where=where(i), help="delete one of the two units")
-    columns = read_columns(names, where)
+            help = "delete one of the two units"
+            raise InputError("E108", message, where=row.where(i), help=help)
+    columns = read_columns(names, row.where)
     angle = columns.indices.get("angle")
     note = Advice(
         "W213",
@@ -211,34 +155,29 @@ def _with_units(header: Header) -> Header:
         "columns",
         "write the units into the header, as in x_mm, and delete the line",
     )
-    return header._replace(
-        end=line.end() + 1,
+    return grid._replace(
+        begin=line.end() + 1,
         columns=columns,
-        where=header.where if angle is None else where(angle),
-        notes=(*header.notes, note),
+        where=grid.where if angle is None else row.where(angle),
+        notes=(*grid.notes, note),
     )
 
 
 def _header_of_option(
     source: Source, given: str, lines: list[re.Match[str]], part: str | None
-) -> Header:
+) -> Grid:
     """The columns that --columns names; a header and titles of the file are passed over."""
-    option, cells = Source("--columns", given), given.split(",")
-
-    def where(i: int | None, note: str = "") -> str:
-        if i is None:
-            return option.where(0, len(given))
-        return cell_location(option, 0, cells, i, note)
-
-    names = [cell.strip() for cell in cells]
-    columns = read_columns(names, where, "name it #{}")
+    row = Row(Source("--columns", given), 0, given.split(","))
+    names = [cell.strip() for cell in row.cells]
+    columns = read_columns(names, row.where, "name it #{}")
     numeric = [columns.indices[role] for role in numeric_roles(columns.indices)]
     first = _first_row(lines, numeric, len(names), part)
     separator = part or _separator_of_row(first[0], len(names), numeric)
     skipped = lines[0] is not first
     notes = (_passed_over(source, lines[0], first, "above the first row"),) if skipped else ()
-    angle = where(columns.indices["angle"], "angle") if "angle" in columns.indices else where(None)
-    return Header(source, first.start(), separator, names, 0, columns, angle, notes=notes)
+    where = row.where(columns.indices.get("angle"), "angle")
+    say_unit = "name the column `angle_deg` or `angle_rad` in --columns"
+    return Grid(source, separator, names, columns, where, say_unit, first.start(), notes=notes)
 
 
 def _first_row(
@@ -246,12 +185,11 @@ def _first_row(
 ) -> re.Match[str]:
     """The first line with numbers where they belong, if no line above it has any."""
     for line in lines:
-        separator = part or _separator_of_row(line[0], width, numeric)
-        cells = row_values(split_cells(line[0], separator))
+        cells = values_of(line[0], part or _separator_of_row(line[0], width, numeric))
         found = [bool(_ROW_CELL.match(cells[i])) for i in numeric if i < len(cells)]
         if len(cells) == width and all(found):
             return line
-        if any(found) and not _is_header(line[0]):
+        if any(found) and not is_header(values_of(line[0], _separator_of_header(line[0]))):
             break
     return lines[0]
 
@@ -260,7 +198,7 @@ def _holds_numbers(line: str) -> bool:
     """Whether a line may be a pose, and so is no title: three numbers, or nothing but numbers."""
     for separator in "\t;|,":
         cells = map(unquoted, split_cells(line, separator))
-        if sum(bool(pose_table.NUMBER_LIKE.fullmatch(cell)) for cell in cells) >= len(_MEASURED):
+        if sum(bool(NUMBER_LIKE.fullmatch(cell)) for cell in cells) >= len(_MEASURED):
             return True
     return _separator_of_numbers(line) is not None
 
@@ -268,18 +206,18 @@ def _holds_numbers(line: str) -> bool:
 def _separator_of_numbers(line: str) -> str | None:
     """The separator of a line that is numbers alone, and so no title and no header."""
     for separator in "\t;|, ":  # commas may be decimal marks
-        cells = [unquoted(cell) for cell in split_cells(line, separator)]
-        if separator in line.strip() and all(map(pose_table.NUMBER_LIKE.fullmatch, cells)):
+        cells = map(unquoted, split_cells(line, separator))
+        if separator in line.strip() and all(map(NUMBER_LIKE.fullmatch, cells)):
             return separator
     return None
 
 
 def _separator_of_row(line: str, width: int, numeric: list[int]) -> str:
     """The separator of a row with `width` cells and numbers at the indices `numeric`."""
-    rows = {s: row_values(split_cells(line, s)) for s in "\t;|, "}
-    fits = [s for s, row in rows.items() if len(row) == width]
+    rows = {separator: values_of(line, separator) for separator in "\t;|, "}
+    fits = [separator for separator, row in rows.items() if len(row) == width]
     for separator in fits:
-        if all(pose_table.NUMBER_LIKE.fullmatch(rows[separator][i]) for i in numeric):
+        if all(NUMBER_LIKE.fullmatch(rows[separator][i]) for i in numeric):
             return separator
     return next(iter(fits), _separator_of_header(line))
 
@@ -288,51 +226,47 @@ def _separator_of_header(line: str) -> str:
     """The separator of a header."""
     for is_one in (is_header, has_poses):
         for separator in ",\t;| ":
-            if is_one(row_values(split_cells(line, separator))):
+            if is_one(values_of(line, separator)):
                 return separator
     blank = " " if re.search(r"\S[ \t]+\S", line) else ","
     return next((s for s in ",\t;|" if s in line), blank)
 
 
-def _is_header(line: str) -> bool:
-    return is_header(row_values(split_cells(line, _separator_of_header(line))))
-
-
-def _require_header(source: Source, first: re.Match[str], where: str) -> None:
+def _require_header(source: Source, first: re.Match[str]) -> None:
     """Refuse a line of numbers on top: E105 with the header that would fit above it."""
     separator = _separator_of_numbers(first[0])
-    if separator is None:
+    if separator is None or source.names_columns:
         return
-    cells = split_cells(first[0], separator)
-    why = None
-    names = HEADER.split(",")[: max(2, len(cells))]
-    direction = _direction_columns(source, first, separator, len(cells))
+    count = len(split_cells(first[0], separator))
+    names, what, why = HEADER.split(",")[: max(2, count)], "x and y of points", None
+    direction = _direction_columns(source, first, separator, count)
     if direction is not None:
-        names = ["x", "y", *(f"#{i}" for i in range(3, len(cells) + 1))]
+        names = ["x", "y", *(f"#{i}" for i in range(3, count + 1))]
         names[direction : direction + 2] = DIRECTION
         columns = f"columns {direction + 1} and {direction + 2}"
         why = f"the squares of {columns} add up to 1 in all rows: cosine and sine of an angle?"
         what = "x, y, the cosine and the sine of the angle"
-    elif len(cells) <= len(_MEASURED):
-        what = "x, y and the angle in degrees" if len(cells) == 3 else "x and y of points"
-    if direction is not None or len(cells) <= len(_MEASURED):
+    elif count == len(_MEASURED):
+        what = "x, y and the angle in degrees"
+    points = "`px,py,qx,qy`" if count == len(POINTS) else "px, py, qx and qy"
+    help = (
+        f"name the {count} columns in a line on top, or in --columns: x, y and angle_deg "
+        f"(or angle_rad, or cos and sin), or {points} for two points; weight; and a name that "
+        "begins with # for a column to be passed over"
+    )
+    if direction is not None or count <= len(_MEASURED):
         help = (
             f"if the columns are {what}, put this line on top: `{separator.join(names)}`"
             + " (or angle_rad in it)" * ("angle_deg" in names)
             + f", or pass --columns {','.join(names)}"
         )
-    else:
-        points = "`px,py,qx,qy`" if len(cells) == len(POINTS) else "px, py, qx and qy"
-        help = (
-            f"name the {len(cells)} columns in a line on top, or in --columns: x, y and angle_deg "
-            f"(or angle_rad, or cos and sin), or {points} for two points; weight; and a name that "
-            "begins with # for a column to be passed over"
-        )
     above = source.text[: first.start()].rstrip("\n").rpartition("\n")[2].strip()
-    if above.startswith("#") and _is_header(above.lstrip("# ")):
-        line = brief(f"`{above.lstrip('# ')}`", "the line above")
+    name_line = above.lstrip("# ")
+    if above.startswith("#") and is_header(values_of(name_line, _separator_of_header(name_line))):
+        line = brief(f"`{name_line}`", "the line above")
         help = f"delete the # in front of {line}, or pass --columns {HEADER}"
     message = "there is no header: the first line is all numbers"
+    where = source.where(first.start(), len(first[0].rstrip()))
     raise InputError("E105", message, where=where, why=why, help=help)
 
 
@@ -344,7 +278,7 @@ def _direction_columns(
     rows = []
     for line in lines:
         cells = [unquoted(cell) for cell in split_cells(line[0], separator)]
-        plain = [pose_table.plain_number(cell, separator) for cell in cells[:MAX_NAMES]]
+        plain = [plain_number(cell, separator) for cell in cells[:MAX_NAMES]]
         if len(cells) != width or any(mark is None for _, mark in plain):
             return None
         rows.append([text for text, _ in plain])
