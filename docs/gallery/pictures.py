@@ -45,7 +45,7 @@ def run(page):
 
 def drawn(chosen, name):
     """The picture of a linkage at its poses."""
-    return still(chosen.driver_first, chosen.error.places, chosen.task, name) + "\n"
+    return still(chosen, name) + "\n"
 
 
 def numbers(linkage):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from burmester.export import Options
-from burmester.export.models.joints import ground_joint
+from burmester.export.models.joints import JointMotion
 from burmester.export.reference import Reference
 from burmester.fourbar.dyad import PR
 from tests.oracles.handed_over import NAMES, complex_places, joints, scale_of, span_of, written
@@ -106,11 +106,9 @@ def test_urdf_is_the_linkage_with_its_loop_open(name, tmp_path):
     for moved in (False, True):
         k = 5 if moved else 2
         if moved:
-            reference = Reference.of(chosen, Options(), "m")
-            for side, joint in ((0, "driver"), (1, "follower")):
-                if reference.kinds[side] != "RP":
-                    q = ground_joint(reference, side, reference.places)
-                    data.joint(joint).qpos[0] = q[5] - q[2]
+            q = JointMotion.of(chosen, Reference.of(chosen, Options(), "m")).at_poses
+            for column, joint in ((0, "driver"), (2, "follower")):
+                data.joint(joint).qpos[0] = q[5, column] - q[2, column]
             carried = moved_by(chosen, scale)
             for joint, value in carried.items():
                 data.joint(joint).qpos[0] = value

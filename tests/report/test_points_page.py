@@ -114,6 +114,6 @@ def test_a_path_asks_for_no_angles_at_all(browser, path, tmp_path):
 
 def test_a_still_drawing_has_frames_at_poses_and_dots_at_points(mixed):
     best = mixed.linkages[0]
-    text = still(best.driver_first, best.error.places, mixed.task, "points")
+    text = still(best, "points")
     assert text.count(f'fill="none" stroke="{POSE}"') == 3
     assert text.count(f'r="3.5" fill="{POSE}"') == len(POINTS)

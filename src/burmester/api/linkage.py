@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from dataclasses import dataclass, fields
 from html import escape
 from pathlib import Path
@@ -25,7 +26,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.found import FoundSixBar
 from burmester.values import real_numbers
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.web.still import six_bar_still, still
+from burmester.web.still import still
 from burmester.wording import with_article
 
 if TYPE_CHECKING:
@@ -34,6 +35,9 @@ if TYPE_CHECKING:
 
     from burmester.synthesis.result import Candidate
     from burmester.tasks.motion_task import Task
+
+
+SWEPT_PLACES = 49  # of the body along the motion; each is a thin outline
 
 
 class Chosen:
@@ -51,6 +55,8 @@ class Chosen:
 
         @property
         def task(self) -> Task: ...
+
+        def motion(self, count: int = 100) -> Configuration: ...
 
     @classmethod
     def of(cls, found: Any) -> Self:
@@ -118,7 +124,13 @@ class Chosen:
         InputError
             E130, where Matplotlib is missing.
         """
-        raise NotImplementedError
+        from burmester import plot  # noqa: PLC0415  it loads Matplotlib
+
+        along = None
+        if self.task.body is not None:
+            with suppress(InputError):  # nothing leads from the first pose to the last
+                along = self.motion(SWEPT_PLACES).body
+        return plot.linkage_figure(cast("Candidate", self), ax, along=along)
 
     def animate(self, *, seconds: float = 4.0, width_px: int = 640) -> MovingPicture:
         """The linkage on its way through the poses, as a GIF that a notebook shows.
@@ -145,7 +157,7 @@ class Chosen:
 
     def _drawing(self) -> str:
         """The linkage at its poses, as SVG."""
-        raise NotImplementedError
+        return still(cast("Candidate", self), self._title())
 
     def _dimensions(self) -> str:
         """A table of its dimensions, as HTML."""
@@ -244,15 +256,6 @@ class ResultLinkage(FoundLinkage, Chosen):
                 joints[f"{name}_moving"] = places.act(dyad.moving_pivot)
         return Configuration(driver, places, joints)
 
-    def plot(self, ax: Axes | None = None) -> Figure:
-        """The linkage at its poses; see `Chosen.plot`."""
-        from burmester.api.figure import linkage_figure  # noqa: PLC0415
-
-        return linkage_figure(self, ax)
-
-    def _drawing(self) -> str:
-        return still(self.driver_first, self.error.places, self.task, self._title())
-
     def _dimensions(self) -> str:
         return dimensions_as_html(self)
 
@@ -264,15 +267,6 @@ class ResultLinkage(FoundLinkage, Chosen):
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
 class ResultSixBar(FoundSixBar, Chosen):
     """A `FoundSixBar` that can be drawn and handed over."""
-
-    def plot(self, ax: Axes | None = None) -> Figure:
-        """The six-bar at its poses; see `Chosen.plot`."""
-        from burmester import plot  # noqa: PLC0415  it loads Matplotlib
-
-        return plot.six_bar_figure(self, self.task, ax=ax)
-
-    def _drawing(self) -> str:
-        return six_bar_still(self, self.task, self._title())
 
     def _dimensions(self) -> str:
         rows = six_bar_words.joint_rows(self) + six_bar_words.length_rows(self)

@@ -104,7 +104,6 @@ FORMATS: Final[Mapping[str, Format]] = {
 }
 
 SIX_BAR_FORMATS: Final = tuple(name for name in FORMATS if name != "pylinkage")
-SIX_BAR_MODULES: Final = {"tables": "six_bar_tables"}  # that write other files of six-bars
 PACKAGES: Final = {"PIL": "pillow", "imageio_ffmpeg": "imageio-ffmpeg"}  # module: what pip calls it
 
 
@@ -194,21 +193,18 @@ def export(
     """
     name = require_format(path, to)
     form = FORMATS[name]
-    writer = form.module
-    if not isinstance(chosen, FoundLinkage):
-        writer = SIX_BAR_MODULES.get(writer, writer)
-        if name not in SIX_BAR_FORMATS:
-            raise InputError(
-                "E198",
-                f"a six-bar cannot be written as {name}: {form.what}",
-                why=f"the formats of six-bars are {listed(SIX_BAR_FORMATS)}",
-                help="give --to csv, or another of these",
-            )
+    if name not in SIX_BAR_FORMATS and not isinstance(chosen, FoundLinkage):
+        raise InputError(
+            "E198",
+            f"a six-bar cannot be written as {name}: {form.what}",
+            why=f"the formats of six-bars are {listed(SIX_BAR_FORMATS)}",
+            help="give --to csv, or another of these",
+        )
     try:
         for library in form.libraries:
             step(f"loading {library}")
             import_module(library)
-        module = import_module(f"burmester.export.{writer}")
+        module = import_module(f"burmester.export.{form.module}")
     except ModuleNotFoundError as error:
         missing = (error.name or "a library").partition(".")[0]
         missing = PACKAGES.get(missing, missing)

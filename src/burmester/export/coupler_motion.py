@@ -24,7 +24,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import characteristic_length
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["CouplerMotion"]
+__all__ = ["CouplerMotion", "places_on_branches"]
 
 TURN: Final = 2 * np.pi
 ANGLE_SAMPLES: Final = 721  # places between which the coupler's angle is unwrapped
@@ -163,3 +163,31 @@ def _turns(own: Circuits, start: float) -> float:
 
 def _poses(count: int) -> str:
     return ("no pose", "one pose")[count] if count < 2 else f"{count} poses"
+
+
+def places_on_branches(linkage: Linkage, places: Displacement, looks: int) -> Displacement:
+    """Coupler places (n,) along each branch of a circuit from its first to its last of places (N,).
+
+    The places themselves are among them, in their order along the way.  Whole turns are cut where
+    the places leave the widest gap.
+    """
+    circuits = Circuits.of(linkage, as_given=True)
+    here = circuit_of(linkage, places, as_given=True)
+    rows: list[FloatArray] = []
+    on = np.isfinite(here.parameter) & (here.circuit >= 0)
+    for circuit, branch in sorted(set(zip(here.circuit[on], here.branch[on], strict=True))):
+        own = circuits[int(circuit)]
+        which = on & (here.circuit == circuit) & (here.branch == branch)
+        s = here.parameter[which]
+        if own.closed and own.branches == 1:
+            order = np.sort(s % (2 * np.pi))
+            gap = np.append(order[1:], order[0] + 2 * np.pi) - order
+            cut = order[(int(gap.argmax()) + 1) % len(order)]
+            s = cut + (s - cut) % (2 * np.pi)
+        s = np.unique(np.concatenate([np.linspace(s.min(), s.max(), looks), s]))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            along = own.couplers(s)
+        rows.append(np.column_stack([along.translation, along.angle]))
+    rows.append(np.column_stack([places.translation, places.angle]))
+    table = np.concatenate(rows if len(rows) == 1 else rows[:-1])
+    return Displacement.from_poses(table[np.isfinite(table).all(axis=1)])

@@ -10,9 +10,6 @@ from burmester.describe.decimals import Decimals, decimals_of_linkage, figures_o
 from burmester.describe.dimensions import dimensions_of
 from burmester.export.options import Options, stated_unit, unit_of
 from burmester.export.reference import Reference
-from burmester.export.six_bar_reference import SixBarReference
-from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
-from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Candidate
@@ -24,18 +21,9 @@ from burmester.wording import in_unit, with_article
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
-__all__ = ["description", "dimension_notes", "length_decimals", "reference_of"]
+__all__ = ["description", "dimension_notes", "length_decimals"]
 
 FINEST: Final = 1e-7  # of a six-bar's span: what the last decimal of its lengths is worth
-
-
-def reference_of(
-    chosen: Candidate, options: Options, unit: str = "mm"
-) -> Reference | SixBarReference:
-    """What a file is compared with, in a unit; raises E162, and E163 without places."""
-    if not isinstance(chosen, FoundLinkage):
-        return SixBarReference.of(chosen, options, unit)
-    return Reference.of(chosen, options, unit)
 
 
 def description(chosen: Candidate, options: Options, unit: str | None) -> list[str]:
@@ -97,32 +85,34 @@ def _of_six_bar(chosen: FoundSixBar) -> list[str]:
 
 def length_decimals(chosen: Candidate, options: Options, unit: str = "mm") -> int:
     """With how many decimals lengths in a unit keep the linkage's error."""
-    if not isinstance(chosen, FoundLinkage):
-        return figures_of(FINEST * SixBarReference.of(chosen, options, unit).span)
-    return _printed_decimals(chosen, options, unit)[1].lengths
+    reference = Reference.of(chosen, options, unit)
+    if reference.dyads is None:
+        return figures_of(FINEST * reference.span)
+    return _decimals(chosen, reference).lengths
 
 
-def _printed_decimals(
-    chosen: FoundLinkage, options: Options, unit: str
-) -> tuple[Linkage, Decimals]:
-    """The linkage in a unit, and with how many decimals its dimensions keep its error."""
-    own = Reference.of(chosen, options, unit)
-    size = characteristic_length(chosen.task) * own.scale
-    both = chosen.driver_first
-    linkage = Linkage(_scaled(both.first, own.scale), _scaled(both.second, own.scale))
-    error = PoseError.at(own.places, own.poses)
-    length = default_length_per_radian(chosen.task) * own.scale
+def _decimals(chosen: Candidate, reference: Reference) -> Decimals:
+    """With how many decimals the dimensions of a four-bar keep its error."""
+    linkage = reference.dyads
+    assert linkage is not None
+    size = characteristic_length(chosen.task) * reference.scale
+    error = PoseError.at(reference.places, reference.poses)
+    length = default_length_per_radian(chosen.task) * reference.scale
     free = chosen.task.free_angles
-    return linkage, decimals_of_linkage(linkage, own.poses, error, length, size, free_angles=free)
+    return decimals_of_linkage(linkage, reference.poses, error, length, size, free_angles=free)
 
 
 def dimension_notes(chosen: Candidate, options: Options, unit: str = "mm") -> list[str]:
     """The dimensions in a unit, a line for each link, and what a builder gets of them."""
-    if not isinstance(chosen, FoundLinkage):
-        found = SixBarReference.of(chosen, options, unit).found
+    reference = Reference.of(chosen, options, unit)
+    if reference.found is not None:
+        found = reference.found
         links = six_bar_words.joint_rows(found) + six_bar_words.length_rows(found)
         return [f"{name}: {' '.join(each for each in own if each)}." for name, *own in links]
-    linkage, decimals = _printed_decimals(chosen, options, unit)
+    linkage = reference.dyads
+    assert linkage is not None
+    assert isinstance(chosen, FoundLinkage)
+    decimals = _decimals(chosen, reference)
     rows = dimensions_of((linkage.first, linkage.second), chosen.ids, decimals)
     notes = []
     for name in chosen.ids:
@@ -136,16 +126,3 @@ def dimension_notes(chosen: Candidate, options: Options, unit: str = "mm") -> li
             "of them."
         )
     return notes
-
-
-def _scaled(dyad: Dyad, scale: float) -> Dyad:
-    """A dyad in another unit of length, `scale` of them for one."""
-    match dyad:
-        case RR():
-            return RR(dyad.fixed_pivot * scale, dyad.moving_pivot * scale, dyad.radius * scale)
-        case PR():
-            return PR(dyad.normal_angle, dyad.offset * scale, dyad.moving_pivot * scale)
-        case RP():
-            return RP(dyad.fixed_pivot * scale, dyad.normal_angle, dyad.offset * scale)
-        case PP():
-            return dyad

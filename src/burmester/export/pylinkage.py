@@ -18,10 +18,11 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.export.description import description
 from burmester.export.escaping import python_docstring
-from burmester.export.models.joints import JointMotion, directions, ground_joint
+from burmester.export.models.joints import JointMotion
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, Reference, require_equal
+from burmester.fourbar.dyad import PR, RP, RR
 from burmester.numerics.arrays import FloatArray
 from burmester.verdicts.found_linkage import FoundLinkage
 
@@ -70,27 +71,13 @@ if __name__ == "__main__":
 
 def write(chosen: FoundLinkage, path: Path, options: Options) -> None:
     """Write the script; raises E163."""
-    reference = Reference.of(chosen, options, None)
-    if not set(reference.kinds) <= {"RR", "PR"}:
-        slot = "RP" in reference.kinds
-        raise InputError(
-            "E163",
-            f"linkage {chosen.id} cannot be built with pylinkage",
-            why="it has no slot on a moving body (RP)"
-            if slot
-            else "it has no body that only translates (PP)",
-            help="choose a linkage of RR and PR dyads, or --to mjcf, which has slots"
-            if slot
-            else "choose another linkage",
-        )
+    reference, (driver, follower) = _reference(chosen, options)
     place = reference.places[options.pose - 1]
-    one, two = reference.moving
-    assert one is not None
-    assert two is not None
+    one, two = driver.moving_pivot, follower.moving_pivot
     drive = JointMotion.of(chosen, reference).at_poses[:, 0]
     tips = place.act(np.stack([one, two]))
-    actuator = "Crank" if reference.kinds[0] == "RR" else "LinearActuator"
-    dyad = "RRRDyad" if reference.kinds[1] == "RR" else "RRPDyad"
+    actuator = "Crank" if isinstance(driver, RR) else "LinearActuator"
+    dyad = "RRRDyad" if isinstance(follower, RR) else "RRPDyad"
     head = "\n".join(map(python_docstring, description(chosen, options, None)))
     arm = two - one
     length = math.hypot(*arm.tolist())
@@ -105,11 +92,11 @@ def write(chosen: FoundLinkage, path: Path, options: Options) -> None:
         IMPORTS.format(about=head, actuator=actuator, dyad=dyad),
         f"COUPLER = {number(length)}  # between its pivots",
     ]
-    numbers, body, drives = _driver(reference, drive)
+    numbers, body, drives = _driver(driver, reference, drive)
     lines += numbers
     x, y = tips[1].tolist()
     lines.append(f"B0 = {_p((x, y))}  # the follower's pin at the start")
-    numbers, more, grounds = _follower(reference)
+    numbers, more, grounds = _follower(follower, reference)
     lines += numbers
     body += more
     body += [
@@ -124,7 +111,7 @@ def write(chosen: FoundLinkage, path: Path, options: Options) -> None:
         f"BODY = ({tracked((0.0, 0.0))})",
         f"BODY_X = ({tracked(unit_x)})",
         "# Where the driver is at the poses: "
-        + ("radians." if reference.kinds[0] == "RR" else "from the beginning of its rail."),
+        + ("radians." if isinstance(driver, RR) else "from the beginning of its rail."),
         f"DRIVES = {[float(each) for each in drives]!r}",
         f"START = {options.pose - 1}  # the pose at which it is assembled, from 0",
         "",
@@ -136,28 +123,53 @@ def write(chosen: FoundLinkage, path: Path, options: Options) -> None:
     path.write_text("\n".join(lines) + "\n" + RUN, encoding="utf-8", newline="\n")
 
 
-def _driver(reference: Reference, drive: FloatArray) -> tuple[list[str], list[str], FloatArray]:
+def _reference(chosen: FoundLinkage, options: Options) -> tuple[Reference, list[RR | PR]]:
+    """The linkage in the task's unit, and its dyads; raises E163 where pylinkage has none."""
+    both = chosen.driver_first
+    dyads = [each for each in (both.first, both.second) if isinstance(each, RR | PR)]
+    if len(dyads) < 2:
+        slot = isinstance(both.first, RP) or isinstance(both.second, RP)
+        raise InputError(
+            "E163",
+            f"linkage {chosen.id} cannot be built with pylinkage",
+            why="it has no slot on a moving body (RP)"
+            if slot
+            else "it has no body that only translates (PP)",
+            help="choose a linkage of RR and PR dyads, or --to mjcf, which has slots"
+            if slot
+            else "choose another linkage",
+        )
+    return Reference.of(chosen, options, None), dyads
+
+
+def _rail(dyad: PR) -> tuple[FloatArray, FloatArray]:
+    """The foot of a slider's line, the point nearest to the origin, and its direction."""
+    c, s = np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)
+    return dyad.offset * np.array([c, s]), np.array([-s, c])
+
+
+def _driver(
+    dyad: RR | PR, reference: Reference, drive: FloatArray
+) -> tuple[list[str], list[str], FloatArray]:
     """The driver's numbers, what builds it, and where it is at the poses (N,)."""
-    fixed, radius, line = reference.fixed[0], reference.radius[0], reference.line[0]
     ground = 'a = Ground(*A, name="A")'
-    if fixed is not None:
+    if isinstance(dyad, RR):
         numbers = [
-            f"A = {_p(fixed)}  # the driver's fixed pivot",
-            f"CRANK = {number(radius or 0.0)}",
+            f"A = {_p(dyad.fixed_pivot)}  # the driver's fixed pivot",
+            f"CRANK = {number(float(dyad.radius))}",
         ]
         built = (
             "driver = Crank(a, CRANK, angular_velocity=1.0, initial_angle=DRIVES[START], "
             'name="driver")'
         )
         return numbers, [ground, built], drive
-    assert line is not None
     # The rail begins a little before the first place, and ends a little behind the last.
-    n, along = directions(line[0])
+    foot, along = _rail(dyad)
     room = RAIL_MARGIN * (float(np.ptp(drive)) or reference.span)
     low = float(drive.min()) - room
     drives = drive - low
     numbers = [
-        f"A = {_p(line[1] * n + low * along)}  # where the driver's rail begins",
+        f"A = {_p(foot + low * along)}  # where the driver's rail begins",
         f"DIRECTION = {number(math.atan2(along[1], along[0]))}",
         f"STROKE = {number(float(drives.max()) + room)}",
     ]
@@ -168,13 +180,12 @@ def _driver(reference: Reference, drive: FloatArray) -> tuple[list[str], list[st
     return numbers, [ground, built], drives
 
 
-def _follower(reference: Reference) -> tuple[list[str], list[str], list[str]]:
+def _follower(dyad: RR | PR, reference: Reference) -> tuple[list[str], list[str], list[str]]:
     """The follower's numbers, what builds it, and the names of all points of the ground."""
-    fixed, radius, line = reference.fixed[1], reference.radius[1], reference.line[1]
-    if fixed is not None:
+    if isinstance(dyad, RR):
         numbers = [
-            f"B = {_p(fixed)}  # the follower's fixed pivot",
-            f"ROCKER = {number(radius or 0.0)}",
+            f"B = {_p(dyad.fixed_pivot)}  # the follower's fixed pivot",
+            f"ROCKER = {number(float(dyad.radius))}",
         ]
         built = [
             'b = Ground(*B, name="B")',
@@ -182,11 +193,10 @@ def _follower(reference: Reference) -> tuple[list[str], list[str], list[str]]:
             'name="follower")',
         ]
         return numbers, built, ["a", "b"]
-    assert line is not None
-    n, along = directions(line[0])
-    s = ground_joint(reference, 1, reference.places)
+    foot, along = _rail(dyad)
+    s = reference.places.act(dyad.moving_pivot) @ along
     room = RAIL_MARGIN * (float(np.ptp(s)) or reference.span)
-    ends = [line[1] * n + each * along for each in (s.min() - room, s.max() + room)]
+    ends = [foot + each * along for each in (s.min() - room, s.max() + room)]
     built = [
         'b1, b2 = Ground(*RAIL[0], name="B1"), Ground(*RAIL[1], name="B2")',
         'follower = RRPDyad(driver.output, b1, b2, COUPLER, x=B0[0], y=B0[1], name="follower")',
@@ -200,7 +210,7 @@ def _p(point: Any) -> str:
 
 def check(chosen: FoundLinkage, path: Path, options: Options) -> None:
     """Read the script's numbers back as Python has them, and compare; raises E160."""
-    reference = Reference.of(chosen, options, None)
+    reference, (driver, follower) = _reference(chosen, options)
     tolerance = PRECISION * reference.span
     tree = ast.parse(path.read_text(encoding="utf-8"))
     constants: dict[str, Any] = {}
@@ -209,19 +219,14 @@ def check(chosen: FoundLinkage, path: Path, options: Options) -> None:
             constants[node.targets[0].id] = ast.literal_eval(node.value)
     drives, start = np.array(constants["DRIVES"]), constants["START"]
     require_equal("the pose at the start", start, options.pose - 1, 0)
-    if reference.kinds[0] == "RR":
-        assert reference.fixed[0] is not None
-        require_equal("the driver's fixed pivot", constants["A"], reference.fixed[0], tolerance)
-        require_equal(
-            "the driver's length", constants["CRANK"], reference.radius[0] or np.nan, tolerance
-        )
+    if isinstance(driver, RR):
+        require_equal("the driver's fixed pivot", constants["A"], driver.fixed_pivot, tolerance)
+        require_equal("the driver's length", constants["CRANK"], driver.radius, tolerance)
         way = np.stack([np.cos(drives), np.sin(drives)], axis=1) * constants["CRANK"]
     else:
         way = drives[:, None] * [math.cos(constants["DIRECTION"]), math.sin(constants["DIRECTION"])]
     pins = np.array(constants["A"]) + way
-    one, two = reference.moving
-    assert one is not None
-    assert two is not None
+    one, two = driver.moving_pivot, follower.moving_pivot
     require_equal("the driver's pin at the poses", pins, reference.places.act(one), tolerance)
     require_equal(
         "the follower's pin", constants["B0"], reference.places[start].act(two), tolerance
@@ -229,16 +234,12 @@ def check(chosen: FoundLinkage, path: Path, options: Options) -> None:
     require_equal(
         "the coupler's length", constants["COUPLER"], np.linalg.norm(two - one), tolerance
     )
-    if reference.kinds[1] == "RR":
-        assert reference.fixed[1] is not None
-        require_equal("the follower's fixed pivot", constants["B"], reference.fixed[1], tolerance)
-        require_equal(
-            "the follower's length", constants["ROCKER"], reference.radius[1] or np.nan, tolerance
-        )
+    if isinstance(follower, RR):
+        require_equal("the follower's fixed pivot", constants["B"], follower.fixed_pivot, tolerance)
+        require_equal("the follower's length", constants["ROCKER"], follower.radius, tolerance)
     else:
-        assert reference.line[1] is not None
-        normal, offset = reference.line[1]
-        off = np.array(constants["RAIL"]) @ [math.cos(normal), math.sin(normal)] - offset
+        foot, along = _rail(follower)
+        off = (np.array(constants["RAIL"]) - foot) @ np.array([-along[1], along[0]])
         require_equal("the follower's rail", off, [0, 0], tolerance)
     arm = two - one
     for name, point in (("BODY", [0.0, 0.0]), ("BODY_X", [constants["COUPLER"], 0.0])):

@@ -1,8 +1,9 @@
-"""CSV of the coupler's places along the motion, and JSON of the linkage; the task's own unit.
+"""CSV of the places along the motion, and JSON of the linkage; the task's own unit.
 
-CSV: a row for each step along the motion from the first pose to the last, and one for each pose.
-Its numbers are rounded to the digits that carry: what lies far below the tolerance is left out.
-JSON: an object as `linkage.SCHEMA` describes it, the driver first.
+CSV: a row for each step along the motion from the first pose to the last, and one for each pose;
+joints that have names are told, too.  Numbers are rounded to the digits that carry: what lies far
+below the tolerance is left out.
+JSON: what `judge --linkage` reads: two dyads, the driver first, or the joints of all links.
 
 E160 the file does not contain the linkage    E163 a linkage that has no motion through its poses
 """
@@ -17,7 +18,8 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.export.coupler_motion import CouplerMotion
+from burmester.export.link_places import GROUND, LinkPlaces
+from burmester.export.motion import Motion
 from burmester.export.numbers import decimals_within, rounded
 from burmester.export.options import Options, stated_unit
 from burmester.export.reference import (
@@ -29,108 +31,164 @@ from burmester.export.reference import (
 )
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
+from burmester.io.linkage_data import six_bar_data
 from burmester.io.pose_data import poses_data
+from burmester.numerics.arrays import FloatArray
 from burmester.refinement.tolerance_boxes import poses_counted
+from burmester.synthesis.result import Candidate
 from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
 
 SCHEMA: Final = "burmester.linkage/1"
-MOTION_ROWS = 361  # rows along the motion, beside those of the poses
-ROUNDING = 0.01  # of the tolerance at which a table is compared: the error of its numbers, at most
+JOINTS_SCHEMA: Final = "burmester.six-bar/1"
+MOTION_ROWS: Final = 361  # rows along the motion, beside those of the poses
+ROUNDING: Final = 0.01  # of the tolerance at which a table is compared: error of its numbers
 
 
-def write_csv(chosen: FoundLinkage, path: Path, options: Options) -> None:
+def write_csv(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the table; raises E163."""
-    motion = CouplerMotion.of(chosen, 2)
+    motion = Motion.of(chosen, 2)
     shares = np.linspace(0, 1, MOTION_ROWS)
-    poses = {int(k): float(motion.pose_shares[k]) for k in motion.reached}
-    met = np.array(list(poses.values()))
+    reached = np.flatnonzero(np.isfinite(motion.pose_shares))
+    met = motion.pose_shares[reached]
     # Where a pose and a step are one place, the pose's row stands for both.
     shares = shares[np.abs(shares[:, None] - met).min(axis=1) > 0.01 / MOTION_ROWS]
     marked = [(share, 0) for share in shares.tolist()]
-    marked += [(share, number + 1) for number, share in poses.items()]
+    marked += zip(met.tolist(), (reached + 1).tolist(), strict=True)
     marked.sort()
-    motion = CouplerMotion.of(chosen, np.array([share for share, _ in marked]))
-    turns = motion.circuit.loop.turns
-    drive = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
-    unit = stated_unit(chosen, options)
+    motion = Motion.of(chosen, np.array([share for share, _ in marked]))
+    reference = Reference.of(chosen, options, None)
+    drive = np.degrees(motion.drive) if motion.in_turns else motion.drive
+    bodies, named = reference.bodies(motion.drive, motion.places), _named(reference)
+    joints = {name: bodies[link].act(hole) for name, (link, hole) in named.items()}
+    unit = "" if named else stated_unit(chosen, options)
     in_unit = f"_{unit}" if unit else ""
     # An angle moves what is a span away by the span.
     error = ROUNDING * PRECISION
-    lengths = decimals_within(error * Reference.of(chosen, options, None).span)
+    lengths = decimals_within(error * reference.span)
     angles = decimals_within(math.degrees(error))
+    head = ["drive_deg" if motion.in_turns else f"drive{in_unit}"]
+    head += [f"x{in_unit}", f"y{in_unit}", "angle_deg"]
+    head += [f"{name}_{axis}" for name in joints for axis in "xy"]
     with open(path, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow(
-            [
-                "drive_deg" if turns else f"drive{in_unit}",
-                f"x{in_unit}",
-                f"y{in_unit}",
-                "angle_deg",
-                "pose",
-            ]
-        )
-        rows = zip(
-            drive.tolist(), poses_data(motion.places), [number for _, number in marked], strict=True
-        )
-        for value, place, number in rows:
-            x, y, angle = place.values()
-            table.writerow(
-                [
-                    rounded(value, angles if turns else lengths),
-                    rounded(x, lengths),
-                    rounded(y, lengths),
-                    rounded(angle, angles),
-                    number or "",
-                ]
-            )
+        table.writerow([*head, "pose"])
+        for k, (place, (_, number)) in enumerate(
+            zip(poses_data(motion.places), marked, strict=True)
+        ):
+            *at, angle = place.values()
+            row = [rounded(float(drive[k]), angles if motion.in_turns else lengths)]
+            row += [rounded(each, lengths) for each in at]
+            row += [rounded(angle, angles)]
+            row += [rounded(each, lengths) for own in joints.values() for each in own[k].tolist()]
+            table.writerow([*row, number or ""])
 
 
-def check_csv(chosen: FoundLinkage, path: Path, options: Options) -> None:
+def _named(reference: Reference) -> dict[str, tuple[str, FloatArray]]:
+    """The joints that have names, in the frame of the link that holds them."""
+    return {
+        each.name: (each.holder, each.holes[each.holder]) for each in reference.joints if each.name
+    }
+
+
+def check_csv(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the table back and compare: every place is one of the linkage, and the poses' too."""
     reference = Reference.of(chosen, options, None)
+    span = reference.span
     with open(path, encoding="utf-8", newline="") as file:
         head, *rows = list(csv.reader(file))
-    numbers = np.array([[float(cell) for cell in row[:4]] for row in rows])
+    numbers = np.array([[float(cell) for cell in row[:-1]] for row in rows])
     places = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
-    tolerance = PRECISION * reference.span
-    require_equal("the links at the places", reference.closure_error(places), 0, tolerance)
-    at = [(k, int(row[4]) - 1) for k, row in enumerate(rows) if row[4]]
+    bodies = _bodies(reference, places, numbers[:, 4:])
+    _require_linkage(reference, bodies, places)
+    at = [(k, int(row[-1]) - 1) for k, row in enumerate(rows) if row[-1]]
     here, wanted = places[[k for k, _ in at]], reference.places[[pose for _, pose in at]]
     # Along a circuit a place is computed from the drive; beside dead points digits are lost, and at
     # a change point, where no linkage is usable, half of them.
     off = 1e-6 if chosen.usable else 1e-4
-    span = reference.span
     require_equal("the places for the poses", here.translation, wanted.translation, off * span)
     require_equal("the angles for the poses", as_rows(here)[:, 2:], as_rows(wanted)[:, 2:], off)
     if chosen.usable:
-        require_equal(
-            "the poses", sorted(pose for _, pose in at), np.arange(len(reference.places.angle)), 0
-        )
-    # The driver, from the places.
-    fixed, moving, line = reference.fixed[0], reference.moving[0], reference.line[0]
-    drives = numbers[:, 0]
-    if head[0] == "drive_deg" and line is None:
-        assert fixed is not None
-        assert moving is not None
-        arm = places.act(moving) - fixed
-        own = np.arctan2(arm[:, 1], arm[:, 0])
-    elif head[0] == "drive_deg":
-        assert line is not None
-        own = places.angle + line[0]
+        met = sorted(pose for _, pose in at)
+        require_equal("the poses", met, np.arange(len(reference.places.angle)), 0)
+    drive = numbers[:, 0]
+    if head[0] == "drive_deg":
+        turned = np.exp(1j * (np.radians(drive) - _driver_angle(reference, bodies)))
+        require_equal("the drive", np.abs(turned - 1).max(), 0, off)
     else:
-        assert line is not None
-        assert moving is not None
-        along = np.array([-math.sin(line[0]), math.cos(line[0])])
-        require_equal("the drive", drives, places.act(moving) @ along, off * span)
-        return
-    turned = np.exp(1j * (np.radians(drives) - own))
-    require_equal("the drive", np.abs(turned - 1).max(), 0, off)
+        slot = next(each.joint.slot for each in reference.tree if each.body == reference.driver)
+        assert slot is not None
+        require_equal("the drive", drive, slot.along(bodies), off * span)
 
 
-def write_json(chosen: FoundLinkage, path: Path, options: Options) -> None:
+def _driver_angle(reference: Reference, bodies: LinkPlaces) -> FloatArray:
+    """The driver's angle (n,): from its pivot on the ground to its next joint, or of its slot."""
+    driver = bodies[reference.driver]
+    own = [
+        (GROUND not in each.holes, each.holes[reference.driver])
+        for each in reference.links.get(reference.driver, ())
+    ]
+    if not own:
+        return driver.angle
+    ends = [next(hole for moves, hole in own if moves is each) for each in (False, True)]
+    arm = driver.rotate(ends[1] - ends[0])
+    return np.asarray(np.arctan2(arm[..., 1], arm[..., 0]))
+
+
+def _bodies(reference: Reference, places: Displacement, joints: FloatArray) -> LinkPlaces:
+    """Where the bodies are by the columns of the joints (n, 2 j); without any, by the places."""
+    if reference.found is None:
+        return reference.bodies(places.angle, places)
+    columns = np.moveaxis(joints.reshape(len(joints), -1, 2), 1, 0)
+    at = dict(zip(_named(reference), columns, strict=True))
+    there = reference.found.skeleton.places(reference.found.frames, at)
+    return LinkPlaces(dict(zip(reference.links, there.values(), strict=True)))
+
+
+def write_json(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the linkage; raises E163."""
+    data = _data(chosen, options)
+    path.write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def check_json(chosen: Candidate, path: Path, options: Options) -> None:
+    """Read the linkage back, compare all its numbers, and its places with its links."""
+    data = json.loads(path.read_text(encoding="utf-8"))
+    require_equal("the numbers", data == json.loads(json.dumps(_data(chosen, options))), True, 0)
+    if isinstance(chosen, FoundLinkage) and "PP" in [each["kind"] for each in data["dyads"]]:
+        return
+    reference = Reference.of(chosen, options, None)
+    rows = data["coupler" if "coupler" in data and "dyads" in data else "places"]
+    numbers = [[each["x"], each["y"], math.radians(each["angle_deg"])] for each in rows]
+    at = [list(each.values()) for each in data.get("joints", rows)]
+    places = Displacement.from_poses(np.array(numbers))
+    bodies = _bodies(reference, places, np.reshape(at, (len(rows), -1)))
+    _require_linkage(reference, bodies, places)
+
+
+def _require_linkage(reference: Reference, bodies: LinkPlaces, places: Displacement) -> None:
+    """Raise E160 unless the bodies are joined, the one that is asked for at these places (n,)."""
+    tolerance = PRECISION * reference.span
+    require_equal("the links at the places", reference.closure_error(bodies), 0, tolerance)
+    body = bodies[reference.body]
+    require_equal("the body", body.translation, places.translation, 100 * tolerance)
+    require_equal("its angles", as_rows(body)[:, 2:], as_rows(places)[:, 2:], 100 * PRECISION)
+
+
+def _data(chosen: Candidate, options: Options) -> dict[str, Any]:
+    if isinstance(chosen, FoundLinkage):
+        return _dyads_data(chosen, options)
+    return {
+        "schema": JOINTS_SCHEMA,
+        "length_unit": chosen.task.length_unit,
+        **six_bar_data(chosen),
+        "poses": poses_data(chosen.task.poses),
+        "places": poses_data(chosen.body(chosen.drive)),
+    }
+
+
+def _dyads_data(chosen: FoundLinkage, options: Options) -> dict[str, Any]:
     require_places(chosen)
     linkage = chosen.driver_first
     data: dict[str, Any] = {
@@ -151,41 +209,7 @@ def write_json(chosen: FoundLinkage, path: Path, options: Options) -> None:
     data["coupler"] = poses_data(chosen.error.places)
     data["position_error"] = {"max": float(chosen.error.position.max())}
     data["angle_error_deg"] = {"max": math.degrees(float(chosen.error.angle.max()))}
-    path.write_text(json.dumps(data, indent=2, allow_nan=False) + "\n", encoding="utf-8")
-
-
-def check_json(chosen: FoundLinkage, path: Path, options: Options) -> None:
-    """Read the linkage back and compare all its numbers."""
-    reference = Reference.of(chosen, options, None)
-    data = json.loads(path.read_text(encoding="utf-8"))
-    tolerance = PRECISION * reference.span
-    for k, dyad in enumerate(data["dyads"]):
-        require_equal(f"the kind of dyad {k + 1}", dyad["kind"] == reference.kinds[k], True, 0)
-        for key, wanted in (
-            ("fixed_pivot", reference.fixed[k]),
-            ("moving_pivot", reference.moving[k]),
-            ("radius", reference.radius[k]),
-        ):
-            if wanted is not None:
-                require_equal(f"{key} of dyad {k + 1}", dyad[key], wanted, tolerance)
-        if (line := reference.line[k]) is not None:
-            require_equal("a normal", math.radians(dyad["line"]["normal_deg"]), line[0], 1e-12)
-            require_equal("an offset", dyad["line"]["offset"], line[1], tolerance)
-    for key, places in (("coupler", reference.places), ("poses", reference.poses)):
-        rows = [[each["x"], each["y"]] for each in data[key]]
-        require_equal(f"the places of {key}", rows, places.translation, tolerance)
-        angles = [math.radians(each["angle_deg"]) for each in data[key]]
-        require_equal(f"the angles of {key}", angles, places.angle, 1e-12)
-    if "links" in data:
-        pivots = [np.asarray(each) for each in (*reference.fixed, *reference.moving)]
-        ground, coupler = (np.linalg.norm(pivots[k + 1] - pivots[k]) for k in (0, 2))
-        lengths = np.array(
-            [ground, reference.radius[0], coupler, reference.radius[1]], dtype=np.float64
-        )
-        require_equal("the links", list(data["links"].values()), lengths, tolerance)
-    gap = reference.places.translation - reference.poses.translation
-    worst = float(np.hypot(gap[:, 0], gap[:, 1]).max())
-    require_equal("the error", data["position_error"]["max"], worst, 10 * tolerance)
+    return data
 
 
 def _dyad(dyad: Dyad) -> dict[str, Any]:

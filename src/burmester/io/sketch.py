@@ -5,13 +5,13 @@ The linkage stands at its first pose, and in dots at its last one.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
+from itertools import pairwise
 
 import numpy as np
 
-from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.numerics.arrays import FloatArray
+from burmester.scene.linkage_scene import scene_with
 from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["MOST_ROWS", "sketch"]
@@ -35,51 +35,26 @@ def sketch(found: FoundLinkage, columns: int) -> list[str] | None:
     if not len(reached):
         return None
     first, last = int(reached[0]), int(reached[-1])
-    ways = {k: [_shape(each.dyad, found, k) for each in found.dyads] for k in (last, first)}
     origins = places.translation[reached]
+    scenes = {k: scene_with(found.driver_first, places[k], places[reached]) for k in (last, first)}
     middle = (origins.min(axis=0) + origins.max(axis=0)) / 2
-    joints = [joint for shapes in ways.values() for shape in shapes for joint in shape]
+    joints = [pivot.at for scene in scenes.values() for pivot in scene.pivots]
     size = float(np.ptp(origins, axis=0).max()) or float(
         max((np.abs(joint - middle).max() for joint in joints), default=1.0)
     )
     near = [each for each in joints if np.abs(each - middle).max() <= FAR * size]
     canvas = _Canvas.around(np.array([*origins, *near]), columns)
-    for k, shapes in ways.items():
-        body = [shape[-1] for shape in shapes]
-        lines = [(shape[a], shape[a + 1]) for shape in shapes for a in range(len(shape) - 1)]
-        triangle = [*body, places.translation[k]]
-        lines += [(triangle[a - 1], triangle[a]) for a in range(3)]
-        for line in lines:
-            canvas.draw(*line, every=1 if k == first else SPARSE)
+    for k, scene in scenes.items():
+        for role, points in scene.shapes:
+            ends = np.vstack([points, points[:1]]) if role == "body" else points
+            for line in pairwise(ends):
+                canvas.draw(*line, every=1 if k == first else SPARSE)
     for k in dict.fromkeys((first, last)):
         canvas.put(places.translation[k], str(k + 1))
-    for each, shape in zip(found.dyads, ways[first], strict=True):
-        if isinstance(each.dyad, RR | RP):
-            canvas.put(shape[0], FIXED)
-        if isinstance(each.dyad, RR | PR):
-            canvas.put(shape[-1], BLOCK if isinstance(each.dyad, PR) else MOVING)
+    for pivot in scenes[first].pivots:
+        moving = MOVING if pivot.block is None else BLOCK
+        canvas.put(pivot.at, FIXED if pivot.fixed else moving)
     return canvas.lines()
-
-
-def _shape(dyad: Dyad, found: FoundLinkage, pose: int) -> list[FloatArray]:
-    """The points of a dyad from the ground to the body, as lines join them, on the ground.
-
-    A rail is drawn along its travel and back to the block; a slot from the pin to its middle.
-    """
-    places = found.error.places
-    here = places[pose]
-    match dyad:
-        case RR():
-            return [dyad.fixed_pivot, here.act(dyad.moving_pivot)]
-        case PR():
-            points = places.act(dyad.moving_pivot)
-            points = points[np.isfinite(points).all(axis=-1)]
-            ahead = np.array([-math.sin(dyad.normal_angle), math.cos(dyad.normal_angle)])
-            along = points @ ahead
-            return [points[along.argmin()], points[along.argmax()], here.act(dyad.moving_pivot)]
-        case RP():
-            return [dyad.fixed_pivot, here.act(dyad.middle_of_travel(places))]
-    return [here.translation]
 
 
 class _Canvas:

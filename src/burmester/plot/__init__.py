@@ -24,12 +24,11 @@ from burmester.plot.charts import pose_errors, transmission
 from burmester.plot.common_curve import common_curve
 from burmester.plot.family_map import family_figure, family_map
 from burmester.plot.maps import centre_point_curve, circle_point_curve, pivot_map
-from burmester.plot.mechanism import linkage
+from burmester.plot.mechanism import draw, linkage, linkage_figure, path
 from burmester.plot.outlines import body, keep_out
 from burmester.plot.paper import write_figures
 from burmester.plot.partner_curve import partner_curve
 from burmester.plot.plane import achieved, centrodes, coupler_curve, poses
-from burmester.plot.six_bar import six_bar, six_bar_figure
 from burmester.plot.space import image_space
 from burmester.plot.structural_error import structural_error, structural_error_figure
 from burmester.plot.style import figure, finish, house_style, legend
@@ -45,6 +44,7 @@ __all__ = [
     "circle_point_curve",
     "common_curve",
     "coupler_curve",
+    "draw",
     "family_figure",
     "family_map",
     "figure",
@@ -54,12 +54,12 @@ __all__ = [
     "keep_out",
     "legend",
     "linkage",
+    "linkage_figure",
     "partner_curve",
+    "path",
     "pivot_map",
     "pose_errors",
     "poses",
-    "six_bar",
-    "six_bar_figure",
     "steps",
     "structural_error",
     "structural_error_figure",

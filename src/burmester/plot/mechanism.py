@@ -1,11 +1,12 @@
-"""A linkage at a place of its coupler: links, pivots, sliders, slots, and the ground they stand on.
+"""A linkage at a place: links, pivots, sliders, slots, and the ground they stand on.
 
-RR is a link between two pins; PR a block on a rail of the ground; RP a slot of the coupler on a
-block that turns on the ground.  The coupler is the polygon of its pins and of the body's origin.
+The body is the polygon of its pins and of its origin; so are other plates of three joints.  A rail
+of the ground has a block on it, a slot of the body a block that turns on the ground.
 """
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -17,35 +18,63 @@ from matplotlib.patches import Polygon
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.text import Annotation
 
-from burmester.fourbar.dyad import PR, RP, RR, Dyad
-from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.plot.style import BLACK, BLUE, label
+from burmester.plot.outlines import body as draw_body
+from burmester.plot.outlines import keep_out
+from burmester.plot.plane import coupler_curve, poses, span_of
+from burmester.plot.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PURPLE,
+    figure,
+    finish,
+    house_style,
+    label,
+    legend,
+)
+from burmester.scene.linkage_scene import Pivot, Scene, own_circuit, path_of, scene_of, scene_with
+from burmester.synthesis.result import Candidate
+from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
-__all__ = ["DrawnLinkage", "dimension", "linkage"]
+    from burmester.fourbar.linkage import Linkage
+
+__all__ = ["DrawnLinkage", "draw", "linkage", "linkage_figure", "path"]
 
 FAINT = "#aab3bd"
+PLATES = (ORANGE, GREEN, PURPLE)  # colours of plates beside the body
 SYMBOL_SIZE = 0.045  # of the linkage's size: a ground pivot or a block
-RAIL_MARGIN = 0.28  # of the linkage's size: half of a rail's or slot's length beyond the travel
+MOST_PLACES = 12  # at which a linkage is drawn; a path has too many
 
 
 class DrawnLinkage(NamedTuple):
     """A linkage as drawn.
 
-    links: the line of each dyad's link, rail or slot; coupler: the polygon; ground: hatching;
-    pivots: a line of markers, the fixed pivots and the moving pivots as far as there are any.
+    links: a line for each link, rail or slot; coupler: the polygon of the body; plates: of others;
+    ground: hatching; pivots: a line of markers, the fixed pivots and the moving pivots as far as
+    there are any.
     """
 
     links: list[Line2D]
     coupler: Polygon
+    plates: list[Polygon]
     ground: list[Artist]
     fixed_pivots: Line2D
     moving_pivots: Line2D
     labels: list[Annotation]
+
+    @property
+    def artists(self) -> list[Artist]:
+        """All but the labels."""
+        plates = [*self.links, self.coupler, *self.plates, *self.ground]
+        return [*plates, self.fixed_pivots, self.moving_pivots]
 
 
 def linkage(
@@ -93,26 +122,107 @@ def linkage(
     >>> [label.get_text() for label in drawn.labels]
     ['$A_0$', '$A$', '$B_0$', '$B$']
     """
-    dyads = (linkage.first, linkage.second)
-    size = SYMBOL_SIZE * dimension(linkage)
-    guides = [_guide(dyad, place, travel, size / SYMBOL_SIZE) for dyad in dyads]
-    links, ground = list[Line2D](), list[Artist]()
-    width = 0.6 if faint else 2.6
-    for dyad, guide in zip(dyads, guides, strict=True):
-        if not faint:
-            ground += _ground(ax, guide, size)
+    reached = Displacement(
+        np.concatenate([np.zeros((0, 2)), *(each.translation for each in travel)]),
+        np.concatenate([np.zeros(0), *(each.angle for each in travel)]),
+    )
+    return draw(ax, scene_with(linkage, place, reached), names=names, color=color, faint=faint)
+
+
+def draw(
+    ax: Axes, scene: Scene, *, names: bool = False, color: str = BLUE, faint: bool = False
+) -> DrawnLinkage:
+    """Draw what is to be seen of a linkage at a place; the options are those of `linkage`."""
+    size, width = SYMBOL_SIZE * scene.size, 0.6 if faint else 2.6
+    links, ground, plates = list[Line2D](), list[Artist](), list[Polygon]()
+    if not faint:
+        for pivot in scene.pivots:
+            ground += _support(ax, pivot.at, size) if pivot.fixed else []
+        for ends in scene.of("rail"):
+            ground.append(_hatching(ax, ends[0], ends[1], 0.7 * size * _below(ends)))
+        blocks = [each.block for each in scene.pivots if each.block is not None]
+        ground += [_block(ax, at, along, size) for at, along in blocks]
+    for role, points in scene.shapes:
+        if role in ("body", "plate"):
+            continue
         style: dict[str, Any] = {"color": FAINT if faint else BLACK, "lw": width}
-        if isinstance(dyad, PR):
+        if role == "rail":
             style["lw"] = width * 0.7
-        elif isinstance(dyad, RP) and not faint:  # a slot: a bar that is open inside
+        elif role == "slot" and not faint:  # a bar that is open inside
             bar = [Stroke(linewidth=5.4, foreground=color), Normal()]
             style |= {"color": "white", "path_effects": bar}
-        links += ax.plot(
-            *guide.ends.T, zorder=2.1 if faint else 3.4, solid_capstyle="round", **style
-        )
-    corners = [place.translation, *(g.corner for g in guides if g.corner is not None)]
-    body = Polygon(
-        np.stack(corners),
+        links += ax.plot(*points.T, zorder=2.1 if faint else 3.4, solid_capstyle="round", **style)
+    (corners,) = scene.of("body")
+    body = _plate(ax, corners, color, faint)
+    for corners, own in zip(scene.of("plate"), PLATES, strict=False):
+        plates.append(_plate(ax, corners, own, faint))
+    fixed, moving = (
+        _pins(ax, [each.at for each in scene.pivots if each.fixed == stands], faint)
+        for stands in (True, False)
+    )
+    labels = _named(ax, scene.pivots, body.get_xy()[0]) if names else []
+    return DrawnLinkage(links, body, plates, ground, fixed, moving, labels)
+
+
+def path(ax: Axes, chosen: Candidate) -> list[Line2D]:
+    """The path of the body's origin: of a four-bar the circuit on which it meets most poses."""
+    if not isinstance(chosen, FoundLinkage):
+        pieces = path_of(chosen, np.zeros((1, 2)))
+        return [line for piece in pieces for line in ax.plot(*piece.T)]
+    places = chosen.error.places[np.isfinite(chosen.error.places.angle)]
+    own = own_circuit(chosen.driver_first, places)
+    curve = coupler_curve(ax, chosen.driver_first, only=own)
+    for cross in curve.dead_points:
+        cross.remove()
+    return [each for lines in curve.circuits for each in lines]
+
+
+def linkage_figure(
+    chosen: Candidate,
+    ax: Axes | None = None,
+    *,
+    pose: int | None = None,
+    along: Displacement | None = None,
+) -> Figure:
+    """A linkage at one of the poses of its task, faintly at others, with its path and its body.
+
+    pose: a number from 0, the middle one that it reaches if None.
+    along: (n,), places of the body along the motion, which are drawn as thin outlines.
+    """
+    task, places = chosen.task, chosen.error.places
+    with house_style():
+        if ax is None:
+            ax = figure(7.0, 6.0).add_axes((0.1, 0.08, 0.86, 0.82))
+        there = np.flatnonzero(np.isfinite(places.angle))
+        middle = int(there[len(there) // 2]) if len(there) and pose is None else pose
+        if not isinstance(chosen, FoundLinkage):
+            for line in path(ax, chosen):
+                line.set(color=GREY, lw=0.9, linestyle=(0, (3, 2)), zorder=1.8)
+            ax.set_title(f"{chosen.id}  {chosen.type}", loc="left", fontsize=10)
+        elif (own := own_circuit(chosen.driver_first, places[there])) is not None:
+            coupler_curve(ax, chosen.driver_first, only=own, size=span_of(task.poses))
+        if task.surroundings is not None:
+            keep_out(ax, task.surroundings.keep_out)
+        if task.body is not None:
+            shown = places if len(there) else task.poses[~task.free_angles]
+            draw_body(ax, task.body.vertices, shown, at=middle, along=along)
+        some = there[np.linspace(0, len(there) - 1, min(len(there), MOST_PLACES)).astype(np.intp)]
+        for k in sorted({*some.tolist(), *([] if middle is None else [middle])}):
+            drive = float("nan") if isinstance(chosen, FoundLinkage) else float(chosen.drive[k])
+            scene = scene_of(chosen, places[k], drive, places[there])
+            draw(ax, scene, faint=k != middle, names=k == middle)
+        poses(ax, task.poses, free=task.free_angles)
+        if isinstance(chosen, FoundLinkage):
+            legend(ax)
+        finish(ax, chosen.unit)
+    drawing = ax.get_figure(root=True)
+    assert drawing is not None
+    return drawing
+
+
+def _plate(ax: Axes, corners: FloatArray, color: str, faint: bool) -> Polygon:
+    plate = Polygon(
+        corners,
         closed=True,
         facecolor=(*to_rgb(color), 0.03 if faint else 0.16),
         edgecolor=FAINT if faint else color,
@@ -120,83 +230,20 @@ def linkage(
         zorder=2.0 if faint else 3.2,
         joinstyle="round",
     )
-    ax.add_patch(body)
-    fixed, moving = (
-        _pins(ax, [g.fixed for g in guides], faint),
-        _pins(ax, [g.moving for g in guides], faint),
-    )
-    labels = _named(ax, guides, place) if names else []
-    return DrawnLinkage(links, body, ground, fixed, moving, labels)
+    ax.add_patch(plate)
+    return plate
 
 
-class _Guide(NamedTuple):
-    """What one dyad looks like: points (2,), or None where there is no such thing.
-
-    ends: (2, 2), of the link, rail or slot; corner: of the coupler; block: where it is, and along
-    which direction it slides; below: the side of a rail that is hatched.
-    """
-
-    ends: FloatArray
-    fixed: FloatArray | None = None
-    moving: FloatArray | None = None
-    corner: FloatArray | None = None
-    block: tuple[FloatArray, FloatArray] | None = None
-    below: FloatArray | None = None
+def _below(ends: FloatArray) -> FloatArray:
+    """The unit vector across a rail, downwards."""
+    along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+    across = np.array([along[1], -along[0]])
+    return across * (-1.0 if across[1] >= 0 else 1.0)
 
 
-def _guide(
-    dyad: Dyad, place: Displacement, travel: tuple[Displacement, ...], size: float
-) -> _Guide:
-    """The guide of a dyad with the coupler at a place (); size: of the linkage."""
-    if isinstance(dyad, RR):
-        pin = place.act(dyad.moving_pivot)
-        return _Guide(np.stack([dyad.fixed_pivot, pin]), dyad.fixed_pivot, pin, pin)
-    if isinstance(dyad, PR):
-        pin, (normal, along) = place.act(dyad.moving_pivot), _directions(dyad)
-        others = [each.act(dyad.moving_pivot) @ along for each in travel]
-        ends = dyad.offset * normal + along * _span(pin @ along, others, size)[:, None]
-        on_rail = dyad.offset * normal + along * (pin @ along)
-        below = normal * (-1.0 if normal[1] >= 0 else 1.0)
-        return _Guide(ends, None, pin, pin, (on_rail, along), below)
-    if isinstance(dyad, RP):
-        normal, along = _directions(dyad)
-        pin = place.inverse().act(dyad.fixed_pivot)  # all in M
-        others = [each.inverse().act(dyad.fixed_pivot) @ along for each in travel]
-        ends = dyad.offset * normal + along * _span(pin @ along, others, size)[:, None]
-        corner = place.act(ends[int(np.hypot(*ends.T).argmin())])
-        return _Guide(
-            place.act(ends), dyad.fixed_pivot, None, corner, (dyad.fixed_pivot, place.rotate(along))
-        )
-    return _Guide(np.stack([place.translation, place.translation]))
-
-
-def _directions(dyad: PR | RP) -> FloatArray:
-    """The normal and the direction (2, 2) of its line."""
-    c, s = np.cos(dyad.normal_angle), np.sin(dyad.normal_angle)
-    return np.array([[c, s], [-s, c]])
-
-
-def _span(at: FloatArray, others: list[FloatArray], size: float) -> FloatArray:
-    """The ends (2,) of a rail or slot that holds all these coordinates along it."""
-    every = np.concatenate([np.ravel(at), *(np.ravel(o) for o in others)])
-    return np.array([np.nanmin(every) - RAIL_MARGIN * size, np.nanmax(every) + RAIL_MARGIN * size])
-
-
-def _ground(ax: Axes, guide: _Guide, size: float) -> list[Artist]:
-    """What stands on the ground, and the blocks."""
-    out: list[Artist] = []
-    if guide.fixed is not None:
-        out += _support(ax, guide.fixed, size)
-    if guide.below is not None:
-        out.append(_hatching(ax, guide.ends[0], guide.ends[1], guide.below * size * 0.7))
-    if guide.block is not None:
-        out.append(_block(ax, *guide.block, size))
-    return out
-
-
-def _pins(ax: Axes, points: list[FloatArray | None], faint: bool) -> Line2D:
+def _pins(ax: Axes, points: list[FloatArray], faint: bool) -> Line2D:
     """Markers at pivots as far as there are any."""
-    at = np.reshape([p for p in points if p is not None], (-1, 2))
+    at = np.reshape(points, (-1, 2))
     (line,) = ax.plot(
         *at.T,
         "o",
@@ -210,37 +257,18 @@ def _pins(ax: Axes, points: list[FloatArray | None], faint: bool) -> Line2D:
     return line
 
 
-def _named(ax: Axes, guides: list[_Guide], place: Displacement) -> list[Annotation]:
-    """A0, A and B0, B beside the pivots that there are."""
-    out = []
-    for guide, letter in zip(guides, "AB", strict=True):
-        if guide.fixed is not None:
-            out.append(label(ax, f"${letter}_0$", guide.fixed, (-1.0, 0.3), fontsize=9))
-        if guide.moving is not None:
-            away = guide.moving - place.translation
-            out.append(label(ax, f"${letter}$", guide.moving, away, fontsize=9))
-    return out
-
-
-def dimension(linkage: Linkage) -> float:
-    """The longest of a linkage's lengths, or 1: the same wherever its coupler is.
-
-    Between pivots of one frame, and from the body's origin to what the body holds.
-    """
-    dyads = (linkage.first, linkage.second)
-    lengths = [0.0]
-    for name in ("fixed_pivot", "moving_pivot"):
-        pivots = [getattr(dyad, name) for dyad in dyads if hasattr(dyad, name)]
-        if len(pivots) == 2:
-            lengths.append(float(np.linalg.norm(pivots[1] - pivots[0])))
-    for dyad in dyads:
-        if isinstance(dyad, RR):
-            lengths.append(float(dyad.radius))
-        if isinstance(dyad, RR | PR):
-            lengths.append(float(np.linalg.norm(dyad.moving_pivot)))
-        if isinstance(dyad, RP):
-            lengths.append(float(abs(dyad.offset)))
-    return max(lengths) or 1.0
+def _named(ax: Axes, pivots: tuple[Pivot, ...], origin: FloatArray) -> list[Annotation]:
+    """The names of pivots beside them, A0 as A with an index."""
+    return [
+        label(
+            ax,
+            f"${re.sub('0$', '_0', each.name)}$",
+            each.at,
+            (-1.0, 0.3) if each.fixed else each.at - origin,
+            fontsize=9,
+        )
+        for each in pivots
+    ]
 
 
 def _support(ax: Axes, pivot: FloatArray, size: float) -> list[Artist]:

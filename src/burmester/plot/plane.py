@@ -21,8 +21,8 @@ from burmester.fourbar.instantaneous import centrodes as centrodes_of
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.plot.mechanism import dimension
 from burmester.plot.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, label
+from burmester.scene.linkage_scene import longest
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -213,7 +213,7 @@ def coupler_curve(
     """
     circuits = Circuits.of(linkage, as_given=True)
     drawn, dead = list[list[Line2D]](), list[Line2D]()
-    reach = ENDLESS_CURVE_REACH * (dimension(linkage) if size is None else size)
+    reach = ENDLESS_CURVE_REACH * (longest(linkage) if size is None else size)
     for number, (color, style) in enumerate(CIRCUITS):
         own = circuits[number]
         if not own.exists or only not in (None, number):
@@ -363,7 +363,7 @@ def centrodes(
     (90, 2)
     """
     own = Circuits.of(linkage, as_given=True)[circuit]
-    size = dimension(linkage)
+    size = longest(linkage)
     rows = np.concatenate(parameters(own, samples, ENDLESS_CURVE_REACH * size))
     both = centrodes_of(linkage, own.couplers(rows))
     fixed = _near(both.fixed, ENDLESS_CURVE_REACH * size, place.translation)

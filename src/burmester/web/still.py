@@ -7,101 +7,54 @@ green, regions to keep out of are grey.  Colours are chosen for light and dark p
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from html import escape
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from burmester.fourbar.circuits import Circuits, circuit_of
-from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
-from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.scene.linkage_scene import Pivot, path_of, scene_of
+from burmester.synthesis.result import Candidate
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.found_linkage import FoundLinkage
 
-if TYPE_CHECKING:
-    from burmester.sixbar.found import FoundSixBar
-
-__all__ = ["own_circuit", "six_bar_still", "still"]
+__all__ = ["POSE", "still"]
 
 SIZE_PX = 420.0  # the longer side of the picture
 MARGIN = 0.07  # share of the drawing's size that stays free on each side
-SAMPLES = 361  # points of the coupler curve
-REACH = 1.2  # sizes of what is drawn beside it, from which on the coupler curve is cut off
 LINK, COUPLER, POSE, CURVE = "#5d6b7a", "#3f86d8", "#d0493c", "#8796a8"
 BODY, KEEP_OUT = "#2f9583", "#8a8f98"
+FILLED = 'fill="{0}" fill-opacity=".15" stroke="{0}" stroke-width="2"'
+STYLES = {
+    "body": FILLED.format(COUPLER),
+    "plate": FILLED.format(LINK),
+    "path": f'fill="none" stroke="{CURVE}" stroke-width="1.5" stroke-dasharray="2 4"',
+    "line": f'fill="none" stroke="{LINK}" stroke-width="4"',
+}
 
 
-def still(linkage: Linkage, places: Displacement, task: Task, title: str) -> str:
-    """An SVG of a linkage (its driver first) at the middle one of its places (N,) for a task.
+def still(chosen: Candidate, title: str) -> str:
+    """An SVG of a linkage at the middle one of the poses of its task.
 
-    Places that do not exist are nan; where there is none at all only the task is drawn.
+    Where it reaches none of them, only the task is drawn.
     """
-    poses = task.poses
+    task, places = chosen.task, chosen.error.places
     there = np.flatnonzero(np.isfinite(places.angle))
     framed = np.flatnonzero(~task.free_angles)
-    shapes: list[tuple[str, FloatArray]] = [_frame(poses[k], poses) for k in framed.tolist()]
-    points = poses.translation[task.free_angles]
-    if len(there):
-        place = places[int(there[len(there) // 2])]
-        travel = places[there]
-        guides = [_guide(dyad, place, travel) for dyad in (linkage.first, linkage.second)]
-        corners = [place.translation, *(pin for _, pin in guides)]
-        shapes = [
-            (
-                f'fill="{COUPLER}" fill-opacity=".15" stroke="{COUPLER}" stroke-width="2"',
-                np.array(corners),
-            ),
-            *shapes,
-            *((f'fill="none" stroke="{LINK}" stroke-width="4"', ends) for ends, _ in guides),
-        ]
-        shapes[:0] = _body(task, travel, place)
-        pins = [*_pivots(linkage, place)]
-        seen = np.concatenate([points for _, points in shapes])
-        shapes[:0] = [
-            (f'fill="none" stroke="{CURVE}" stroke-width="1.5" stroke-dasharray="2 4"', piece)
-            for piece in _curve(linkage, travel, seen)
-        ]
-    else:
-        pins = []
-        shapes[:0] = _body(task, poses[framed], None)
-    shapes[:0] = _keep_out(task)
-    return _svg(shapes, pins, title, points)
-
-
-def six_bar_still(found: FoundSixBar, task: Task, title: str) -> str:
-    """An SVG of a six-bar at the middle one of the poses of its task, with the body's path."""
-    drive = found.drive[len(found.drive) // 2]
-    joints, place = found.joints(drive), found.body(drive)
-    path = found.body(found.along(SAMPLES)).translation
-    filled = 'fill="{0}" fill-opacity=".15" stroke="{0}" stroke-width="2"'
-    corners = {**joints, "M": place.translation}
-    skeleton = found.skeleton
-    outlines = skeleton.corners(found.frames, found.carries)
-    plates = {each: own for each, own in outlines.items() if len(own) > 2}
-    shapes = [
-        *_body(task, found.body(found.drive), place),
-        (f'fill="none" stroke="{CURVE}" stroke-width="1.5" stroke-dasharray="2 4"', path),
-        *(
-            (
-                filled.format(COUPLER if link == found.carries else LINK),
-                np.stack([corners[name] for name in own]),
-            )
-            for link, own in plates.items()
-        ),
-        *(_frame(task.poses[k], task.poses) for k in range(len(found.drive))),
-        *(
-            (f'fill="none" stroke="{LINK}" stroke-width="4"', np.stack([joints[at] for at in own]))
-            for link, own in outlines.items()
-            if link not in plates
-        ),
-    ]
-    return _svg(
-        shapes,
-        [(at, name in skeleton.links[skeleton.ground]) for name, at in joints.items()],
-        title,
-    )
+    points = task.poses.translation[task.free_angles]
+    frames = [_frame(task.poses[k], task.poses) for k in framed.tolist()]
+    if not len(there):
+        body = _body(task, task.poses[framed], None)
+        return _svg([*_keep_out(task), *body, *frames], (), title, points)
+    pose = int(there[len(there) // 2])
+    drive = float("nan") if isinstance(chosen, FoundLinkage) else float(chosen.drive[pose])
+    scene = scene_of(chosen, places[pose], drive, places[there])
+    plates = [(STYLES[role], at) for role, at in scene.shapes if role in ("body", "plate")]
+    shapes = [*_body(task, places[there], places[pose]), *plates, *frames]
+    shapes += [(STYLES["line"], points) for points in scene.of("link", "rail", "slot")]
+    seen = np.concatenate([points for _, points in shapes])
+    path = [(STYLES["path"], piece) for piece in path_of(chosen, seen)]
+    return _svg([*_keep_out(task), *path, *shapes], scene.pivots, title, points)
 
 
 def _body(
@@ -131,80 +84,14 @@ def _frame(pose: Displacement, poses: Displacement) -> tuple[str, FloatArray]:
     return f'fill="none" stroke="{POSE}" stroke-width="2"', axes
 
 
-def _guide(dyad: Dyad, place: Displacement, travel: Displacement) -> tuple[FloatArray, FloatArray]:
-    """The ends (2, 2) of a link, rail or slot with the coupler at a place, and its corner there."""
-    match dyad:
-        case RR():
-            pin = place.act(dyad.moving_pivot)
-            return np.stack([dyad.fixed_pivot, pin]), pin
-        case PR():
-            along, foot = _line(dyad)
-            way = travel.act(dyad.moving_pivot) @ along
-            return foot + np.array([[way.min()], [way.max()]]) * along, place.act(dyad.moving_pivot)
-        case RP():
-            along, foot = _line(dyad)
-            way = travel.inverse().act(dyad.fixed_pivot) @ along
-            ends = place.act(foot + np.array([[way.min()], [way.max()]]) * along)
-            return ends, ends[0]
-        case PP():
-            here = place.translation
-            return np.stack([here, here]), here
-
-
-def _line(dyad: PR | RP) -> tuple[FloatArray, FloatArray]:
-    """The direction (2,) of a line and its foot (2,), the point nearest to the origin."""
-    c, s = float(np.cos(dyad.normal_angle)), float(np.sin(dyad.normal_angle))
-    return np.array([-s, c]), float(dyad.offset) * np.array([c, s])
-
-
-def _pivots(linkage: Linkage, place: Displacement) -> Iterable[tuple[FloatArray, bool]]:
-    """Pins and blocks in F, and whether they stand on the ground."""
-    for dyad in (linkage.first, linkage.second):
-        if isinstance(dyad, RR | RP):
-            yield dyad.fixed_pivot, True
-        if isinstance(dyad, RR | PR):
-            yield place.act(dyad.moving_pivot), False
-
-
-def own_circuit(linkage: Linkage, places: Displacement) -> int:
-    """The circuit, 0 or 1, on which most of the places (N,) are."""
-    on = circuit_of(linkage, places, as_given=True).circuit
-    return int(np.bincount(on[on >= 0], minlength=1).argmax())
-
-
-def _curve(linkage: Linkage, places: Displacement, near: FloatArray) -> list[FloatArray]:
-    """The way of the body's origin on the circuit of the places, in pieces near what is drawn."""
-    if isinstance(linkage.first, PP) or isinstance(linkage.second, PP):
-        return []
-    own = Circuits.of(linkage, as_given=True)[own_circuit(linkage, places)]
-    if not own.exists:
-        return []
-    low, high = near.min(axis=0), near.max(axis=0)
-    size = REACH * float((high - low).max())
-    if own.closed:
-        parameter = np.linspace(0.0, 2 * np.pi, SAMPLES)
-    elif own.loop.turns:
-        parameter = np.linspace(0.0, np.pi, SAMPLES)
-    else:
-        parameter = np.linspace(-2 * size, 2 * size, SAMPLES)
-    points = own.curve(np.zeros(2), parameter)
-    inside = np.isfinite(points).all(axis=-1) & (np.abs(points - (low + high) / 2) < size).all(
-        axis=-1
-    )
-    pieces = np.split(points, np.flatnonzero(np.diff(inside)) + 1)
-    first = bool(inside[0])
-    return [piece for k, piece in enumerate(pieces) if (k % 2 == 0) == first and len(piece) > 1]
-
-
 def _svg(
     shapes: list[tuple[str, FloatArray]],
-    pins: list[tuple[FloatArray, bool]],
+    pins: tuple[Pivot, ...],
     title: str,
-    dots: FloatArray | None = None,
+    dots: FloatArray,
 ) -> str:
     """The document; dots (n, 2): points of the body, at any angle."""
-    dots = np.zeros((0, 2)) if dots is None else dots
-    every = np.concatenate([points for _, points in shapes] + [at[None] for at, _ in pins] + [dots])
+    every = np.concatenate([*(at for _, at in shapes), *(pin.at[None] for pin in pins), dots])
     low, high = every.min(axis=0), every.max(axis=0)
     size = max(float((high - low).max()), np.finfo(float).tiny)
     scale = SIZE_PX / size / (1 + 2 * MARGIN)
@@ -223,9 +110,9 @@ def _svg(
     for point in dots:
         x, y = at(point)
         parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3.5" fill="{POSE}"/>')
-    for point, ground in pins:
-        x, y = at(point)
-        if ground:
+    for pin in pins:
+        x, y = at(pin.at)
+        if pin.fixed:
             foot = f"{x:.1f},{y:.1f} {x - 8:.1f},{y + 14:.1f} {x + 8:.1f},{y + 14:.1f}"
             parts.append(f'<polygon points="{foot}" fill="{LINK}"/>')
         parts.append(

@@ -12,6 +12,7 @@ E160 the file does not contain the linkage
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -19,27 +20,15 @@ from typing import Any
 import numpy as np
 
 from burmester.errors import BurmesterError
-from burmester.export.description import (
-    description,
-    dimension_notes,
-    length_decimals,
-    reference_of,
-)
-from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, measured_in
-from burmester.export.drawings.measured import require_dimensions
-from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
-from burmester.export.drawings.sheet import Sheet, beside, carried, joint_names, notes_on, sheet_of
+from burmester.export.drawings.drawing import Drawing, Item, Kind, require_drawing
+from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, read_dimensions
 from burmester.export.escaping import dxf_text
+from burmester.export.link_places import GROUND
 from burmester.export.numbers import error_within
-from burmester.export.options import MILLIMETRES, Options
-from burmester.export.parts.holes import joints_of
-from burmester.export.parts.links import GROUND
-from burmester.export.parts.plate import moved
-from burmester.export.parts.plates import Assembly, Plate, assembly_of, slot_outline
+from burmester.export.options import MILLIMETRES, Options, unit_of
+from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import stock_for
 from burmester.export.reference import require_equal
-from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
 __all__ = ["check", "write"]
@@ -60,25 +49,24 @@ LAYERS = {  # and their colours, beside those of links
     "DIMENSIONS": 30,
     "TEXT": 7,
 }
+ROLE_LAYERS = {
+    "hole": "HOLES",
+    "slot": "SLOTS",
+    "mark": "MARKS",
+    "pose": "POSES",
+    "body": "BODY",
+    "keep-out": "KEEP_OUT",
+    "hatch": "KEEP_OUT",
+    "name": "TEXT",
+    "note": "TEXT",
+}
 
 
 def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the drawing."""
-    assembly = assembly_of(chosen, options)
-    reference = reference_of(chosen, options)
-    outlines = Outlines.of(chosen.task, reference)
-    unit = _unit_of(assembly)
-    notes = description(chosen, options, unit) + dimension_notes(chosen, options, unit)
-    notes += notes_on(assembly)
-    sheet = sheet_of(
-        assembly,
-        reference.poses,
-        len(notes),
-        length_decimals(chosen, options, unit),
-        options.dimensions,
-        outlines=outlines,
-        unit=unit,
-    )
+    unit = _unit_of(chosen, options)
+    drawing = Drawing.of(chosen, options, unit)
+    assembly, sheet = drawing.assembly, drawing.sheet
     fixed = ezdxf.options.write_fixed_meta_data_for_testing
     try:
         ezdxf.options.write_fixed_meta_data_for_testing = True  # no dates and no random numbers
@@ -95,8 +83,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         for name, colour in (links | LAYERS).items():
             document.layers.add(name, color=colour)
         add_style(document, sheet, size)
-        _draw(document, assembly, sheet, reference.poses, notes)
-        _draw_outlines(document.modelspace(), outlines, sheet.letters)
+        _draw(document, drawing)
         _scale(document, 1 / size)
         middle, tall = (low + high) / 2, float((high - low).max())
         document.set_modelspace_vport(tall, center=tuple(middle.tolist()))
@@ -106,9 +93,9 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         ezdxf.options.write_fixed_meta_data_for_testing = fixed
 
 
-def _unit_of(assembly: Assembly) -> str:
+def _unit_of(chosen: Candidate, options: Options) -> str:
     """The unit of the drawing."""
-    return "in" if stock_for(assembly.unit).inches else "mm"
+    return "in" if stock_for(unit_of(chosen, options)).inches else "mm"
 
 
 def _scale(document: Any, scale: float) -> None:
@@ -136,92 +123,53 @@ def _order_classes(document: Any) -> None:
     document.classes.register(by_name)
 
 
-def _draw(
-    document: Any,
-    assembly: Assembly,
-    sheet: Sheet,
-    poses: Displacement,
-    notes: list[str],
-) -> None:
-    space = document.modelspace()
-    for part, label in zip(sheet.parts, sheet.labels, strict=True):
-        layers = (_layer(part.plate.owner), "HOLES", "SLOTS", "MARKS")
-        _plate(space, moved(part.plate, part.place), layers, sheet)
-        _text(space, part.label, label, sheet.letters)
-        for each in part.lines:
-            add_dimension(document, each)
-    block = document.blocks.new("ASSEMBLY", base_point=(0, 0))
-    for plate in assembly.plates:
-        drawn = moved(plate, plate.at(assembly.drawn))
-        _plate(block, drawn, ("ASSEMBLY",) * 4, sheet)
-    for name, at in joint_names(assembly, sheet):
-        _text(space, name, at, sheet.letters)
-    space.add_blockref("ASSEMBLY", (0, 0), dxfattribs={"layer": "ASSEMBLY"})
-    for number in range(poses.shape[0]):
-        place = poses[number]
-        ends = place[None].act(np.array([[0.0, 0.0], [sheet.axes, 0.0], [0.0, sheet.axes / 2]]))
-        for end in ends[1:]:
-            space.add_line(_point(ends[0]), _point(end), dxfattribs={"layer": "POSES"})
-        _text(space, str(number + 1), beside(place, sheet), sheet.letters, layer="POSES")
-    for k, line in enumerate(notes):
-        at = sheet.notes - [0, 1.6 * k * sheet.letters]
-        _text(space, line, at, sheet.letters)
+def _draw(document: Any, drawing: Drawing) -> None:
+    space, block = document.modelspace(), None
+    for item in drawing.items:
+        if _is_placed(item):
+            block = block or document.blocks.new("ASSEMBLY", base_point=(0, 0))
+        elif item.role == "pose" and not space.query("INSERT"):
+            space.add_blockref("ASSEMBLY", (0, 0), dxfattribs={"layer": "ASSEMBLY"})
+        _add(block if _is_placed(item) else space, item, drawing)
+        for plate, line in drawing.dimensions if item.role == "name" else ():
+            if plate == item.group:
+                add_dimension(document, line)
 
 
-def _draw_outlines(space: Any, outlines: Outlines, letters: float) -> None:
-    """Draw the body at every pose, and the regions with hatches and names."""
-    for corners in outlines.body if outlines.body.size else ():
-        _ring(space, corners, "BODY")
-    for name, corners in outlines.regions:
-        _ring(space, corners, "KEEP_OUT")
-        for start, end in hatch(corners, letters):
-            space.add_line(_point(start), _point(end), dxfattribs={"layer": "KEEP_OUT"})
-        if name:
-            _text(space, name, name_start(name, corners, letters), letters, layer="KEEP_OUT")
+def _is_placed(item: Item) -> bool:
+    """Whether an item is of the assembly's block."""
+    return item.group.startswith("placed-")
 
 
-def _ring(space: Any, corners: FloatArray, layer: str) -> None:
-    _closed(space, np.column_stack([corners, np.zeros(len(corners))]), layer)
+def _add(space: Any, item: Item, drawing: Drawing) -> None:
+    """Draw an item on its layer."""
+    attributes: dict[str, Any] = {"layer": _layer_of(item, drawing.assembly)}
+    if item.kind == "outline":
+        rows = item.at.tolist()
+        space.add_lwpolyline(rows, format="xyb", close=True, dxfattribs=attributes)
+    elif item.kind == "circle":
+        x, y, diameter = item.at.tolist()
+        space.add_circle((x, y), diameter / 2, dxfattribs=attributes)
+    elif item.kind == "line":
+        space.add_line(*map(tuple, item.at.tolist()), dxfattribs=attributes)
+    else:
+        attributes["insert"] = tuple(item.at.tolist())
+        space.add_text(dxf_text(item.text), height=drawing.sheet.letters, dxfattribs=attributes)
 
 
-def _plate(
-    space: Any,
-    drawn: tuple[FloatArray, FloatArray, FloatArray, FloatArray],
-    layers: tuple[str, ...],
-    sheet: Sheet,
-) -> None:
-    """Draw the outline, the holes, the slots and the marks of a plate, each on its layer."""
-    outline, holes, slots, marks = drawn
-    outline_layer, hole_layer, slot_layer, mark_layer = layers
-    _closed(space, outline, outline_layer)
-    for x, y, diameter in holes.tolist():
-        space.add_circle((x, y), diameter / 2, dxfattribs={"layer": hole_layer})
-    for slot in slots:
-        _closed(space, slot_outline(slot), slot_layer)
-    for mark in marks:
-        arm = 0.3 * sheet.letters
-        for way in ([arm, 0], [0, arm]):
-            ends = _point(mark - way), _point(mark + way)
-            space.add_line(*ends, dxfattribs={"layer": mark_layer})
-
-
-def _closed(space: Any, outline: FloatArray, layer: str) -> None:
-    space.add_lwpolyline(outline.tolist(), format="xyb", close=True, dxfattribs={"layer": layer})
-
-
-def _text(space: Any, text: str, at: FloatArray, height: float, layer: str = "TEXT") -> None:
-    space.add_text(dxf_text(text), height=height, dxfattribs={"layer": layer, "insert": _point(at)})
-
-
-def _point(at: FloatArray) -> tuple[float, float]:
-    return float(at[0]), float(at[1])
+def _layer_of(item: Item, assembly: Assembly) -> str:
+    """The name of an item's layer."""
+    if _is_placed(item):
+        return "ASSEMBLY"
+    if item.role == "outline":
+        plate = assembly.plate(item.group)
+        assert plate is not None
+        return _layer(plate.owner)
+    return ROLE_LAYERS[item.role]
 
 
 def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the drawing back, audit it and compare it; raises E160."""
-    reference = reference_of(chosen, options)
-    assembly = assembly_of(chosen, options)
-    poses = reference.poses
     document = ezdxf.readfile(path)
     auditor = document.audit()
     if auditor.has_errors or auditor.has_fixes:
@@ -232,85 +180,43 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
             why="; ".join(faults[:3]),
             help="this is a fault of burmester: report it, with the result file",
         )
-    unit = _unit_of(assembly)
+    unit = _unit_of(chosen, options)
+    drawing = Drawing.of(chosen, options, unit)
     require_equal("the unit of the drawing", document.header["$INSUNITS"], CODES[unit], 0)
     _scale(document, MILLIMETRES[unit])
-    every = np.concatenate([_rows(each) for each in document.modelspace().query("LWPOLYLINE")])
-    tolerance = error_within(DIGITS, float(np.abs(every).max()))
-    # The assembly holds a hole or a slot's middle line where the dyads have their pivots.
-    block = document.blocks.get("ASSEMBLY")
+    space, block = document.modelspace(), document.blocks.get("ASSEMBLY")
     assert block is not None
-    (insert,) = document.modelspace().query("INSERT")
+    (insert,) = space.query("INSERT")
     require_equal("the place of the assembly", tuple(insert.dxf.insert)[:2], (0, 0), 0)
-    circles = np.array([tuple(each.dxf.center)[:2] for each in block.query("CIRCLE")])
-    circles = circles.reshape(-1, 2)
-    joints = joints_of(reference, assembly, options.pose)
-    expected = [(each.plates[0], each.point) for each in joints if each.point is not None]
-    for name, pivot in expected:
-        gap = np.linalg.norm(circles - pivot, axis=1)
-        what = f"a pivot of the {name} in the assembly"
-        require_equal(what, gap.min(initial=np.inf), 0, tolerance)
-    for point in circles:
-        gap = min(float(np.linalg.norm(point - each)) for _, each in expected)
-        require_equal("a hole in the assembly", gap, 0, tolerance)
-    drawn = iter(block.query("LWPOLYLINE"))
-    for plate in assembly.plates:
-        outline, _, slots, _ = moved(plate, plate.at(assembly.drawn))
-        for rows in (outline, *map(slot_outline, slots)):
-            require_equal(f"{plate.name} in the assembly", _rows(next(drawn)), rows, tolerance)
-    placed = _check_plates(document, assembly, tolerance)
-    if options.dimensions:
-        require_dimensions(placed, measured_in(document, tolerance), tolerance, unit)
-    body, regions = (
-        [_rows(each) for each in document.modelspace().query(f'LWPOLYLINE[layer=="{layer}"]')]
-        for layer in ("BODY", "KEEP_OUT")
-    )
-    require_outlines(Outlines.of(chosen.task, reference), body, regions, tolerance)
-    axes = document.modelspace().query('LINE[layer=="POSES"]')
-    starts = np.array([tuple(each.dxf.start)[:2] for each in axes])
-    require_equal("the poses", starts, np.repeat(poses.translation, 2, axis=0), tolerance)
-    ends = np.array([tuple(each.dxf.end)[:2] for each in axes])[::2] - starts[::2]
-    turned = np.exp(1j * (np.arctan2(ends[:, 1], ends[:, 0]) - poses.angle))
-    require_equal("the angles of the poses", np.abs(turned - 1), np.zeros(len(turned)), 1e-6)
+    read = [*_read(space, drawing, placed=False), *_read(block, drawing, placed=True)]
+    largest = max(float(np.abs(each.at).max()) for each in read if each.kind == "outline")
+    tolerance = error_within(DIGITS, largest)
+    read += read_dimensions(document, [line for _, line in drawing.dimensions], tolerance)
+    require_drawing(read, drawing, tolerance, dxf_text)
 
 
-def _check_plates(
-    document: Any, assembly: Assembly, tolerance: float
-) -> list[tuple[Plate, Displacement]]:
-    """The plates laid out, by what lies within their outlines, and where they lie."""
-    space = document.modelspace()
-    outlines = {
-        owner: [each for each in space.query("LWPOLYLINE") if each.dxf.layer == _layer(owner)]
-        for owner in {plate.owner for plate in assembly.plates}
+def _read(space: Any, drawing: Drawing, *, placed: bool) -> Iterable[Item]:
+    """The items on a sheet, which are in the order of the drawing's own; raises E160."""
+    kinds: dict[str, Kind] = {
+        "LWPOLYLINE": "outline",
+        "CIRCLE": "circle",
+        "LINE": "line",
+        "TEXT": "text",
     }
-    circles = np.array(
-        [(*tuple(each.dxf.center)[:2], 2 * each.dxf.radius) for each in space.query("CIRCLE")]
-    ).reshape(-1, 3)
-    slots = list(space.query('LWPOLYLINE[layer=="SLOTS"]'))
-    require_equal(
-        "the number of holes", len(circles), sum(len(p.holes) for p in assembly.plates), 0
-    )
-    require_equal("the number of slots", len(slots), sum(len(p.slots) for p in assembly.plates), 0)
-    placed = []
-    for plate in assembly.plates:
-        own = outlines[plate.owner].pop(0)
-        require_equal(f"whether the outline of {plate.name} is closed", own.closed, True, 0)
-        rows = _rows(own)
-        placed.append((plate, carried(plate, rows)))
-        outline, holes, wanted, _ = moved(*placed[-1])
-        require_equal(f"the outline of {plate.name}", rows, outline, tolerance)
-        if len(holes):
-            gaps = np.abs(circles[:, None] - holes).max(axis=-1).min(axis=0)
-            require_equal(f"the holes of {plate.name}", gaps, np.zeros(len(gaps)), tolerance)
-        for slot in wanted:
-            gaps_of = [
-                float(np.abs(each - slot_outline(slot)).max())
-                for each in map(_rows, slots)
-                if each.shape == slot_outline(slot).shape
-            ]
-            require_equal(f"the slot of {plate.name}", min(gaps_of, default=np.inf), 0, tolerance)
-    return placed
-
-
-def _rows(polyline: Any) -> FloatArray:
-    return np.array([tuple(point) for point in polyline.get_points(format="xyb")])
+    entities = [each for each in space if each.dxftype() in kinds]
+    wanted = [each for each in drawing.items if _is_placed(each) == placed]
+    require_equal("the number of entities", len(entities), len(wanted), 0)
+    for entity, own in zip(entities, wanted, strict=True):
+        dxf, kind, at = entity.dxf, kinds[entity.dxftype()], list[Any]()
+        layer = _layer_of(own, drawing.assembly)
+        require_equal(f"the layer of {own.role} {own.group}", dxf.layer == layer, True, 0)
+        if kind == "outline":
+            require_equal(f"whether {own.role} is closed", entity.closed, True, 0)
+            at = [tuple(point) for point in entity.get_points(format="xyb")]
+        elif kind == "circle":
+            at = [*tuple(dxf.center)[:2], 2 * dxf.radius]
+        elif kind == "line":
+            at = [tuple(dxf.start)[:2], tuple(dxf.end)[:2]]
+        else:
+            at = [*tuple(dxf.insert)[:2]]
+        yield own._replace(kind=kind, at=np.array(at), text=dxf.text if kind == "text" else "")

@@ -5,17 +5,18 @@ E160 the file does not contain the linkage
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from burmester.export.drawings.dimension_lines import DimensionLine
-from burmester.export.drawings.measured import Measured, require_drawn
+from burmester.export.drawings.drawing import Item
 from burmester.export.drawings.sheet import Sheet
 from burmester.export.reference import require_equal
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["add_dimension", "add_style", "measured_in"]
+__all__ = ["add_dimension", "add_style", "read_dimensions"]
 
 DIMENSION_STYLE = "BURMESTER"
 DIAMETER_TYPE = 3  # of dimension entities
@@ -91,31 +92,38 @@ def add_dimension(document: Any, line: DimensionLine) -> None:
     )
 
 
-def measured_in(document: Any, tolerance: float) -> list[Measured]:
-    """The dimension entities, what they measure and what they show; raises E160."""
-    found = []
-    for entity in document.modelspace().query("DIMENSION"):
-        require_equal("the layer of a dimension", entity.dxf.layer == "DIMENSIONS", True, 0)
-        block = document.blocks.get(entity.dxf.geometry)
-        (shown,) = block.query("MTEXT")
-        require_equal(
-            "the layers of a dimension",
-            {each.dxf.layer for each in block} == {"DIMENSIONS"},
-            True,
-            0,
-        )
+def read_dimensions(document: Any, wanted: Sequence[DimensionLine], tolerance: float) -> list[Item]:
+    """The items of the dimension entities, which measure what is wanted; raises E160."""
+    found = list[Item]()
+    entities = list(document.modelspace().query("DIMENSION"))
+    require_equal("the number of dimensions", len(entities), len(wanted), 0)
+    for entity, line in zip(entities, wanted, strict=True):
         dxf, diameter = entity.dxf, entity.dimtype == DIAMETER_TYPE
+        block = document.blocks.get(dxf.geometry)
+        layers = {dxf.layer, *(each.dxf.layer for each in block)}
+        require_equal("the layers of a dimension", layers == {"DIMENSIONS"}, True, 0)
         ends = (dxf.defpoint, dxf.defpoint4) if diameter else (dxf.defpoint2, dxf.defpoint3)
         rows = np.array([tuple(each)[:2] for each in ends])
-        text = shown.text.replace("%%c", "Ø")
-        lines = [
-            [tuple(each.dxf.start)[:2], tuple(each.dxf.end)[:2]] for each in block.query("LINE")
-        ]
-        require_drawn(np.array(lines), rows, diameter, tolerance)
+        wanted_at = line.measured
+        if diameter:  # its ends have no order
+            rows, wanted_at = rows.mean(axis=0), wanted_at.mean(axis=0)
+        require_equal("what a dimension measures", rows, wanted_at, tolerance)
+        measured = float(entity.get_measurement())
+        require_equal("a measurement", measured, line.value, tolerance)
+        (shown,) = block.query("MTEXT")
         require_equal("where a text is", dxf.text_midpoint, shown.dxf.insert, tolerance)
         if not diameter:
-            require_equal("a dimension line", tuple(dxf.defpoint)[:2], lines[0][1], tolerance)
-        found.append(Measured(rows, float(entity.get_measurement()), text, diameter))
+            own = tuple(dxf.defpoint)[:2]
+            require_equal("a dimension line", own, line.lines[0, 1], tolerance)
+        for each in block:
+            if each.dxftype() == "LINE":
+                at = np.array([tuple(each.dxf.start)[:2], tuple(each.dxf.end)[:2]])
+                found.append(Item("line", "dimension", at))
+            elif each.dxftype() == "SOLID":
+                corners = [tuple(each.dxf.get(f"vtx{k}"))[:2] for k in range(3)]
+                found.append(Item("arrow", "dimension", np.array(corners)))
+        at, text = np.array(tuple(shown.dxf.insert)[:2]), shown.text.replace("%%c", "Ø")
+        found.append(Item("text", "dimension", at, text=text))
     return found
 
 

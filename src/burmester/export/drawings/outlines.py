@@ -1,26 +1,22 @@
 """The body at every pose and the regions to keep out of, as the assembly's drawing has them.
 
 Regions are hatched by lines of their own: patterns are not read by all programs.
-
-E160 the file does not contain the linkage
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final, final
 
 import numpy as np
 
 from burmester.export.drawings.dimension_lines import LETTER_WIDTH
-from burmester.export.reference import Reference, require_equal
-from burmester.export.six_bar_reference import SixBarReference
+from burmester.export.reference import Reference
 from burmester.geometry.inner_point import inner_point
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 
-__all__ = ["Outlines", "hatch", "name_start", "require_outlines"]
+__all__ = ["Outlines", "hatch", "name_start"]
 
 HATCH_SPACING: Final = 1.6  # of the text's height: between the lines of a hatch, at least
 MOST_LINES: Final = 60  # of a hatch, about; over a large region they are farther apart
@@ -38,7 +34,7 @@ class Outlines:
     regions: tuple[tuple[str, FloatArray], ...]
 
     @classmethod
-    def of(cls, task: Task, reference: Reference | SixBarReference) -> Outlines:
+    def of(cls, task: Task, reference: Reference) -> Outlines:
         """Those of a task, at the places of its linkage."""
         corners = np.empty((0, 2)) if task.body is None else task.body.vertices * reference.scale
         around = () if task.surroundings is None else task.surroundings.keep_out
@@ -81,19 +77,3 @@ def hatch(corners: FloatArray, letters: float) -> FloatArray:
         at = np.sort(place[crossed] + share * (beyond[crossed] - place[crossed])).reshape(-1, 2)
         lines += [level * across + ends[:, None] * along for ends in at]
     return np.array(lines).reshape(-1, 2, 2)
-
-
-def require_outlines(
-    outlines: Outlines,
-    body: Sequence[FloatArray],
-    regions: Sequence[FloatArray],
-    tolerance: float,
-) -> None:
-    """Raise E160 unless closed outlines (k, 3) that were read are those, without arcs."""
-    wanted = list(outlines.body) if outlines.body.size else []
-    own = [corners for _, corners in outlines.regions]
-    for what, read, drawn in (("body", body, wanted), ("regions", regions, own)):
-        require_equal(f"how often outlines of the {what} are drawn", len(read), len(drawn), 0)
-        for rows, corners in zip(read, drawn, strict=True):
-            straight = np.column_stack([corners, np.zeros(len(corners))])
-            require_equal(f"an outline of the {what}", rows, straight, tolerance)

@@ -22,13 +22,13 @@ from matplotlib.text import Text
 from matplotlib.transforms import Affine2D, Bbox, IdentityTransform
 
 from burmester.errors import BurmesterError
-from burmester.export.description import description, length_decimals, reference_of
+from burmester.export.description import description, length_decimals
 from burmester.export.drawings.pages import LETTERS, MARGIN, Page, Pages, pages_of
 from burmester.export.drawings.pdf_paths import read_pages
 from burmester.export.drawings.sheet import notes_on
 from burmester.export.escaping import pdf_text
 from burmester.export.options import Options
-from burmester.export.parts.holes import axis_away, joints_of
+from burmester.export.parts.holes import axis_away, pivots_of
 from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import assembly_of
@@ -221,7 +221,7 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
     Each page has its size and its ruler, each plate its outline, its slots and its dimension lines;
     and the holes of each plate, put back to where the assembly has it, are at the pivots.
     """
-    assembly, reference = assembly_of(chosen, options), reference_of(chosen, options)
+    assembly = assembly_of(chosen, options)
     pages = pages_of(assembly, length_decimals(chosen, options), options.dimensions)
     try:
         read = read_pages(path)
@@ -253,7 +253,7 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
                 for ends in line.lines:
                     off = _nearest(paths.lines, ends)
                     require_equal(f"a dimension of {part.plate.name}", off, 0, TOLERANCE_MM)
-    for joint in joints_of(reference, assembly, options.pose):
+    for joint in pivots_of(assembly):
         if joint.point is not None:
             gaps = [axis_away(joint, each) for name in joint.plates for each in holes[name]]
             require_equal(f"a pivot in the {joint.plates[0]}", min(gaps), 0, TOLERANCE_MM)

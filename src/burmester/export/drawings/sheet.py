@@ -25,7 +25,6 @@ __all__ = [
     "Laid",
     "Sheet",
     "beside",
-    "carried",
     "joint_names",
     "laid_lengthwise",
     "notes_on",
@@ -184,19 +183,6 @@ def sheet_of(
         bottom,
         shown_decimals(decimals, letters, unit),
     )
-
-
-def carried(plate: Plate, rows: FloatArray) -> Displacement:
-    """The displacement that carries a plate's outline to one (k, 3) that was read.
-
-    It is that of the two points of the outline that are farthest apart.
-    """
-    ends = plate.outline[:, None, :2] - plate.outline[:, :2]
-    one, two = np.unravel_index(int((ends**2).sum(axis=-1).argmax()), ends.shape[:2])
-    (dx, dy), (x, y) = rows[one, :2] - rows[two, :2], ends[one, two]
-    angle = np.arctan2(dy * x - dx * y, dx * x + dy * y)
-    turn = Displacement(np.zeros(2), angle)
-    return Displacement(rows[one, :2] - turn.act(plate.outline[one, :2]), angle)
 
 
 def beside(pose: Displacement, sheet: Sheet) -> FloatArray:

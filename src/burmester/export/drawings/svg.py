@@ -10,30 +10,20 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import replace
+from collections.abc import Iterable
 from pathlib import Path
 from xml.etree import ElementTree
+from xml.sax.saxutils import unescape
 
 import numpy as np
 
-from burmester.export.description import (
-    description,
-    dimension_notes,
-    length_decimals,
-    reference_of,
-)
 from burmester.export.drawings.dimension_lines import DimensionLine
-from burmester.export.drawings.measured import Measured, require_dimensions, require_drawn
-from burmester.export.drawings.outlines import Outlines, hatch, name_start, require_outlines
-from burmester.export.drawings.sheet import beside, carried, joint_names, notes_on, sheet_of
+from burmester.export.drawings.drawing import Drawing, Item, Kind, halved, require_drawing
 from burmester.export.escaping import xml_text
 from burmester.export.numbers import error_within
 from burmester.export.options import Options
-from burmester.export.parts.holes import joints_of
-from burmester.export.parts.plate import moved
-from burmester.export.parts.plates import Assembly, Plate, assembly_of, slot_outline
+from burmester.export.parts.plates import Assembly
 from burmester.export.reference import require_equal
-from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
@@ -44,7 +34,6 @@ LINE_WIDTH_MM = 0.1  # at most, and no more than a share of the link width
 OF_WIDTH = 0.02
 FONT_MIDDLE = 0.36  # of a font's size: middle of its capitals above the base line
 INKSCAPE = 'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"'
-MAX_BULGE = 0.57  # bulge above which an arc is drawn as two
 COLOURS = ("#c1272d", "#0057b8", "#1b7f3b", "#b36b00", "#6b3fa0")  # of moving links
 STYLE = """
   path, circle, line { fill: none; stroke: #000; stroke-width: %s; stroke-linejoin: round }
@@ -63,13 +52,8 @@ STYLE = """
 
 def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the drawing."""
-    assembly = assembly_of(chosen, options)
-    reference = reference_of(chosen, options)
-    poses, outlines = reference.poses, Outlines.of(chosen.task, reference)
-    notes = description(chosen, options, "mm") + dimension_notes(chosen, options)
-    notes += notes_on(assembly)
-    decimals = length_decimals(chosen, options)
-    sheet = sheet_of(assembly, poses, len(notes), decimals, options.dimensions, outlines=outlines)
+    drawing = Drawing.of(chosen, options)
+    assembly, sheet, items = drawing.assembly, drawing.sheet, drawing.items
     hair = min(LINE_WIDTH_MM, OF_WIDTH * assembly.dimensions.width)
     size = sheet.high - sheet.low
     box = f"{_n(sheet.low[0])} {_n(-sheet.high[1])} {_n(size[0])} {_n(size[1])}"
@@ -77,18 +61,23 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         '<?xml version="1.0" encoding="UTF-8"?>',
         f'<svg xmlns="http://www.w3.org/2000/svg" {INKSCAPE} width="{_n(size[0])}mm" '
         f'height="{_n(size[1])}mm" viewBox="{box}" role="img">',
-        f"<title>{xml_text(notes[0])}</title>",
-        f"<desc>{' '.join(map(xml_text, notes[1:]))}</desc>",
+        f"<title>{xml_text(drawing.notes[0])}</title>",
+        f"<desc>{' '.join(map(xml_text, drawing.notes[1:]))}</desc>",
         f"<style>{STYLE % (_n(hair), _n(sheet.letters))}{_colours(assembly)}</style>",
         '<g id="parts">',
     ]
+    owners = {plate.name: plate.owner for plate in assembly.plates}
+
+    def drawn(group: str) -> list[str]:
+        """What is of a plate, or of a region."""
+        owner = owners.get(group.removeprefix("placed-"), "")
+        own = (each for each in items if each.group == group and each.role != "name")
+        return [_item(each, owner) for each in own]
+
     for part in sheet.parts:
-        lines.append(f'<g id="part-{part.plate.name}">')
-        lines += _plate(moved(part.plate, part.place), part.plate.owner, sheet.letters)
-        lines.append("</g>")
+        lines += [f'<g id="part-{part.plate.name}">', *drawn(part.plate.name), "</g>"]
     lines += ["</g>", '<g id="names">']
-    lines += [_text(part.label, at) for part, at in zip(sheet.parts, sheet.labels, strict=True)]
-    lines += [_text(name, at) for name, at in joint_names(assembly, sheet)]
+    lines += [_item(each) for each in items if each.role == "name"]
     lines.append("</g>")
     if options.dimensions:
         lines.append('<g id="dimensions" inkscape:groupmode="layer" inkscape:label="dimensions">')
@@ -98,22 +87,17 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
                 lines += _dimension(line)
             lines.append("</g>")
         lines.append("</g>")
-    lines += _outlines(outlines, sheet.letters)
-    lines.append('<g id="assembly">')
+    lines.append('<g id="keep-out" inkscape:groupmode="layer" inkscape:label="keep out">')
+    for group in dict.fromkeys(each.group for each in items if each.role == "keep-out"):
+        lines += ['<g class="region">', *drawn(group), "</g>"]
+    lines += ["</g>", '<g id="body" inkscape:groupmode="layer" inkscape:label="body">']
+    lines += [_item(each) for each in items if each.role == "body"]
+    lines += ["</g>", '<g id="assembly">']
     for plate in sorted(assembly.plates, key=lambda each: each.layer):
-        lines.append(f'<g id="placed-{plate.name}">')
-        lines += _plate(moved(plate, plate.at(assembly.drawn)), plate.owner, sheet.letters)
-        lines.append("</g>")
-    lines += ["</g>", '<g id="poses">']
-    for number in range(poses.shape[0]):
-        ends = poses[number][None].act(
-            np.array([[0.0, 0.0], [sheet.axes, 0.0], [0.0, sheet.axes / 2]])
-        )
-        lines += [_line(ends[0], end, "pose") for end in ends[1:]]
-        lines.append(_text(str(number + 1), beside(poses[number], sheet), ' class="pose"'))
-    lines += ["</g>", '<g id="notes">']
-    for k, note in enumerate(notes):
-        lines.append(_text(note, sheet.notes - [0, 1.6 * k * sheet.letters]))
+        group = f"placed-{plate.name}"
+        lines += [f'<g id="{group}">', *drawn(group), "</g>"]
+    for name, role in (("poses", "pose"), ("notes", "note")):
+        lines += ["</g>", f'<g id="{name}">', *(_item(each) for each in items if each.role == role)]
     lines += ["</g>", "</svg>", ""]
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
 
@@ -127,76 +111,44 @@ def _colours(assembly: Assembly) -> str:
     )
 
 
-def _plate(
-    drawn: tuple[FloatArray, FloatArray, FloatArray, FloatArray], owner: str, letters: float
-) -> list[str]:
-    outline, holes, slots, marks = drawn
-    lines = [f'<path class="outline {owner}" d="{_path(outline)}"/>']
-    lines += [
-        f'<circle class="hole" cx="{_n(x)}" cy="{_n(-y)}" r="{_n(diameter / 2)}"/>'
-        for x, y, diameter in holes.tolist()
-    ]
-    lines += [f'<path class="slot" d="{_path(slot_outline(slot))}"/>' for slot in slots]
-    for mark in marks:
-        for way in ([0.3 * letters, 0], [0, 0.3 * letters]):
-            lines.append(_line(mark - way, mark + way, "mark"))
-    return lines
-
-
-def _outlines(outlines: Outlines, letters: float) -> list[str]:
-    """Two groups, layers in Inkscape, of which either may have nothing in it."""
-    lines = ['<g id="keep-out" inkscape:groupmode="layer" inkscape:label="keep out">']
-    for name, corners in outlines.regions:
-        lines.append('<g class="region">')
-        lines.append(f'<path class="keep-out" d="{_path(_straight(corners))}"/>')
-        lines += [_line(start, end, "hatch") for start, end in hatch(corners, letters)]
-        if name:
-            lines.append(_text(name, name_start(name, corners, letters), ' class="keep-out"'))
-        lines.append("</g>")
-    lines += ["</g>", '<g id="body" inkscape:groupmode="layer" inkscape:label="body">']
-    if outlines.body.size:
-        lines += [f'<path class="body" d="{_path(_straight(each))}"/>' for each in outlines.body]
-    return [*lines, "</g>"]
-
-
-def _straight(corners: FloatArray) -> FloatArray:
-    """Corners (k, 2) as an outline (k, 3) without arcs."""
-    return np.column_stack([corners, np.zeros(len(corners))])
+def _item(item: Item, owner: str = "") -> str:
+    """An element; owner: the link that it is of."""
+    kind, role, at, _, text = item
+    match kind:
+        case "circle":
+            x, y, diameter = at.tolist()
+            return f'<circle class="{role}" cx="{_n(x)}" cy="{_n(-y)}" r="{_n(diameter / 2)}"/>'
+        case "line":
+            (x1, y1), (x2, y2) = at.tolist()
+            ends = f'x1="{_n(x1)}" y1="{_n(-y1)}" x2="{_n(x2)}" y2="{_n(-y2)}"'
+            return f'<line class="{role}" {ends}/>'
+        case "arrow":
+            corners = " ".join(f"{_n(x)},{_n(-y)}" for x, y in at.tolist())
+            return f'<polygon class="{role}" points="{corners}"/>'
+        case "text":
+            named = "" if role in ("name", "note") else f' class="{role}"'
+            return f'<text{named} x="{_n(at[0])}" y="{_n(-at[1])}">{xml_text(text)}</text>'
+        case "outline":
+            named = f"outline {owner}" if role == "outline" else role
+            return f'<path class="{named}" d="{_path(at)}"/>'
 
 
 def _dimension(line: DimensionLine) -> list[str]:
     """A dimension line with its arrows and its text, of which the middle is given."""
-    told = f'<g class="{line.kind}" data-length="{_n(line.value)}">'
-    lines = [_line(start, end, "dimension") for start, end in line.lines]
-    for arrow in line.arrows:
-        corners = " ".join(f"{_n(x)},{_n(-y)}" for x, y in arrow.tolist())
-        lines.append(f'<polygon class="dimension" points="{corners}"/>')
     # The middle of capitals is 0.36 of their size above the base line.
     foot = line.at - [0, FONT_MIDDLE * line.letters]
-    return [told, *lines, _text(line.text, foot, ' class="dimension"'), "</g>"]
-
-
-def _halved(outline: FloatArray) -> FloatArray:
-    """The outline with its arcs of a third of a turn or more in two.
-
-    Its ends and its radius determine half a circle to half the digits only.
-    """
-    rows: list[list[float]] = []
-    for (x0, y0, bulge), (x, y, _) in zip(
-        outline.tolist(), np.roll(outline, -1, axis=0).tolist(), strict=True
-    ):
-        if abs(bulge) < MAX_BULGE:
-            rows.append([x0, y0, bulge])
-            continue
-        half = math.tan(math.atan(bulge) / 2)
-        middle = (x0 + x + bulge * (y - y0)) / 2, (y0 + y - bulge * (x - x0)) / 2
-        rows += [[x0, y0, half], [*middle, half]]
-    return np.array(rows)
+    return [
+        f'<g class="{line.kind}" data-length="{_n(line.value)}">',
+        *(_item(Item("line", "dimension", ends)) for ends in line.lines),
+        *(_item(Item("arrow", "dimension", corners)) for corners in line.arrows),
+        _item(Item("text", "dimension", foot, text=line.text)),
+        "</g>",
+    ]
 
 
 def _path(outline: FloatArray) -> str:
     """The outline with arcs of circles; y downwards turns their sense round."""
-    outline = _halved(outline)
+    outline = halved(outline)
     x, y, _ = outline[0].tolist()
     parts = [f"M{_n(x)} {_n(-y)}"]
     for (x0, y0, bulge), (x, y, _) in zip(
@@ -212,112 +164,59 @@ def _path(outline: FloatArray) -> str:
     return " ".join([*parts, "Z"])
 
 
-def _line(start: FloatArray, end: FloatArray, name: str) -> str:
-    (x1, y1), (x2, y2) = start.tolist(), end.tolist()
-    ends = f'x1="{_n(x1)}" y1="{_n(-y1)}" x2="{_n(x2)}" y2="{_n(-y2)}"'
-    return f'<line class="{name}" {ends}/>'
-
-
-def _text(text: str, at: FloatArray, more: str = "") -> str:
-    return f'<text{more} x="{_n(at[0])}" y="{_n(-at[1])}">{xml_text(text)}</text>'
-
-
 def _n(value: float) -> str:
     return f"{float(value) + 0.0:.{DIGITS}g}"
 
 
 def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the drawing back by its XML and compare it; raises E160."""
-    reference = reference_of(chosen, options)
-    assembly = assembly_of(chosen, options)
+    drawing = Drawing.of(chosen, options)
     root = ElementTree.parse(path).getroot()
-    groups = {each.get("id"): each for each in root.iter() if each.get("id")}
     wide, _, _ = (root.get("width") or "").partition("mm")
     box = [float(part) for part in (root.get("viewBox") or "").split()]
     require_equal("millimetres per unit of the drawing", float(wide) / box[2], 1, 1e-12)
-    drawn = np.concatenate([path for each in groups.values() for path in _paths(each)])
-    tolerance = error_within(DIGITS, float(np.abs(drawn).max()))
-    for joint in joints_of(reference, assembly, options.pose):
-        if joint.point is not None:
-            holes = [each for name in joint.plates for each in _holes(groups[f"placed-{name}"])]
-            gap = np.linalg.norm(np.reshape(holes, (-1, 3))[:, :2] - joint.point, axis=1)
-            what = f"a pivot in the {joint.plates[0]}"
-            require_equal(what, gap.min(initial=np.inf), 0, tolerance)
-    placed, read = list[tuple[Plate, Displacement]](), list[Measured]()
-    for plate in assembly.plates:
-        group = groups[f"part-{plate.name}"]
-        half = replace(plate, outline=_halved(plate.outline))
-        placed.append((plate, carried(half, _paths(group)[0])))
-        _check_plate(group, *placed[-1], tolerance)
-        if options.dimensions:
-            read += [_measured(each, tolerance) for each in groups[f"dimensions-{plate.name}"]]
-        group = groups[f"placed-{plate.name}"]
-        _check_plate(group, plate, plate.at(assembly.drawn), tolerance)
-    if options.dimensions:
-        require_dimensions(placed, read, tolerance)
-    outlines = Outlines.of(chosen.task, reference)
-    regions = [path for each in groups["keep-out"] for path in _paths(each)]
-    require_outlines(outlines, _paths(groups["body"]), regions, tolerance)
-    lines = _lines(groups["poses"])
-    start, way = lines[::2, :2], lines[::2, 2:] - lines[::2, :2]
-    require_equal("the places of the poses", start, reference.poses.translation, tolerance)
-    require_equal("their second axes", lines[1::2, :2], start, tolerance)
-    angle = np.exp(1j * (np.arctan2(way[:, 1], way[:, 0]) - reference.poses.angle))
-    require_equal("the angles of the poses", np.abs(angle - 1), np.zeros(len(angle)), 1e-6)
+    read = list(_read(root, FONT_MIDDLE * drawing.sheet.letters))
+    # The assembly is drawn from its lowest layer upwards.
+    order = {f"placed-{plate.name}": k for k, plate in enumerate(drawing.assembly.plates)}
+    read.sort(key=lambda each: order.get(each.group, -1))
+    largest = max(float(np.abs(each.at).max()) for each in read if each.kind == "outline")
+    tolerance = error_within(DIGITS, largest)
+    require_drawing(read, drawing, tolerance, lambda text: unescape(xml_text(text)))
+    told = [each.get("data-length") for each in root.iter()]
+    lengths = [line.value for _, line in drawing.dimensions]
+    require_equal("the lengths", [float(each) for each in told if each], lengths, tolerance)
 
 
-def _check_plate(
-    group: ElementTree.Element, plate: Plate, by: Displacement, tolerance: float
-) -> None:
-    """Compare what a group draws with a plate carried by a displacement."""
-    outline, holes, slots, _ = moved(plate, by)
-    drawn, *inside = _paths(group)
-    require_equal(f"the outline of {plate.name}", drawn, _halved(outline), tolerance)
-    read = np.array(_holes(group)).reshape(-1, 3)
-    require_equal(f"the holes of {plate.name}", read, holes, tolerance)
-    require_equal(f"the number of slots of {plate.name}", len(inside), len(slots), 0)
-    for rows, slot in zip(inside, slots, strict=True):
-        require_equal(f"a slot of {plate.name}", rows, _halved(slot_outline(slot)), tolerance)
-
-
-def _paths(group: ElementTree.Element) -> list[FloatArray]:
-    return [_read_path(each.get("d") or "") for each in group if each.tag.endswith("path")]
-
-
-def _lines(group: ElementTree.Element) -> FloatArray:
-    """The lines (n, 4) of a group, y upwards."""
-    keys = ("x1", "y1", "x2", "y2")
-    lines = np.array(
-        [[float(e.get(k) or "nan") for k in keys] for e in group.iter() if e.tag.endswith("line")]
-    )
-    lines[:, 1::2] *= -1
-    return lines
-
-
-def _measured(group: ElementTree.Element, tolerance: float) -> Measured:
-    """A dimension line by its lines: where its extension lines begin, or from its leader's tip."""
-    value = float(group.get("data-length") or "nan")
-    lines = _lines(group).reshape(-1, 2, 2)
-    diameter = group.get("class") == "diameter"
-    if diameter:
-        tip, elbow = lines[0]
-        inwards = (tip - elbow) / np.linalg.norm(tip - elbow)
-        ends = np.stack([tip + value * inwards, tip])
-    else:
-        ends = lines[1:, 0]
-    require_drawn(lines, ends, diameter, tolerance)
-    (text,) = (each.text or "" for each in group if each.tag.endswith("text"))
-    return Measured(ends, value, text, diameter)
-
-
-def _holes(group: ElementTree.Element) -> list[list[float]]:
-    """Centre, y upwards, and diameter of the circles in a group."""
-    found = []
-    for each in group:
-        if each.tag.endswith("circle"):
-            x, y, r = (float(each.get(key) or "nan") for key in ("cx", "cy", "r"))
-            found.append([x, -y, 2 * r])
-    return found
+def _read(root: ElementTree.Element, raised: float, inside: str = "") -> Iterable[Item]:
+    """The items of a group and of all that are in it; raised: the middle of a dimension's text."""
+    kinds: dict[str, Kind] = {
+        "path": "outline",
+        "circle": "circle",
+        "line": "line",
+        "polygon": "arrow",
+        "text": "text",
+    }
+    for each in root:
+        tag = each.tag.rpartition("}")[2]
+        if tag == "g":
+            yield from _read(each, raised, each.get("id") or inside)
+        if tag not in kinds:
+            continue
+        role = (each.get("class") or inside.removesuffix("s")).split()[0]
+        keys = {"circle": ("cx", "cy", "r"), "line": ("x1", "y1", "x2", "y2"), "text": ("x", "y")}
+        at = np.array([float(each.get(key) or "nan") for key in keys.get(tag, ())])
+        if tag == "path":
+            at = _read_path(each.get("d") or "")
+        elif tag == "polygon":
+            corners = (each.get("points") or "").split()
+            at = np.array([[float(x) for x in corner.split(",")] for corner in corners]) * [1, -1]
+        elif tag == "circle":
+            at = at * [1, -1, 2]
+        else:
+            at = (at.reshape(-1, 2) * [1, -1]).reshape((2,) if tag == "text" else (2, 2))
+            if tag == "text" and role == "dimension":
+                at[1] += raised
+        yield Item(kinds[tag], role, at, inside.removeprefix("part-"), each.text or "")  # type: ignore[arg-type]
 
 
 def _read_path(d: str) -> FloatArray:

@@ -6,24 +6,23 @@ E162 a film that cannot be drawn, or not in the memory there is
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
+from burmester.export.motion import Motion
 from burmester.export.options import Options
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.plot.style import with_unit
+from burmester.scene.linkage_scene import Scene, scene_of
 from burmester.tasks.motion_task import Task
 
 if TYPE_CHECKING:
-    from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
-    from matplotlib.lines import Line2D
-
     from burmester.synthesis.result import Candidate
 
 __all__ = [
@@ -107,15 +106,25 @@ def looks_of(count: int) -> NDArray[np.intp]:
 
 
 @dataclass(frozen=True)
-class Film(ABC):
+class Film:
     """A film that is to be drawn: what moves, picture by picture, and the size of the pictures.
 
-    width: of a picture, in pixels; count: of pictures.
+    chosen: the linkage, its driver its first dyad; of one that turns fully all turns are shown
+    until all is as it was.  width: of a picture, in pixels; count: of pictures.
     """
 
     chosen: Candidate
     width: int
     count: int
+
+    @cached_property
+    def motion(self) -> Motion:
+        """The place of the body in each picture."""
+        whole = Motion.of(self.chosen, 2).turns_fully
+        return Motion.of(self.chosen, self._shares(whole), whole)
+
+    def _shares(self, whole: bool) -> FloatArray:
+        return np.arange(self.count) / self.count if whole else there_and_back(self.count)
 
     @property
     def task(self) -> Task:
@@ -128,40 +137,34 @@ class Film(ABC):
         return self.chosen.error.places
 
     @property
-    @abstractmethod
     def places(self) -> Displacement:
         """The place (count,) of the body in each picture."""
+        return self.motion.places
 
     @property
-    @abstractmethod
-    def parameter(self) -> FloatArray:
-        """How far the motion is in each picture (count,)."""
-
-    @property
-    @abstractmethod
-    def full_turn(self) -> bool:
-        """Whether the motion is one whole turn, the last place the first one again."""
-
-    @property
-    @abstractmethod
     def reached(self) -> NDArray[np.bool_]:
         """Whether the motion goes through each pose (N,)."""
+        return np.isfinite(self.motion.pose_shares)
 
-    @abstractmethod
     def followed(self, number: NDArray[np.intp]) -> FloatArray:
-        """The driver's moving pivot (n, 2) in F, which is marked, in pictures."""
+        """The driver's moving pivot (n, 2) in F, which is marked, in pictures.
 
-    @abstractmethod
+        The body's origin where the driver has none.
+        """
+        return np.array([self.scene(int(each)).driven for each in number])
+
+    def scene(self, number: int) -> Scene:
+        """What is drawn of the linkage in a picture."""
+        drive = float(self.motion.drive[number])
+        return scene_of(self.chosen, self.places[number], drive, self.places)
+
     def drive_text(self, number: int) -> str:
         """Where the driver is in a picture."""
-
-    @abstractmethod
-    def drawn(self, ax: Axes, number: int) -> list[Artist]:
-        """Draw the linkage as it is in a picture."""
-
-    @abstractmethod
-    def curve(self, ax: Axes) -> list[Line2D]:
-        """Draw the path of the body's origin."""
+        value = float(self.motion.drive[number])
+        if not self.motion.in_turns:
+            return with_unit(f"driver {value:.4g}".replace("-", "−"), self.chosen.unit)
+        degrees = math.degrees(value)
+        return f"driver {degrees % 360 if self.motion.full_turn else degrees:5.1f}°"
 
     @property
     def outline(self) -> FloatArray | None:
@@ -171,8 +174,11 @@ class Film(ABC):
     @property
     def grown(self) -> NDArray[np.intp]:
         """How many pictures' points (count,) the path has."""
-        s, many = self.parameter, np.arange(1, self.count + 1)
-        return np.minimum(many, self.count if self.full_turn else np.abs(s - s[0]).argmax() + 1)
+        whole = self.motion.full_turn
+        return np.minimum(
+            np.arange(1, self.count + 1),
+            self.count if whole else int(self._shares(whole).argmax()) + 1,
+        )
 
 
 def blob(picture: Picture) -> tuple[float, float]:

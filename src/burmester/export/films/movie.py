@@ -25,11 +25,8 @@ from PIL import Image
 from burmester import plot
 from burmester.errors import BurmesterError, InputError
 from burmester.export.films.film import Film, Picture, blob, looks_of, require_film
-from burmester.export.films.four_bar_film import FourBarFilm
-from burmester.export.films.scene import marks, pictures
-from burmester.export.films.six_bar_film import SixBarFilm
+from burmester.export.films.pictures import marks, pictures
 from burmester.synthesis.result import Candidate
-from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:
     from burmester.export.options import Options
@@ -140,18 +137,12 @@ def _gif(chosen: Candidate, options: Options) -> tuple[Film, float]:
     """What is drawn, and its rate: a GIF counts in hundredths of a second."""
     most = min(MAX_GIF_RATE, options.frames_per_second)
     rate = 100 / math.ceil(100 / most - 1e-9) if most > 0 else most
-    return _film(chosen, options, require_film(options, rate, kept=True)), rate
+    return Film(chosen, options.width_px, require_film(options, rate, kept=True)), rate
 
 
 def _mp4(chosen: Candidate, options: Options) -> Film:
     rate = options.frames_per_second
-    return _film(chosen, options, require_film(options, rate, kept=False))
-
-
-def _film(chosen: Candidate, options: Options, count: int) -> Film:
-    if not isinstance(chosen, FoundLinkage):
-        return SixBarFilm(chosen, options.width_px, count)
-    return FourBarFilm(chosen, options.width_px, count)
+    return Film(chosen, options.width_px, require_film(options, rate, kept=False))
 
 
 def _compare(film: Film, looks: NDArray[np.intp], shown: list[Picture]) -> None:

@@ -8,13 +8,12 @@ the lowest plate lies on z = 0.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import replace
 from typing import Literal, NamedTuple, final
 
 import numpy as np
 
-from burmester.export.parts.links import GROUND
+from burmester.export.link_places import GROUND
 from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.plates import Assembly
 from burmester.numerics.arrays import FloatArray
@@ -56,18 +55,17 @@ class Shape(NamedTuple):
     size: tuple[float, float, float]
 
 
-def parts_of_bodies(made: Assembly, names: Iterable[str]) -> dict[str, BodyParts]:
-    """The parts of bodies; one without a plate is the pin of a slider of a four-bar."""
+def parts_of_bodies(made: Assembly) -> dict[str, BodyParts]:
+    """The parts of the ground and of all bodies that move, among which are the pins of sliders."""
+    names = (GROUND, *(limb.body for limb in made.reference.tree))
     bodies = {
         name: BodyParts([each for each in made.plates if each.owner == name], []) for name in names
     }
-    owners = {plate.name: plate.owner for plate in made.plates}
-    sliders = [name for name, body in bodies.items() if not body.plates]
-    for pin in made.pins:
-        if {owners[each] for each in pin.joins} == {GROUND, "coupler"}:
-            bodies[sliders.pop(0)].pins.append(replace(pin, x=0.0, y=0.0))
+    for joint, pin in zip(made.reference.joints, made.pins, strict=True):
+        if joint.slot is not None:
+            bodies[joint.slot.pin].pins.append(replace(pin, x=0.0, y=0.0))
         else:
-            bodies[owners[pin.plate]].pins.append(pin)
+            bodies[joint.holder].pins.append(pin)
     return bodies
 
 

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Final, Literal, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
+from burmester.export.link_places import GROUND
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.models.joints import directions
-from burmester.export.reference import Reference
-from burmester.export.six_bar_reference import SixBarReference, plates_of
+from burmester.export.reference import ORIGIN, Limb
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["ORIGIN", "Body", "Loop", "Site", "Tree", "tree_of"]
+__all__ = ["Body", "Loop", "Site", "Tree", "tree_of"]
 
 
 class Site(NamedTuple):
@@ -55,103 +54,50 @@ class Tree(NamedTuple):
     loops: tuple[Loop, ...]
 
 
-ORIGIN: Final = np.zeros(2)
-
-
 def tree_of(model: DynamicModel, pose: int) -> Tree:
     """The bodies of a model that begins at a pose, a number from 0."""
-    start = model.joints.at_poses[pose]
     reference = model.reference
-    if isinstance(reference, SixBarReference):
-        return _six_bar(reference, dict(zip(model.names, start.tolist(), strict=True)))
-    return _four_bar(reference, reference.places[pose], start)
-
-
-def _six_bar(reference: SixBarReference, start: dict[str, float]) -> Tree:
-    """The links on those nearer to the ground, open at the joints that close its loops."""
-    found, plates = reference.found, plates_of(reference.found.skeleton)
-    skeleton, frames = found.skeleton, found.frames
-    marks: dict[str, list[Site]] = {plates[link]: [] for link in skeleton.links}
-    marks[plates[found.carries]].append(Site("body", ORIGIN))
-    loops = []
-    for joint, *pair in skeleton.closures:
-        name = f"loop_{joint}"
-        for link, end in zip(pair, "ab", strict=True):
-            marks[plates[link]].append(Site(f"{name}_{end}", frames[link][joint]))
-        loops.append(Loop(name, (plates[pair[0]], plates[pair[1]])))
+    start = dict(zip(model.names, model.joints.at_poses[pose].tolist(), strict=True))
+    marks: dict[str, list[Site]] = {name: [] for name in (GROUND, *model.names)}
+    marks[reference.body].append(Site("body", ORIGIN))
+    loops, closing = [], {}
+    for joint, *pair in reference.closures:
+        name = f"loop_{joint.name}" if joint.name else "loop"
+        for body, end in zip(pair, "ab", strict=True):
+            closing[body, joint] = f"{name}_{end}"
+            if body != GROUND:
+                marks[body].append(Site(f"{name}_{end}", joint.hole(body)))
+        one, two = (each if each != GROUND else "world" for each in pair)
+        loops.append(Loop(name, (one, two)))
+    for joint in reference.links[GROUND]:
+        if GROUND in joint.holes:
+            marks[GROUND].append(Site(closing.get((GROUND, joint), ""), joint.holes[GROUND]))
 
     def on(parent: str) -> tuple[Body, ...]:
         return tuple(
             Body(
-                plates[link],
-                frames[parent][joint] - _turned(frames[link][joint], start[plates[link]]),
-                start[plates[link]],
-                frames[link][joint],
-                None,
-                tuple(marks[plates[link]]),
-                on(link),
+                limb.body,
+                *_placed(limb, start[limb.body]),
+                tuple(marks[limb.body]),
+                on(limb.body),
             )
-            for link, under, joint in skeleton.tree
-            if under == parent
+            for limb in reference.tree
+            if limb.on == parent
         )
 
-    ground = frames[skeleton.ground].values()
-    return Tree(tuple(Site("", at) for at in ground), on(skeleton.ground), tuple(loops))
+    return Tree(tuple(marks[GROUND]), on(GROUND), tuple(loops))
 
 
-def _four_bar(reference: Reference, place: Displacement, start: FloatArray) -> Tree:
-    """The driver with the coupler on it, and the follower on the ground, or on the coupler."""
-    moving, line = reference.moving[0], reference.line[0]
-    axis, direction = ORIGIN, None
-    if moving is None:
-        assert line is not None
-        relative = -line[0]
-        at = np.array([-line[1], float(start[1])])
-        direction = directions(line[0])[1]
-    else:
-        relative = float(start[1]) if line is None else float(place.angle)
-        at = np.array([reference.radius[0] or 0.0, 0.0]) - _turned(moving, relative)
-        axis = moving
-    mark = Site("body", ORIGIN)
-    follows = reference.kinds[1] == "RP"
-    if follows:
-        slot = reference.line[1]
-        assert slot is not None
-        n, along = directions(slot[0])
-        where = slot[1] * n + float(start[2]) * along
-        pin = Body("follower", where, 0.0, ORIGIN, along, (Site("loop_a", ORIGIN),))
-        coupler = Body("coupler", at, relative, axis, direction, (mark,), (pin,))
-    else:
-        hand = reference.moving[1]
-        assert hand is not None
-        open_at = Site("loop_a", hand)
-        coupler = Body("coupler", at, relative, axis, direction, (mark, open_at))
-    where, turn, slide = _on_ground(reference, 0, start)
-    bodies = [Body("driver", where, turn, ORIGIN, slide, (), (coupler,))]
-    if not follows:
-        tip = np.array([reference.radius[1] or 0.0, 0.0])
-        where, turn, slide = _on_ground(reference, 1, start)
-        bodies.append(Body("follower", where, turn, ORIGIN, slide, (Site("loop_b", tip),)))
-    ground = [
-        Site("loop_b" if side and follows else "", fixed)
-        for side, fixed in enumerate(reference.fixed)
-        if fixed is not None
-    ]
-    joined = ("follower", "world") if follows else ("coupler", "follower")
-    return Tree(tuple(ground), tuple(bodies), (Loop("loop", joined),))
-
-
-def _on_ground(
-    reference: Reference, side: Literal[0, 1], start: FloatArray
-) -> tuple[FloatArray, float, FloatArray | None]:
-    """Where a side's body begins, its angle, and the direction of its slide, if it has one."""
-    fixed, line, value = reference.fixed[side], reference.line[side], float(start[2 * side])
-    if fixed is not None:
-        return fixed, value, None
-    assert line is not None
-    n, along = directions(line[0])
-    return line[1] * n + value * along, 0.0, along
-
-
-def _turned(point: FloatArray, angle: float) -> FloatArray:
-    return np.asarray(Displacement(np.zeros(2), np.array(angle)).act(point))
+def _placed(limb: Limb, value: float) -> tuple[FloatArray, float, FloatArray, FloatArray | None]:
+    """Where a body is on another one, its angle, its hinge and its slide; value: of its joint."""
+    joint, slot = limb.joint, limb.joint.slot
+    if not limb.slides:
+        hinge = joint.hole(limb.body)
+        turned = Displacement(ORIGIN, np.array(value)).act(hinge)
+        return joint.hole(limb.on) - turned, value, hinge, None
+    assert slot is not None
+    normal, along = slot.directions
+    if limb.body == slot.pin:
+        return slot.offset * normal + value * along, slot.turn, ORIGIN, along
+    back = Displacement(ORIGIN, np.array(-slot.turn))
+    return back.act(value * along - slot.offset * normal), -slot.turn, ORIGIN, along

@@ -15,19 +15,14 @@ from numpy.typing import ArrayLike
 
 from burmester.export.models.bodies import INSET, METRES, Shape, parts_of_bodies, rim, shapes
 from burmester.export.models.driver_load import STANDARD_GRAVITY, DriverLoad, require_up
-from burmester.export.models.joints import JointMotion, require_bodies
+from burmester.export.models.joints import JointMotion
 from burmester.export.models.mass_properties import MassProperties, require_density
 from burmester.export.options import Options
-from burmester.export.parts.four_bar_links import FOUR_BAR_LINKS, scaled
-from burmester.export.parts.links import GROUND
 from burmester.export.parts.plate import SLOT_RUN_OUT
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import PRECISION, Reference, require_equal
-from burmester.export.six_bar_reference import SixBarReference, plates_of
-from burmester.fourbar.linkage import Linkage
+from burmester.export.reference import ORIGIN, PRECISION, Reference, require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
-from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = ["DAMPING_RATE", "DynamicModel"]
 
@@ -41,16 +36,12 @@ MATERIALS: Final = {2700.0: "aluminium", 7850.0: "steel"}
 class DynamicModel:
     """The bodies of a linkage, each in a frame of its own.
 
-    names: of the bodies that move, and of their joints: driver, coupler and follower of a
-    four-bar, the moving links of a six-bar.  driver: which of them drives.
     masses, shapes: by body, the ground first.  outline: of what the body carries, only to be seen.
-    joints: at the poses and in between.  low, high: (k,), the limits of the joints.  axes: (k, 2),
-    of the joints in their bodies' frames.  up: (3,), in F.
+    joints: at the poses and in between.  low, high: (k,), the limits of the joints.
+    up: (3,), in F.
     """
 
-    reference: Reference | SixBarReference
-    names: tuple[str, ...]
-    driver: str
+    reference: Reference
     made: Assembly
     masses: Mapping[str, MassProperties]
     shapes: Mapping[str, list[Shape]]
@@ -58,40 +49,21 @@ class DynamicModel:
     joints: JointMotion
     low: FloatArray
     high: FloatArray
-    axes: FloatArray
     up: FloatArray
 
     @classmethod
     def of(cls, chosen: Candidate, options: Options) -> Self:
         """The model of a linkage made of plates; raises E162 and E163."""
-        reference: Reference | SixBarReference
-        names: tuple[str, ...] = FOUR_BAR_LINKS
-        driver = "driver"
-        axes = np.zeros((len(names), 2))
-        if not isinstance(chosen, FoundLinkage):
-            reference = SixBarReference.of(chosen, options, "m")
-            found = reference.found
-            skeleton, plates = found.skeleton, plates_of(found.skeleton)
-            names = tuple(plates[link] for link, _, _ in skeleton.tree)
-            driver = plates[skeleton.crank(found.driver_pivot)]
-            joints = JointMotion.of_six_bar(found)
-            axes = np.array([found.frames[link][joint] for link, _, joint in skeleton.tree])
-        else:
-            reference = Reference.of(chosen, options, "m")
-            require_bodies(chosen, reference)
-            joints = JointMotion.of(chosen, reference)
-            if reference.moving[0] is not None:
-                axes[1] = reference.moving[0]
+        reference = Reference.of(chosen, options, "m")
+        joints = JointMotion.of(chosen, reference)
         up, density = require_up(options.up), require_density(options.density)
         made = assembly_of(chosen, options)
-        parts = parts_of_bodies(made, (GROUND, *names))
+        parts = parts_of_bodies(made)
         run_out = SLOT_RUN_OUT * made.dimensions.hole * METRES
         body = chosen.task.body
         margin = np.where(joints.turning, HINGE_MARGIN, run_out)
         return cls(
             reference,
-            names,
-            driver,
             made,
             {name: MassProperties.of(each, made, density) for name, each in parts.items()},
             {name: shapes(each, made) for name, each in parts.items()},
@@ -99,23 +71,33 @@ class DynamicModel:
             joints,
             joints.low - margin,
             joints.high + margin,
-            axes,
             up,
         )
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the bodies that move, and of their joints."""
+        return tuple(limb.body for limb in self.reference.tree)
+
+    @property
+    def driver(self) -> str:
+        """The body that drives."""
+        return self.reference.driver
 
     @property
     def motor(self) -> int:
         """The number of the driver's joint."""
         return self.names.index(self.driver)
 
-    def load(self, chosen: Candidate) -> DriverLoad:
+    @property
+    def axes(self) -> FloatArray:
+        """The hinges (k, 2) of the bodies in their frames."""
+        tree = self.reference.tree
+        return np.array([ORIGIN if each.slides else each.joint.hole(each.body) for each in tree])
+
+    def load(self) -> DriverLoad:
         """What the driver bears at the poses."""
-        if not isinstance(chosen, FoundLinkage):
-            assert isinstance(self.reference, SixBarReference)
-            return DriverLoad.of_six_bar(self.reference.found, self.masses, self.up)
-        both, scale = chosen.driver_first, self.reference.scale
-        linkage = Linkage(scaled(both.first, scale), scaled(both.second, scale))
-        return DriverLoad.of(linkage, self.reference.places, self.masses, self.up)
+        return DriverLoad.of(self.reference, self.masses, self.up)
 
     def damping(self) -> FloatArray:
         """Of the joints (k,): N m s, or N s/m of slides."""
@@ -136,7 +118,7 @@ class DynamicModel:
             f"{size.hole:g} mm, pins of {size.pin:g} mm."
             + (
                 " The pin of a slider is a body of its own."
-                if isinstance(self.reference, Reference)
+                if any(each.slides for each in self.reference.tree)
                 else ""
             ),
             "The options density, thickness, width, hole, pin and gap state others.",

@@ -45,7 +45,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
     model = DynamicModel.of(chosen, options)
     reference = model.reference
     start = model.joints.at_poses[options.pose - 1]
-    servo, tree = Servo.of(model, chosen), tree_of(model, options.pose - 1)
+    servo, tree = Servo.of(model), tree_of(model, options.pose - 1)
     middle = reference.places.translation.mean(axis=0)
     gravity = " ".join(number(each) for each in model.gravity())
     stiff = f"{number(2 * servo.time_step)} 1"
@@ -236,7 +236,7 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
     require_equal("the number of key frames", len(keys), len(reference.places.angle), 0)
     loops = root.findall("equality/connect")
     require_equal("the number of loops", len(loops), len(tree_of(model, 0).loops), 0)
-    servo, carrier = Servo.of(model, chosen), model.made.body
+    servo, carrier = Servo.of(model), model.made.body
     for k, key in enumerate(keys):
         q = dict(zip(model.names, numbers_in(key, "qpos"), strict=True))
         sites, angles = frames_at(world, q)

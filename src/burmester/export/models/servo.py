@@ -13,9 +13,7 @@ import numpy as np
 
 from burmester.export.models.driver_load import STANDARD_GRAVITY
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.six_bar_reference import SixBarReference
 from burmester.numerics.arrays import FloatArray
-from burmester.synthesis.result import Candidate
 
 __all__ = ["Servo"]
 
@@ -23,9 +21,10 @@ LONGEST_STEP: Final = 1e-3  # seconds: time step, shorter for linkages below 10 
 STEP_SHARE: Final = 0.01  # of sqrt(span / g), the time of a fall: longest time step
 FREQUENCY: Final = 0.3  # radians a time step: natural frequency
 ARMATURE: Final = 0.01  # of the reduced inertia: that of the motor itself
-# The same of a six-bar: its driver is often so light beside all that it moves that the damping of
-# the servo, which a step of MuJoCo weighs against the driver alone, would shake the loops.
-SIX_BAR_ARMATURE: Final = 0.3
+# The same where there are more loops: the driver is often so light beside all that it moves that
+# the damping of the servo, which a step of MuJoCo weighs against the driver alone, would shake
+# them.
+LOOPS_ARMATURE: Final = 0.3
 
 
 @final
@@ -48,15 +47,14 @@ class Servo(NamedTuple):
     controls: FloatArray
 
     @classmethod
-    def of(cls, model: DynamicModel, chosen: Candidate) -> Servo:
+    def of(cls, model: DynamicModel) -> Servo:
         """A servo with critical damping for the median of the inertia at the poses."""
         step = min(LONGEST_STEP, STEP_SHARE * math.sqrt(model.reference.span / STANDARD_GRAVITY))
         step = float(f"{step:.1e}")
-        load = model.load(chosen)
+        load = model.load()
         finite = load.inertia[np.isfinite(load.inertia)]
         inertia = float(np.median(finite)) if len(finite) else model.masses[model.driver].about_z()
-        six_bar = isinstance(model.reference, SixBarReference)
-        share = SIX_BAR_ARMATURE if six_bar else ARMATURE
+        share = ARMATURE if len(model.reference.closures) == 1 else LOOPS_ARMATURE
         frequency, moved = FREQUENCY / step, (1 + share) * inertia
         stiffness = moved * frequency**2
         lead = np.nan_to_num(load.holding / stiffness, nan=0.0, posinf=0.0, neginf=0.0)

@@ -20,11 +20,11 @@ import numpy as np
 
 from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
-from burmester.export.models.body_tree import ORIGIN, Body, Site, Tree, tree_of
+from burmester.export.models.body_tree import Body, Site, Tree, tree_of
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import PRECISION, require_equal
+from burmester.export.reference import ORIGIN, PRECISION, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate

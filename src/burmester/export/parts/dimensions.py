@@ -84,7 +84,7 @@ def _least(links: Links) -> Spacing:
         raise InputError(
             "E163",
             "this linkage cannot be made of plates with pins and slots",
-            why=least.fault,
+            why=f"{least.holes} are at one point",
             help="choose another linkage, or a table of its places: --to csv",
         )
     return least

@@ -9,19 +9,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.export.parts.links import GROUND
 from burmester.export.parts.plates import Assembly
-from burmester.export.reference import Reference
-from burmester.export.six_bar_reference import SixBarReference
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Joint", "axes_of", "axis_away", "joints_of", "rim_away"]
+__all__ = ["Pivot", "axes_of", "axis_away", "pivots_of", "rim_away"]
 
 RING_SHARE: Final = 0.2  # of a hole's radius: band in which its facets are searched
 
 
 @dataclass(frozen=True, slots=True)
-class Joint:
+class Pivot:
     """Where two plates are joined, on the plate of one of them.
 
     plates: the names of those of which one has it.  point: (2,) in F, the axis of a hole; or None,
@@ -33,35 +30,21 @@ class Joint:
     line: tuple[FloatArray, float] | None = None
 
 
-def joints_of(reference: Reference | SixBarReference, made: Assembly, pose: int) -> list[Joint]:
-    """Where the linkage itself, at a pose from 1, wants holes and slots of plates; millimetres."""
-    place = reference.places[pose - 1]
-    names = [plate.name for plate in made.plates]
-    ground = tuple(plate.name for plate in made.plates if plate.owner == GROUND)
-    if isinstance(reference, SixBarReference):
-        return [
-            Joint(ground if name == GROUND else (name,), reference.at[each][pose - 1])
-            for name, own in reference.plates.items()
-            for each in own
-        ]
-    joints = list[Joint]()
-    for side, name in enumerate(("driver", "follower")):
-        fixed, moving, line = reference.fixed[side], reference.moving[side], reference.line[side]
-        link = [(name,)] if name in names else []
-        if fixed is not None:
-            joints += [Joint(each, fixed) for each in (ground, *link)]
-        if moving is not None:
-            pivot = place.act(moving)
-            joints += [Joint(each, pivot) for each in (("coupler",), *link)]
-        if line is not None:
-            normal = np.array([math.cos(line[0]), math.sin(line[0])])
-            if moving is not None:
-                joints.append(Joint(ground, None, (normal, line[1])))
-            else:
-                normal = place.rotate(normal)
-                offset = line[1] + float(normal @ place.translation)
-                joints.append(Joint(("coupler",), None, (normal, offset)))
-    return joints
+def pivots_of(made: Assembly) -> list[Pivot]:
+    """Where the linkage itself wants holes and slots of plates in the assembly; millimetres."""
+    plates: dict[str, tuple[str, ...]] = {}
+    for plate in made.plates:
+        plates[plate.owner] = (*plates.get(plate.owner, ()), plate.name)
+    found = list[Pivot]()
+    for joint in made.reference.joints:
+        point = made.drawn[joint.holder].act(joint.holes[joint.holder])
+        found += [Pivot(plates[link], point) for link in joint.holes]
+        if joint.slot is not None:
+            place = made.drawn[joint.slot.link]
+            normal = place.rotate(joint.slot.directions[0])
+            offset = joint.slot.offset + float(normal @ place.translation)
+            found.append(Pivot(plates[joint.slot.link], None, (normal, offset)))
+    return found
 
 
 def axes_of(part: Any, radius: float) -> FloatArray:
@@ -81,7 +64,7 @@ def axes_of(part: Any, radius: float) -> FloatArray:
     return np.reshape(np.array(centres), (-1, 2))
 
 
-def axis_away(joint: Joint, axes: FloatArray) -> float:
+def axis_away(joint: Pivot, axes: FloatArray) -> float:
     """How far a joint's axis is from the nearest one centres; both of a slot from their line."""
     if joint.point is not None:
         away = np.linalg.norm(axes - joint.point, axis=1)
@@ -92,7 +75,7 @@ def axis_away(joint: Joint, axes: FloatArray) -> float:
     return float(away[1]) if len(away) > 1 else math.inf
 
 
-def rim_away(joint: Joint, points: FloatArray, radius: float) -> float:
+def rim_away(joint: Pivot, points: FloatArray, radius: float) -> float:
     """How far the middle of a hole's rim, of points (n, 2) by least squares, is from its pivot.
 
     Of a slot, how far the sides that run along its line are from the radius, on both sides.

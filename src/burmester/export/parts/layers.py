@@ -17,9 +17,10 @@ from typing import NamedTuple
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.parts.dimensions import WALL, Dimensions
 from burmester.export.parts.distances import distance, distances
-from burmester.export.parts.links import GROUND, Arrangement, LinkPlaces, Links
+from burmester.export.parts.links import Arrangement, Links
 from burmester.export.parts.plate import Pin, Plate, plate_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -102,7 +103,7 @@ class _Workshop:
         links, made = self._links, self._made
         corner = bent.corner if bent is not None and bent.link == name else None
         if (name, held, corner) not in self._plates:
-            fixed, moving = links.arms.get(owner, (None, None))
+            fixed, moving = _arm(links, owner)
             self._plates[name, held, corner] = plate_of(
                 [links.features[owner][k] for k in held],
                 name=name,
@@ -110,7 +111,7 @@ class _Workshop:
                 layer=layer,
                 radius=made.width / 2,
                 hole=made.hole,
-                mark=owner == links.body,
+                mark=owner == links.reference.body,
                 fixed=fixed,
                 moving=moving,
                 corner=corner,
@@ -119,18 +120,30 @@ class _Workshop:
 
     def pins(self, arrangement: Arrangement) -> tuple[Pin, ...]:
         """The pins, as long as the layers ask for."""
-        pins = []
-        for holder, at, joins, on_ground, name in self._links.hinges:
+        pins, pivots = [], self._links.reference.links[GROUND]
+        for joint in self._links.reference.joints:
             layers = dict(arrangement.layers)
             names = {each: each for each in self._links.features}
-            if on_ground is not None:
-                layers[GROUND] = arrangement.grounds[on_ground]
+            if joint in pivots:
+                layers[GROUND] = arrangement.grounds[pivots.index(joint)]
                 names[GROUND] = _grounds(arrangement)[layers[GROUND]]
-            low, high = sorted(layers[each] for each in joins)
-            x, y = at.tolist()
-            joined = (names[joins[0]], names[joins[1]])
-            pins.append(Pin(names[holder], x, y, self._made.pin, low, high, joined, name))
+            low, high = sorted(layers[each] for each in joint.links)
+            x, y = joint.holes[joint.holder].tolist()
+            one, two = (names[each] for each in joint.links)
+            pin = Pin(names[joint.holder], x, y, self._made.pin, low, high, (one, two), joint.name)
+            pins.append(pin)
         return tuple(pins)
+
+
+def _arm(links: Links, link: str) -> tuple[FloatArray | None, FloatArray | None]:
+    """Both pivots, in F and in M, of a link that only joins the ground and the body."""
+    body, joints = links.reference.body, links.reference.links[link]
+    if link in (GROUND, body) or len(joints) != 2:
+        return None, None
+    near, far = joints
+    if GROUND not in near.holes or body not in far.holes:
+        return None, None
+    return near.holes[GROUND], far.holes[body]
 
 
 def _grounds(arrangement: Arrangement) -> dict[int, str]:

@@ -1,67 +1,33 @@
-"""A linkage as links with holes and slots, before their widths are chosen; millimetres."""
+"""A linkage as links with holes and slots, before their widths are chosen; millimetres.
+
+Layers: 0 is the ground, each further one lies on the one before, in the lowest stack in which
+nothing meets.  Where there is none, a second ground above holds some of the pivots.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, final, overload
+from functools import cached_property
+from itertools import combinations, product
+from typing import NamedTuple, Self
 
 import numpy as np
 
-from burmester.geometry.displacement import Displacement
+from burmester.export.link_places import GROUND, LinkPlaces
+from burmester.export.motion import all_places
+from burmester.export.parts.distances import distance
+from burmester.export.reference import Reference
 from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
 
-__all__ = ["GROUND", "Arrangement", "Hinge", "LinkPlaces", "Links", "Spacing"]
-
-GROUND = "ground"
-
-
-@final
-class LinkPlaces:
-    """Where the frames of links are in F, at places (*,) of the motion: by the name of a link."""
-
-    def __init__(self, of: Mapping[str, Displacement]) -> None:
-        self._of = of
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """The axes of the places."""
-        return next(iter(self._of.values())).shape
-
-    @overload
-    def __getitem__(self, key: str) -> Displacement: ...
-    @overload
-    def __getitem__(self, key: Any) -> LinkPlaces: ...
-    def __getitem__(self, key: Any) -> Displacement | LinkPlaces:
-        """The places (*,) of a link by its name, or some places of all links by their indices."""
-        if isinstance(key, str):
-            return self._of[key]
-        return LinkPlaces({name: each[key] for name, each in self._of.items()})
-
-
-class Hinge(NamedTuple):
-    """A pin that joins two links.
-
-    holder: the link that holds it, at a point (2,) of its frame.  joins: both links; where one is
-    the ground, it is the first.  on_ground: the number of the ground's hole or slot, if one is.
-    name: of the joint, where it has one.
-    """
-
-    holder: str
-    at: FloatArray
-    joins: tuple[str, str]
-    on_ground: int | None = None
-    name: str = ""
+__all__ = ["Arrangement", "Links", "Spacing"]
 
 
 class Spacing(NamedTuple):
-    """How far two holes or slots of one moving link are apart.
-
-    holes: what they are called; where there is no room for them, whose is too short.
-    """
+    """How far two holes or slots of one moving link are apart, and what they are called."""
 
     holes: str
-    fault: str
     apart: float
 
 
@@ -72,32 +38,91 @@ class Arrangement(NamedTuple):
     grounds: tuple[int, ...]
 
 
-@final
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class Links:
     """What plates and pins have to hold.
 
+    motion: where the links are along the stretch of the motion (n,) that holds the poses.
     features: of each link, the ground first: centres (1, 2) of holes, ends (2, 2) of slots, in its
-    frame.  hinges: the pins.  poses, motion: the frames of links at the poses (N,), and along the
-    stretch of the motion (n,) that holds them.
-    body: the link whose frame is M.  moving: all links that move, as their colours are chosen.
-    arms: of links that turn about the ground and end at the coupler, both pivots, in F and in M.
-    lengths: whose median says how large the linkage is.  spacings: of holes on moving links.
-    arrangements: which layers are tried, one after the other.
+    frame.
     """
 
-    features: Mapping[str, Sequence[FloatArray]]
-    hinges: tuple[Hinge, ...]
-    poses: LinkPlaces
+    reference: Reference
     motion: LinkPlaces
-    body: str
-    moving: tuple[str, ...]
-    arms: Mapping[str, tuple[FloatArray, FloatArray]]
-    lengths: tuple[float, ...]
-    spacings: tuple[Spacing, ...]
-    arrangements: Iterable[Arrangement]
+    features: Mapping[str, Sequence[FloatArray]]
+
+    @classmethod
+    def of(cls, chosen: Candidate, reference: Reference) -> Self:
+        """The links of a linkage; slots reach as far as their pins travel."""
+        motion = all_places(chosen, reference)
+        features = dict[str, list[FloatArray]]()
+        for link, joints in reference.links.items():
+            features[link] = []
+            for slot, holes in ((each.slot, each.holes) for each in joints):
+                if slot is None or link in holes:
+                    features[link].append(holes[link][None])
+                    continue
+                normal, direction = slot.directions
+                along = slot.along(motion)
+                ends = np.stack([along.min(), along.max()])[:, None] * direction
+                features[link].append(normal * slot.offset + ends)
+        return cls(reference, motion, features)
+
+    @cached_property
+    def spacings(self) -> tuple[Spacing, ...]:
+        """Of every two holes or slots of each moving link."""
+        found = []
+        for link, own in self.features.items():
+            if link != GROUND:
+                names = [each.name for each in self.reference.links[link]]
+                for (one, a), (two, b) in combinations(zip(names, own, strict=True), 2):
+                    holes = f"joints {one} and {two}" if one else f"two joints of the {link}"
+                    found.append(Spacing(holes, distance(a, b)))
+        return tuple(found)
 
     @property
     def size(self) -> float:
-        """The median length."""
-        return float(np.median([each for each in self.lengths if each > 0] or [1.0]))
+        """The median of all lengths."""
+        lengths = [each.apart for each in self.spacings]
+        middles = [each.mean(axis=0) for each in self.features[GROUND]]
+        lengths += [float(np.linalg.norm(b - a)) for a, b in combinations(middles, 2)]
+        ends = [each for own in self.features.values() for each in own if len(each) == 2]
+        lengths += [float(np.linalg.norm(b - a)) for a, b in ends]
+        return float(np.median([each for each in lengths if each > 0] or [1.0]))
+
+    @property
+    def arrangements(self) -> tuple[Arrangement, ...]:
+        """One ground before two, then the fewest layers, then the shortest pins.
+
+        In a linkage of one loop the driver is lowest, and links that are joined are neighbours: so
+        even one that goes round both its pivots has nothing in its way.
+        """
+        body, pivots = self.reference.body, self.reference.links[GROUND]
+        moving = [each for each in self.features if each not in (GROUND, body)] + [body]
+        joined = [
+            (each.links, pivots.index(each) if GROUND in each.links else None)
+            for each in self.reference.joints
+        ]
+        ranked = []
+        for layers in _stacks(len(moving)):
+            own = dict(zip(moving, layers, strict=True))
+            if len(self.reference.closures) == 1 and (
+                own.get(self.reference.driver, 1) != 1
+                or any(abs(own[one] - own[two]) != 1 for (one, two), at in joined if at is None)
+            ):
+                continue
+            for grounds in product((0,), *[(0, max(layers) + 1)] * (len(pivots) - 1)):
+                pins = sum(
+                    abs((own[one] if pivot is None else grounds[pivot]) - own[two])
+                    for (one, two), pivot in joined
+                )
+                rank = (max(grounds) > 0, max(layers), pins, layers)
+                ranked.append((rank, Arrangement(own, grounds)))
+        return tuple(each for _, each in sorted(ranked, key=lambda pair: pair[0]))
+
+
+def _stacks(count: int) -> Iterator[tuple[int, ...]]:
+    """All ways to put so many links into layers from 1 upwards, none of which is left empty."""
+    for layers in product(range(1, count + 1), repeat=count):
+        if set(layers) == set(range(1, max(layers) + 1)):
+            yield layers

@@ -8,8 +8,8 @@ from typing import final
 
 import numpy as np
 
+from burmester.export.link_places import LinkPlaces
 from burmester.export.parts.distances import distance
-from burmester.export.parts.links import LinkPlaces
 from burmester.export.parts.outlines import (
     angle_outline,
     convex_hull,

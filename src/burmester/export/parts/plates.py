@@ -11,20 +11,16 @@ from dataclasses import dataclass
 from typing import final
 
 from burmester.errors import InputError
-from burmester.export.options import MILLIMETRES, Options, unit_of
+from burmester.export.link_places import LinkPlaces
+from burmester.export.options import Options, unit_of
 from burmester.export.parts.dimensions import Dimensions, dimensions_of
-from burmester.export.parts.four_bar_links import four_bar_links, scaled
 from burmester.export.parts.layers import arranged
-from burmester.export.parts.links import LinkPlaces, Links
+from burmester.export.parts.links import Links
 from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import Pin, Plate, outline_points
-from burmester.export.parts.six_bar_links import six_bar_links
 from burmester.export.parts.stock import stock_for
-from burmester.export.reference import require_places
-from burmester.fourbar.linkage import Linkage
-from burmester.geometry.displacement import Displacement
+from burmester.export.reference import Reference
 from burmester.synthesis.result import Candidate
-from burmester.verdicts.found_linkage import FoundLinkage
 
 __all__ = [
     "Assembly",
@@ -42,24 +38,40 @@ __all__ = [
 class Assembly:
     """A linkage as plates and pins.
 
-    scale: millimetres per unit of the task's lengths; unit: of those.
-    assumed: whether the task names no unit, nor the options, so that mm was taken.
-    poses, motion: the frames of links at the poses (N,), and along the stretch of the motion (n,)
-    that holds them.  body: the link whose frame is M.  moving: all links that move.
-    pose: index of the place at which the assembly is drawn.
+    reference: the linkage in millimetres; motion: where its links are along the stretch of the
+    motion (n,) that holds the poses.  pins: in the order of its joints.
+    unit: of the task's lengths; assumed: whether the task names none, nor the options, so that mm
+    was taken.  pose: index of the place at which the assembly is drawn.
     """
 
+    reference: Reference
+    motion: LinkPlaces
     plates: tuple[Plate, ...]
     pins: tuple[Pin, ...]
     dimensions: Dimensions
-    scale: float
     unit: str
     assumed: bool
-    poses: LinkPlaces
-    motion: LinkPlaces
-    body: str
-    moving: tuple[str, ...]
     pose: int
+
+    @property
+    def poses(self) -> LinkPlaces:
+        """Where the links are at the poses (N,)."""
+        return self.reference.at_poses
+
+    @property
+    def scale(self) -> float:
+        """Millimetres per unit of the task's lengths."""
+        return self.reference.scale
+
+    @property
+    def body(self) -> str:
+        """The link whose frame is M."""
+        return self.reference.body
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """All bodies that move."""
+        return self.reference.moving
 
     def plate(self, name: str) -> Plate | None:
         """The plate of a name, where there is one."""
@@ -73,12 +85,8 @@ class Assembly:
 
 def assembly_of(chosen: Candidate, options: Options) -> Assembly:
     """The plates and pins of a linkage; raises E162 and E163."""
-    unit = unit_of(chosen, options)
-    scale = MILLIMETRES[unit]
-    number = chosen.task.poses.shape[0]
-    if isinstance(chosen, FoundLinkage):
-        require_places(chosen)
-        number = chosen.error.places.shape[0]
+    unit, reference = unit_of(chosen, options), Reference.of(chosen, options)
+    number = reference.places.shape[0]
     if not 1 <= options.pose <= number:
         raise InputError(
             "E162",
@@ -86,31 +94,9 @@ def assembly_of(chosen: Candidate, options: Options) -> Assembly:
             why=f"the task has {number} poses",
             help=f"give --pose 1, or another up to {number}",
         )
-    links = _links(chosen, scale)
+    links = Links.of(chosen, reference)
     assumed = chosen.unit is None and options.unit is None
-    made = dimensions_of(links, options, scale, unit, None if assumed else stock_for(unit))
+    stock = None if assumed else stock_for(unit)
+    made = dimensions_of(links, options, reference.scale, unit, stock)
     plates, pins = arranged(links, made)
-    return Assembly(
-        plates,
-        pins,
-        made,
-        scale,
-        unit,
-        assumed,
-        links.poses,
-        links.motion,
-        links.body,
-        links.moving,
-        options.pose - 1,
-    )
-
-
-def _links(chosen: Candidate, scale: float) -> Links:
-    """The links of a linkage, in millimetres; raises E163."""
-    if not isinstance(chosen, FoundLinkage):
-        return six_bar_links(chosen.scaled(scale))
-    both = chosen.driver_first
-    first, second = scaled(both.first, scale), scaled(both.second, scale)
-    places = chosen.error.places
-    in_mm = Displacement(places.translation * scale, places.angle)
-    return four_bar_links(Linkage(first, second), in_mm)
+    return Assembly(reference, links.motion, plates, pins, made, unit, assumed, options.pose - 1)

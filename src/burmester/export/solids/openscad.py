@@ -17,14 +17,13 @@ from typing import Any
 
 import numpy as np
 
-from burmester.export.description import description, reference_of
+from burmester.export.description import description
 from burmester.export.escaping import line_comment
+from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.numbers import number
 from burmester.export.options import Options
-from burmester.export.parts.links import GROUND
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import PRECISION, require_equal
-from burmester.export.six_bar_reference import SixBarReference, plates_of
+from burmester.export.reference import PRECISION, Reference, as_rows, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
@@ -160,70 +159,62 @@ def _places(places: Displacement) -> str:
 
 
 def check(chosen: Candidate, path: Path, options: Options) -> None:
-    """Read the numbers back and compare them; raises E160."""
-    reference = reference_of(chosen, options)
+    """Read the numbers back and compare them; raises E160.
+
+    Holes and slots are where the links have them, links meet at their joints in both tables, and
+    the body is where it is for the poses.
+    """
+    reference = Reference.of(chosen, options)
     tolerance = PRECISION * reference.span
     text = re.sub(r"//.*", "", path.read_text(encoding="utf-8"))
     values = {name: json.loads(value) for name, value in NUMBERS.findall(text)}
-    if isinstance(reference, SixBarReference):
-        _check_six_bar(reference, values, tolerance)
-        return
-    rows = np.array(values["poses"])
-    require_equal("the places", rows[:, :2], reference.places.translation, tolerance)
-    require_equal("the angles", np.radians(rows[:, 2]), reference.places.angle, 1e-12)
-    path_rows = np.array(values["motion"])
-    missed = reference.closure_error(Displacement(path_rows[:, :2], np.radians(path_rows[:, 2])))
-    require_equal("the links along the motion", missed, 0, tolerance)
-    on_ground = np.array(values["ground_holes"] + values.get("ground_2_holes", [])).reshape(-1, 2)
-    on_coupler = np.array(values["coupler_holes"]).reshape(-1, 2)
-    for side, name in ((0, "driver"), (1, "follower")):
-        fixed, moving, radius = (
-            reference.fixed[side],
-            reference.moving[side],
-            reference.radius[side],
-        )
-        if radius is not None:
-            assert fixed is not None
-            assert moving is not None
-            require_equal(f"the length of the {name}", values[f"{name}_length"], radius, tolerance)
-            require_equal(f"the {name}'s fixed pivot", values[f"{name}_fixed"], fixed, tolerance)
-            require_equal(f"the {name}'s moving pivot", values[f"{name}_moving"], moving, tolerance)
-        for holes, point in ((on_ground, fixed), (on_coupler, moving)):
-            if point is not None:
-                gap = np.linalg.norm(holes - point, axis=1).min(initial=np.inf)
-                require_equal(f"a hole for the {name}", gap, 0, tolerance)
-        if (line := reference.line[side]) is not None:
-            where = ("ground", "ground_2") if reference.kinds[side] == "PR" else ("coupler",)
-            slots = np.array([each for name in where for each in values.get(f"{name}_slots", [])])
-            ends = slots.reshape(-1, 2, 2)
-            off = np.abs(ends @ [np.cos(line[0]), np.sin(line[0])] - line[1]).max(axis=1)
-            require_equal(f"the slot of the {name}", off.min(initial=np.inf), 0, tolerance)
+    for link, joints in reference.links.items():
+        holes, slots = _cut_out(values, link)
+        for joint in joints:
+            if link in joint.holes:
+                off = np.linalg.norm(holes - joint.holes[link], axis=1)
+            else:
+                assert joint.slot is not None
+                normal, _ = joint.slot.directions
+                off = np.abs(slots @ normal - joint.slot.offset).max(axis=1)
+            require_equal(f"a hole of the {link}", off.min(initial=np.inf), 0, tolerance)
+    for table in ("poses", "motion"):
+        body = _read_places(values[table])
+        places = {link: _read_link(values, link, table, body) for link in reference.links}
+        places[reference.body] = body
+        missed = reference.closure_error(LinkPlaces(places))
+        require_equal(f"the links at the {table}", missed, 0, tolerance)
+    at_poses, wanted = _read_places(values["poses"]), reference.places
+    require_equal("the places", at_poses.translation, wanted.translation, tolerance)
+    require_equal("the angles", as_rows(at_poses)[:, 2:], as_rows(wanted)[:, 2:], PRECISION)
 
 
-def _check_six_bar(reference: SixBarReference, values: Mapping[str, Any], tolerance: float) -> None:
-    """Raise E160 where links do not meet at their joints, or joints at poses are elsewhere."""
-    where: dict[str, dict[str, list[FloatArray]]] = {}
-    at, body = reference.at, plates_of(reference.found.skeleton)[reference.found.carries]
-    for link, joints in reference.plates.items():
-        name = link.replace("-", "_")
-        holes = np.array(values[f"{name}_holes"] + values.get(f"{name}_2_holes", []))
-        require_equal(f"the number of holes of the {link}", len(holes), len(joints), 0)
-        if link == GROUND:  # a second ground may hold any of them
-            pivots = np.array([at[joint][0] for joint in joints])
-            holes = holes[np.linalg.norm(holes - pivots[:, None], axis=-1).argmin(axis=-1)]
-        own = "" if link == body else f"{name}_"
-        for table in ("poses", "motion"):
-            rows = np.array(values[f"{table if link == GROUND else own + table}"])
-            places = Displacement(rows[:, :2], np.radians(rows[:, 2]))
-            if link == GROUND:
-                places = Displacement.identity(places.shape)
-            for joint, hole in zip(joints, holes, strict=True):
-                where.setdefault(joint, {}).setdefault(table, []).append(places.act(hole))
-    for joint, tables in where.items():
-        for one, two in tables.values():
-            require_equal(f"joint {joint} of two links", one, two, tolerance)
-        require_equal(f"joint {joint} at the poses", tables["poses"][0], at[joint], tolerance)
-    rows = np.array(values["poses"])
-    require_equal("the places", rows[:, :2], reference.places.translation, tolerance)
-    turned = np.exp(1j * (np.radians(rows[:, 2]) - reference.places.angle))
-    require_equal("the angles", np.abs(turned - 1), np.zeros(len(rows)), PRECISION)
+def _cut_out(values: Mapping[str, Any], link: str) -> tuple[FloatArray, FloatArray]:
+    """The centres (n, 2) of a link's holes, and the ends (m, 2, 2) of its slots."""
+    name = link.replace("-", "_")
+    if f"{name}_length" in values:
+        return np.array([[0.0, 0.0], [values[f"{name}_length"], 0.0]]), np.empty((0, 2, 2))
+    both = (name, f"{name}_2")  # a second ground may hold some of them
+    holes, slots = (
+        [each for own in both for each in values.get(f"{own}_{what}", [])]
+        for what in ("holes", "slots")
+    )
+    return np.reshape(holes, (-1, 2)), np.reshape(slots, (-1, 2, 2))
+
+
+def _read_link(
+    values: Mapping[str, Any], link: str, table: str, body: Displacement
+) -> Displacement:
+    """The places (n,) of a link that is not the body."""
+    name = link.replace("-", "_")
+    if f"{name}_{table}" in values:
+        return _read_places(values[f"{name}_{table}"])
+    if f"{name}_fixed" not in values:
+        return Displacement.identity(body.shape)
+    fixed = np.array(values[f"{name}_fixed"])
+    arm = body.act(np.array(values[f"{name}_moving"])) - fixed
+    return Displacement(np.broadcast_to(fixed, arm.shape), np.arctan2(arm[:, 1], arm[:, 0]))
+
+
+def _read_places(rows: list[list[float]]) -> Displacement:
+    return Displacement(np.array(rows)[:, :2], np.radians(np.array(rows)[:, 2]))

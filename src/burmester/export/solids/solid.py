@@ -19,11 +19,10 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.errors import BurmesterError, InputError
-from burmester.export.description import reference_of
 from burmester.export.escaping import step_text
 from burmester.export.options import Options
 from burmester.export.parts.collisions import collision
-from burmester.export.parts.holes import axes_of, axis_away, joints_of, rim_away
+from burmester.export.parts.holes import axes_of, axis_away, pivots_of, rim_away
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION
 from burmester.export.solids.solid_parts import Part, area_of, laid, parts_of, placed
@@ -87,10 +86,10 @@ def check_step(chosen: Candidate, path: Path, options: Options) -> None:
         volume = part.area * part.height
         if not abs(read[name].volume - volume) <= VOLUME_TOLERANCE * volume:
             raise _off(f"the {name} has {read[name].volume:.9g} mm³, not {volume:.9g} mm³")
-    reference, radius = reference_of(chosen, options), made.dimensions.hole / 2
-    for joint in joints_of(reference, made, options.pose):
+    radius = made.dimensions.hole / 2
+    for joint in pivots_of(made):
         away = min(axis_away(joint, axes_of(read[each], radius)) for each in joint.plates)
-        if not away <= PRECISION * reference.span:
+        if not away <= PRECISION * made.reference.span:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
     clash = collision(cad, read, made)
     if clash is not None:
@@ -117,7 +116,7 @@ def check_stl(chosen: Candidate, path: Path, options: Options) -> None:
             and abs(np.ptp(shell[..., 2]) - made.dimensions.thickness) <= tolerance
         ]
         rims[name] = np.concatenate([np.zeros((0, 3)), *(each.reshape(-1, 3) for each in own)])
-    for joint in joints_of(reference_of(chosen, options), made, options.pose):
+    for joint in pivots_of(made):
         away = min(rim_away(joint, rims[each][:, :2], radius) for each in joint.plates)
         if not away <= tolerance:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
@@ -143,7 +142,7 @@ def check_flat(chosen: Candidate, path: Path, options: Options) -> None:
         for part in laid(parts_of(cad, made), made)
         if part.name in plates
     }
-    for joint in joints_of(reference_of(chosen, options), made, options.pose):
+    for joint in pivots_of(made):
         away = min(rim_away(joint, rims[each], made.dimensions.hole / 2) for each in joint.plates)
         if not away <= 2 * tolerance:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")

@@ -12,7 +12,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from burmester.export.parts.links import GROUND
+from burmester.export.link_places import GROUND
 from burmester.export.parts.plates import Assembly, Plate, slot_outline
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray

@@ -70,7 +70,7 @@ def pictures(film: Film) -> Iterator[Picture]:
         for number in range(film.count):
             place = places[number]
             step(f"drawing picture {number + 1} of {film.count}")
-            own = film.drawn(ax, number)
+            own = plot.draw(ax, film.scene(number)).artists
             if film.outline is not None:
                 own += plot.body(ax, film.outline, place[None], at=0).places
             grown.set_data(*path[: many[number]].T)
@@ -113,7 +113,7 @@ def _stage(film: Film) -> Stage:
         some = np.unique(np.linspace(0, film.count - 1, FITTED_PLACES).astype(np.intp))
         plot.poses(ax, task.poses[shown], numbers=False, free=task.free_angles[shown])
         for number in some:
-            film.drawn(ax, number)
+            plot.draw(ax, film.scene(int(number)))
         if film.outline is not None:
             plot.body(ax, film.outline, film.places[some])
         _background(film, shown, ax)
@@ -133,7 +133,7 @@ def _stage(film: Film) -> Stage:
             ylim=(y - half * (h - above), y + half * (h - above)),
             autoscale_on=False,
         )
-        for line in film.curve(ax):
+        for line in plot.path(ax, film.chosen):
             line.set(color=GREY, lw=0.9, linestyle=(0, (3, 2)))
         _background(film, shown, ax)
         over = list[Artist]()

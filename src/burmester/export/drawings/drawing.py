@@ -1,0 +1,205 @@
+"""A drawing as a display list: the plates laid out for cutting, the assembly, and all that is told.
+
+DXF and SVG write the same list, in millimetres, and their readers return it; it is compared once.
+
+E160 the file does not contain the linkage
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from itertools import zip_longest
+from typing import Literal, NamedTuple, Self, TypeAlias, final
+
+import numpy as np
+
+from burmester.export.description import description, dimension_notes, length_decimals
+from burmester.export.drawings.dimension_lines import DimensionLine
+from burmester.export.drawings.outlines import Outlines, hatch, name_start
+from burmester.export.drawings.sheet import Sheet, beside, joint_names, notes_on, sheet_of
+from burmester.export.options import Options
+from burmester.export.parts.holes import pivots_of
+from burmester.export.parts.outlines import slot_outline
+from burmester.export.parts.plate import Plate, moved
+from burmester.export.parts.plates import Assembly, assembly_of
+from burmester.export.reference import require_equal
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+from burmester.synthesis.result import Candidate
+
+__all__ = ["Drawing", "Item", "Kind", "Role", "halved", "require_drawing"]
+
+MAX_BULGE = 0.57  # bulge above which an arc is drawn as two
+TICK = 0.3  # of the height of text: half of a mark's arms
+
+Kind: TypeAlias = Literal["outline", "circle", "line", "arrow", "text"]
+Role: TypeAlias = Literal[
+    "outline", "hole", "slot", "mark", "body", "keep-out", "hatch", "pose", "name", "note",
+    "dimension",
+]  # fmt: skip
+
+
+@final
+class Item(NamedTuple):
+    """A closed outline (k, 3) with bulges, a circle (3,), a line (2, 2), an arrow or a text (2,).
+
+    role: what it shows.  group: of what, the name of a plate, before which "placed-" stands in the
+    assembly, or "".  text: of a text, which begins there; that of a dimension has its middle there.
+    """
+
+    kind: Kind
+    role: Role
+    at: FloatArray
+    group: str = ""
+    text: str = ""
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawing:
+    """A drawing, millimetres: what is on it, without dimension lines, and these by plate.
+
+    notes: what is written below, the first a title.
+    """
+
+    assembly: Assembly
+    sheet: Sheet
+    notes: list[str]
+    items: tuple[Item, ...]
+    dimensions: tuple[tuple[str, DimensionLine], ...]
+
+    @classmethod
+    def of(cls, chosen: Candidate, options: Options, unit: str = "mm") -> Self:
+        """The drawing of a linkage; unit: of the lengths that it tells.  Raises E162 and E163."""
+        assembly = assembly_of(chosen, options)
+        outlines = Outlines.of(chosen.task, assembly.reference)
+        notes = description(chosen, options, unit) + dimension_notes(chosen, options, unit)
+        notes += notes_on(assembly)
+        sheet = sheet_of(
+            assembly,
+            assembly.reference.poses,
+            len(notes),
+            length_decimals(chosen, options, unit),
+            options.dimensions,
+            outlines=outlines,
+            unit=unit,
+        )
+        items = [
+            *_parts(assembly, sheet),
+            *_poses(assembly.reference.poses, sheet),
+            *(
+                Item("text", "note", sheet.notes - [0, 1.6 * k * sheet.letters], text=note)
+                for k, note in enumerate(notes)
+            ),
+            *_outlines(outlines, sheet.letters),
+        ]
+        dimensions = [(part.plate.name, line) for part in sheet.parts for line in part.lines]
+        return cls(assembly, sheet, notes, tuple(items), tuple(dimensions))
+
+    def told(self) -> list[Item]:
+        """The items of all dimension lines."""
+        found = list[Item]()
+        for plate, line in self.dimensions:
+            found += [Item("line", "dimension", ends, plate) for ends in line.lines]
+            found += [Item("arrow", "dimension", corners, plate) for corners in line.arrows]
+            found.append(Item("text", "dimension", line.at, plate, line.text))
+        return found
+
+
+def _parts(assembly: Assembly, sheet: Sheet) -> Iterable[Item]:
+    """The plates laid out with their names, and in the assembly."""
+    for part, label in zip(sheet.parts, sheet.labels, strict=True):
+        yield from _plate(part.plate, part.place, sheet, part.plate.name)
+        yield Item("text", "name", label, part.plate.name, part.label)
+    for plate in assembly.plates:
+        yield from _plate(plate, plate.at(assembly.drawn), sheet, f"placed-{plate.name}")
+    for name, at in joint_names(assembly, sheet):
+        yield Item("text", "name", at, "joints", name)
+
+
+def _plate(plate: Plate, place: Displacement, sheet: Sheet, group: str) -> Iterable[Item]:
+    outline, holes, slots, marks = moved(plate, place)
+    yield Item("outline", "outline", outline, group)
+    for hole in holes:
+        yield Item("circle", "hole", hole, group)
+    for slot in slots:
+        yield Item("outline", "slot", slot_outline(slot), group)
+    for mark in marks:
+        for arm in TICK * sheet.letters * np.eye(2):
+            yield Item("line", "mark", np.stack([mark - arm, mark + arm]), group)
+
+
+def _outlines(outlines: Outlines, letters: float) -> Iterable[Item]:
+    """The body at every pose, and the regions with hatches and names."""
+    for corners in outlines.body if outlines.body.size else ():
+        yield Item("outline", "body", _straight(corners))
+    for k, (name, corners) in enumerate(outlines.regions):
+        group = f"region-{k + 1}"
+        yield Item("outline", "keep-out", _straight(corners), group)
+        for ends in hatch(corners, letters):
+            yield Item("line", "hatch", ends, group)
+        if name:
+            yield Item("text", "keep-out", name_start(name, corners, letters), group, name)
+
+
+def _straight(corners: FloatArray) -> FloatArray:
+    """Corners (k, 2) as an outline (k, 3) without arcs."""
+    return np.column_stack([corners, np.zeros(len(corners))])
+
+
+def _poses(poses: Displacement, sheet: Sheet) -> Iterable[Item]:
+    axes = np.array([[0.0, 0.0], [sheet.axes, 0.0], [0.0, sheet.axes / 2]])
+    for number in range(poses.shape[0]):
+        origin, *ends = poses[number][None].act(axes)
+        for end in ends:
+            yield Item("line", "pose", np.stack([origin, end]))
+        yield Item("text", "pose", beside(poses[number], sheet), text=str(number + 1))
+
+
+def halved(outline: FloatArray) -> FloatArray:
+    """The outline with its arcs of a third of a turn or more in two.
+
+    Its ends and its radius determine half a circle to half the digits only.
+    """
+    rows: list[list[float]] = []
+    for (x0, y0, bulge), (x, y, _) in zip(
+        outline.tolist(), np.roll(outline, -1, axis=0).tolist(), strict=True
+    ):
+        if abs(bulge) < MAX_BULGE:
+            rows.append([x0, y0, bulge])
+            continue
+        half = math.tan(math.atan(bulge) / 2)
+        middle = (x0 + x + bulge * (y - y0)) / 2, (y0 + y - bulge * (x - x0)) / 2
+        rows += [[x0, y0, half], [*middle, half]]
+    return np.array(rows)
+
+
+def require_drawing(
+    read: Sequence[Item], drawing: Drawing, tolerance: float, escaped: Callable[[str], str]
+) -> None:
+    """Raise E160 unless a drawing that was read back is this one.
+
+    Every item is there and no other one, in the order of its role; and the holes of the assembly
+    are at the pivots of the linkage.  escaped: how the format writes a text.
+    """
+    wanted = [*drawing.items, *drawing.told()]
+    for role in dict.fromkeys(each.role for each in (*wanted, *read)):
+        one, two = ([each for each in items if each.role == role] for items in (read, wanted))
+        require_equal(f"how many items there are of {role}", len(one), len(two), 0)
+        for got, own in zip_longest(one, two):
+            what = f"{own.role} {own.group or own.text}"
+            require_equal(f"the kind of {what}", got.kind == own.kind, True, 0)
+            require_equal(f"the text of {what}", got.text == escaped(own.text), True, 0)
+            at = halved(own.at) if got.kind == "outline" and len(got.at) != len(own.at) else own.at
+            require_equal(f"{what}", got.at, at, tolerance)
+    holes = [each for each in read if each.role == "hole"]
+    for pivot in pivots_of(drawing.assembly):
+        if pivot.point is not None:
+            groups = [f"placed-{name}" for name in pivot.plates]
+            own = [each.at[:2] for each in holes if each.group in groups]
+            gap = np.linalg.norm(np.reshape(own, (-1, 2)) - pivot.point, axis=1)
+            require_equal(
+                f"a pivot in the {pivot.plates[0]}", gap.min(initial=np.inf), 0, tolerance
+            )

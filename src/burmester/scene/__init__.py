@@ -1,0 +1,1 @@
+"""Linkages as display lists: what is drawn, whoever draws it."""
