@@ -21,6 +21,7 @@ import doctest
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -31,6 +32,7 @@ from pathlib import Path
 import pytest
 
 import burmester
+from tests import command
 from tests.oracles.markdown import Block, Command, Document, commands, matches
 
 ROOT = Path(__file__).parents[2]
@@ -38,6 +40,8 @@ PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 SETTING_UP = ("pip ", "git ", "cd ", "source ", "python -m venv ", "python -m pip ", "scripts/")
 OPTIONAL = ("build123d", "ezdxf", "flint", "imageio_ffmpeg", "matplotlib", "pyarrow", "PIL")
+OF_ITS_OWN = {"batch", "reproduce", "studio"}  # commands that start processes, or wait
+SHELL = re.compile(r"[|&;<>$`*~\n]")  # what a shell may have to do with
 ERROR = re.compile(r"^error(\[|:)", re.MULTILINE)
 
 
@@ -53,6 +57,13 @@ def shims(tmp_path_factory):
 
 
 def run(text, shims, folder):
+    """A line of a shell.  Where it is a command alone, what it solves is solved once for all."""
+    words = shlex.shlex(re.sub(r"\s# .*", "", text), posix=True, punctuation_chars=True)
+    words.whitespace_split, words.commenters = True, ""
+    program, *arguments = words
+    if program == "burmester" and arguments[0] not in OF_ITS_OWN and not SHELL.search(text):
+        assert Path.cwd() == folder
+        return command.run(*arguments)
     environment = {**os.environ, "PATH": f"{shims}{os.pathsep}{os.environ['PATH']}"}
     environment.pop("COLUMNS", None)
     return subprocess.run(
@@ -67,28 +78,28 @@ def run(text, shims, folder):
     )
 
 
-def trouble_of_set_up(command):
+def trouble_of_set_up(text):
     """What a command that sets up names and is not there."""
-    word = command.split()[0]
+    word = text.split()[0]
     if word.startswith("scripts/") and not os.access(ROOT / word, os.X_OK):
         return f"{word} is no script"
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
     extras = extras["optional-dependencies"]
-    for group in re.findall(r"(?:\.|burmester)\[([\w,]+)\]", command):
+    for group in re.findall(r"(?:\.|burmester)\[([\w,]+)\]", text):
         if missing := set(group.split(",")) - set(extras):
             return f"no extra {missing}"
     return None
 
 
-def trouble(command: Command, shims, folder):
+def trouble(each: Command, shims, folder):
     """What is wrong with a command of a document, or None."""
-    if command.text.startswith(SETTING_UP):
-        return trouble_of_set_up(command.text)
-    done = run(command.text, shims, folder)
+    if each.text.startswith(SETTING_UP):
+        return trouble_of_set_up(each.text)
+    done = run(each.text, shims, folder)
     printed = [line.rstrip() for line in (done.stdout + done.stderr).rstrip().splitlines()]
     if "pip install" in done.stderr and not all(map(find_spec, OPTIONAL)):
         return None  # an extra that this machine has no wheel for
-    shown = list(command.shown)
+    shown = list(each.shown)
     while shown and not shown[-1]:
         shown.pop()
     expected = (2,) if ERROR.search("\n".join(shown)) else (0, 1)
@@ -144,9 +155,9 @@ def troubles(document: Document, shims, folder, monkeypatch):
             (folder / rest).write_text(block.text, encoding="utf-8")
         told = None
         if block.kind == "console":
-            for command in commands(block):
-                if told := trouble(command, shims, folder):
-                    wrong.append(f"line {command.line}: {command.text}\n{told}")
+            for each in commands(block):
+                if told := trouble(each, shims, folder):
+                    wrong.append(f"line {each.line}: {each.text}\n{told}")
             continue
         if block.kind == "python":
             told = session_of(block, "document", namespace)
@@ -178,13 +189,12 @@ def test_every_block_does_what_it_shows(name, shims, folder, monkeypatch):
 
 
 @pytest.fixture(scope="session")
-def helps(shims, tmp_path_factory):
+def helps():
     """The help of each command by its name."""
-    folder = tmp_path_factory.mktemp("helps")
-    listed = run("burmester --help", shims, folder).stdout.partition("Commands:")[2]
+    listed = command.run("--help").stdout.partition("Commands:")[2]
     names = re.findall(r"^  ([a-z]+) ", listed, re.MULTILINE)
     assert {"synthesize", "check"} <= set(names)
-    return {name: run(f"burmester {name} --help", shims, folder).stdout for name in names}
+    return {name: command.run(name, "--help").stdout for name in names}
 
 
 def options_of(text):
