@@ -80,12 +80,14 @@ def test_pairs_stand_in_a_table_and_are_gone_to(page):
 def test_a_page_of_a_function_holds_its_structural_error():
     found = burmester.synthesize_function("sin(x)", (0, 1.5), input_deg=90, output_deg=90, pairs=4)
     data = function_report(found.synthesis)
-    for each, known in zip(data["generators"], found.generators, strict=False):
-        error = np.array(each["curve"]["error"], dtype=float)
+    for each, known in zip(data["linkages"], found.generators, strict=False):
+        panel = each["panels"][1]
+        error = np.array(panel["y"], dtype=float)
         assert np.nanmax(np.abs(error)) == pytest.approx(np.degrees(known.max_error), rel=1e-9)
-        inputs = np.radians(each["curve"]["input"])[:200]
+        inputs = np.radians(panel["x"])[:200]
         made = np.degrees(function_loops.outputs(known.generator, inputs))
-        off = made - np.array(each["curve"]["wanted"])[:200] - error[:200]
+        wanted = 90 * np.sin(inputs * 1.5 / np.radians(90)) / np.sin(1.5)
+        off = made - wanted - error[:200]
         assert np.abs((off + 180) % 360 - 180).max() < 1e-6
-        names = [pose["name"] for pose in each["motion"]["poses"]]
+        names = [pose["name"] for pose in each["picture"]["poses"]]
         assert names == ["start", "1", "2", "3", "4", "end"]

@@ -257,7 +257,7 @@ def test_size_and_time(synthesis):
     text = page_of(synthesis, "Ten poses")
     assert len(text.encode()) < 3e6
     assert time.process_time() - start < 2
-    assert report_data(synthesis)["schema"] == "burmester.report/1"
+    assert report_data(synthesis)["schema"] == "burmester.report/2"
 
 
 # ---------------------------------------------------------------------------------- the page

@@ -224,7 +224,7 @@ def test_the_command_writes_the_page_or_says_why_not(tmp_path):
     )
     assert code == 0
     assert out.startswith("S1 is a Watt I six-bar, driven at ")
-    assert '"six_bars":[{"id":"S1"' in file.read_text()
+    assert '"linkages":[{"id":"S1"' in file.read_text()
     code, out, _ = run("report", hard, "-o", tmp_path / "four.html")
     assert code == 1
     assert "What helps: " in out

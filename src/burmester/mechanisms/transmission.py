@@ -13,7 +13,7 @@ from burmester.mechanisms.circles import acute_angle
 from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["least_transmission_angle"]
+__all__ = ["least_transmission_angle", "transmission_angles"]
 
 
 def least_transmission_angle(skeleton: Skeleton, joints: ComplexArray, pivot: str) -> FloatArray:
@@ -21,18 +21,25 @@ def least_transmission_angle(skeleton: Skeleton, joints: ComplexArray, pivot: st
 
     pivot: of the driver.
     """
+    return np.asarray(np.minimum.reduce(transmission_angles(skeleton, joints, pivot)))
+
+
+def transmission_angles(skeleton: Skeleton, joints: ComplexArray, pivot: str) -> list[FloatArray]:
+    """The same for each group of links beyond the driver, as `Skeleton.legs` has them."""
     at = {name: joints[..., k] for k, name in enumerate(skeleton.joints)}
-    angles = []
+    angles = list[FloatArray]()
     for group in skeleton.legs(pivot):
         legs = [tuple(at[joint] for joint in tuple(leg)) for leg in group]
         if len(legs) == 2:
             (one, tip), (other, _) = legs
             angles.append(acute_angle(one - tip, other - tip))
             continue
+        ends = list[FloatArray]()
         for k in range(3):
             (base, tip), (p, q), (r, s) = legs[k], legs[k - 1], legs[k - 2]
             u, v = q - p, s - r
             # Where the other two meet, as seen from the tip and times the sine between them.
             meeting = (p - tip) * (u.conj() * v).imag + u * ((r - p).conj() * v).imag
-            angles.append(acute_angle(meeting, tip - base))
-    return np.asarray(np.minimum.reduce(angles))
+            ends.append(acute_angle(meeting, tip - base))
+        angles.append(np.asarray(np.minimum.reduce(ends)))
+    return angles

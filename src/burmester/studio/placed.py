@@ -6,6 +6,7 @@ the nearest to the origin of M, or of F, of those that do.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any, Final
 
 import numpy as np
@@ -52,7 +53,8 @@ def placed(task: Task, pivots: Any, options: SynthesisOptions, frames: int) -> d
         judged = judge_linkage(task, Linkage(*dyads), options)
     except InputError as error:
         return {**answer, "messages": [error.to_dict()]}
-    first = judged.linkages[0]
+    (one, two), first = judged.linkages[0].dyads, judged.linkages[0]
+    first = replace(first, dyads=(replace(one, id="P1"), replace(two, id="P2")))
     return {
         **answer,
         "linkage": linkage_report(judged, first, frames),

@@ -27,6 +27,7 @@ from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
+from burmester.tasks.requirements import Requirements
 from burmester.verdicts import explanation
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.tolerance_words import share_texts
@@ -34,10 +35,18 @@ from burmester.web.branches import Branches, branches_of
 from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of
 from burmester.web.pivot_map import pivot_map
+from burmester.wording import figure
 
-__all__ = ["linkage_report", "poses_report", "report_data", "scene_of"]
+__all__ = ["linkage_report", "poses_report", "report_data", "scene_of", "transmission_limit"]
 
-SCHEMA = "burmester.report/1"
+SCHEMA = "burmester.report/2"
+KINDS = (
+    "RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of "
+    "the body."
+)
+KEYS = [("side0", "driver (filled)"), ("side1", "follower (hollow)")]  # how links are drawn
+USUAL_LIMIT = (40.0, "a usual limit")  # degrees: where designers begin to hesitate
+LINKS = ("ground", "driver", "coupler", "follower")
 FRAMES = 24_000  # frames of all linkages together
 MOST_FRAMES, LEAST_FRAMES = 361, 61  # frames along a way
 FAR = 100.0  # scenes: pivots that may be moved farther are called open
@@ -80,8 +89,10 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
         "space": space_of(None, poses, None, chart),
         "pivot_map": pivot_map(synthesis, scene),
         "family_map": family_map(synthesis),
-        "asked_transmission_deg": task.requirements.transmission_deg or None,
-        "footnotes": sentences.footnotes(synthesis),
+        "transmission_limit": transmission_limit(task.requirements, USUAL_LIMIT),
+        "keys": KEYS if linkages else [],
+        "table": _table(synthesis, linkages),
+        "footnotes": f"{sentences.footnotes(synthesis)} {KINDS}",
     }
 
 
@@ -91,6 +102,13 @@ def linkage_report(synthesis: Synthesis, found: FoundLinkage, frames: int) -> di
     poses = _poses_taken(synthesis.task, next(iter(synthesis.linkages), None))
     chart = chart_of(poses, synthesis.length or scene)
     return _linkage(synthesis, found, scene, frames, chart)
+
+
+def transmission_limit(requirements: Requirements, usual: tuple[float, str]) -> dict[str, Any]:
+    """The transmission angle that a plot marks: the one that is asked for, or else a usual one."""
+    asked = requirements.transmission_deg
+    degrees, said = (asked, "asked") if asked else usual
+    return {"deg": degrees, "said": f"{figure(degrees)}°, {said}"}
 
 
 def scene_of(synthesis: Synthesis) -> float:
@@ -161,35 +179,128 @@ def _linkage(
     worst, angle = digits.worst_errors(synthesis, found)
     first, second = found.dyads_driver_first
     data = linkage_data(found, tolerance)
+    unit = f" {task.length_unit}" if task.length_unit else ""
+    reasons = [] if found.usable else explanation.reasons(found, task)
+    free = task.angles_are_free
+    turn = "free" if free else digits.angle_error(float(np.sqrt((found.error.angle**2).mean())))
+    rms = digits.position_error(synthesis, found.error.rms)
+    least = notation.least_angle(found.driven.least_over_range)
+    quality = quality_words.facts(found, task)
+    links = _links(synthesis, found)
+    freedom = _freedom(synthesis, found)
+    verdict = "✓ usable" if found.usable else "✕ not usable"
+    driver = f"{first.id}, turns fully" if found.driven.turns_fully else first.id
+    miss = _misses(worst, angle, unit)
+    facts = [
+        ("verdict", verdict),
+        *((f"{name} link", f"{value}{unit}") for name, value in (links or {}).items()),
+        ("worst miss", " and ".join(miss)),
+        ("rms miss", " and ".join(_misses(rms, turn, unit))),
+        ("least transmission angle", least),
+        *quality.items(),
+        ("driver", driver),
+    ]
+    if freedom:
+        facts.append(("pivots", freedom.removeprefix("pivots ")))
+    said = {
+        "story": _story(synthesis, found, reasons, bool(branches.ways)),
+        "facts": [[name, "–" if text == "-" else text] for name, text in facts],
+        "met": explanation.nearness(found, task, synthesis.length),
+        "reasons": reasons,
+        "help": None if found.usable else explanation.hints([found], synthesis.problem),
+        "worst": worst,
+        "angle": angle,
+        "rms": rms,
+        "transmission": least,
+        "quality": quality,
+        "links": links,
+        "dimensions": [each._asdict() for each in dimensions(synthesis, found)],
+        "notes": sentences.notes(synthesis, found),
+        "manifolds": [_manifold(each.dyad) for each in (first, second)],
+    }
     return {
         **data,
         "type": found.type,
         "led": [dyad_data(each, found.error.places) for each in (first, second)],
-        "said": {
-            "verdict": "usable" if found.usable else "not usable",
-            "met": explanation.nearness(found, task, synthesis.length),
-            "in_short": explanation.in_short(found, task, synthesis.length),
-            "reasons": [] if found.usable else explanation.reasons(found, task),
-            "help": None if found.usable else explanation.hints([found], synthesis.problem),
-            "freedom": _freedom(synthesis, found),
-            "worst": worst,
-            "angle": angle,
-            "rms": digits.position_error(synthesis, found.error.rms),
-            "rms_angle": "free"
-            if synthesis.task.angles_are_free
-            else digits.angle_error(float(np.sqrt((found.error.angle**2).mean()))),
-            "transmission": notation.least_angle(found.driven.least_over_range),
-            "quality": quality_words.facts(found, task),
-            "turns_fully": found.driven.turns_fully,
-            "links": _links(synthesis, found),
-            "dimensions": [each._asdict() for each in dimensions(synthesis, found)],
-            "notes": sentences.notes(synthesis, found),
-            "manifolds": [_manifold(each.dyad) for each in (first, second)],
+        "card": {
+            "verdict": verdict,
+            "facts": _card(found, said, miss),
+            "quiet": freedom,
+            "reason": "; ".join(reasons) or None,
         },
+        "said": said,
         "pose_errors": _pose_errors(synthesis, found, branches),
         "ways": branches.ways,
         "space": space_of(found.driver_first, _poses_taken(task, found), _places(branches), chart),
     }
+
+
+def _misses(away: str, angle: str, unit: str) -> list[str]:
+    """A position error with its unit, and an angle error where one counts."""
+    length = away if away in ("-", "exact") else f"{away}{unit}"
+    alone = away == "-" or angle == "free" or (away, angle) == ("exact", "exact")
+    return [length] if alone else [length, angle]
+
+
+def _card(found: FoundLinkage, said: dict[str, Any], miss: list[str]) -> list[list[Any]]:
+    """The facts of a card: name, text or texts, and how they are shown."""
+    least, quality, links = said["transmission"], said["quality"], said["links"]
+    transmits = {"-": "–", "0°": "down to 0°"}.get(least, f"{least} or more")
+    facts: list[list[Any]] = [["worst miss", "–" if miss == ["-"] else miss]]
+    facts.append(["transmission", transmits])
+    if quality:
+        both = [quality["extent"], quality["sensitivity"]]
+        facts.append(["extent, sensitivity", both, "bm-detail"])
+    facts.append(["driver", dict(said["facts"])["driver"]])
+    if links:
+        return [*facts, ["links", [*links.values()], "bm-detail bm-links"]]
+    dyads = " · ".join(f"{each.id} ({type(each.dyad).__name__})" for each in found.dyads)
+    return [*facts, ["dyads", dyads, "bm-detail"]]
+
+
+def _story(synthesis: Synthesis, found: FoundLinkage, reasons: list[str], moves: bool) -> str:
+    """The sentence under a linkage's name."""
+    task, driver = synthesis.task, found.dyads_driver_first[0].id
+    met = explanation.nearness(found, task, synthesis.length)
+    told = f"{'Usable' if found.usable else 'Not usable'}: it {met}"
+    if not moves:
+        why = "; ".join(reasons) or "its motion is not known"
+        return f"{told}. It cannot be shown moving: {why}."
+    if found.type == "change-point":
+        return (
+            f"{told}, driven by {driver}. At a change point, where all links lie in one line, it "
+            "may go on either way."
+        )
+    if found.usable:
+        return f"{told}, driven by {driver}."
+    return f"Not usable: it {explanation.in_short(found, task, synthesis.length)}."
+
+
+def _table(synthesis: Synthesis, linkages: list[dict[str, Any]]) -> dict[str, Any]:
+    """All linkages, as the page tabulates them; words: the columns of words."""
+    unit = f" ({synthesis.task.length_unit})" if synthesis.task.length_unit else ""
+    angle = [] if synthesis.task.angles_are_free else ["worst angle"]
+    lengths = [f"{name} link" for name in LINKS]
+    heads = ["", "verdict", "type", "dyads", "driver", *lengths, "worst miss", *angle]
+    heads += ["least transm.", "extent", "sens.", "why not"]
+    rows = []
+    for each in linkages:
+        said = each["said"]
+        quality, links = said["quality"], said["links"] or {}
+        rows.append(
+            [
+                *(each["id"], each["card"]["verdict"], each["type"]),
+                " ".join(dyad["id"] for dyad in each["dyads"]),
+                each["led"][0]["id"],
+                *(links.get(name, "–") for name in LINKS),
+                *(said["worst"], *([said["angle"]] if angle else []), said["transmission"]),
+                quality.get("extent", "–").split(" ")[0],
+                quality.get("sensitivity", "–"),
+                "; ".join(said["reasons"]) or "–",
+            ]
+        )
+    words = [1, 2, 3, 4, len(heads) - 1]
+    return {"caption": f"All linkages{unit}", "heads": heads, "words": words, "rows": rows}
 
 
 def _freedom(synthesis: Synthesis, found: FoundLinkage) -> str | None:
@@ -205,9 +316,8 @@ def _freedom(synthesis: Synthesis, found: FoundLinkage) -> str | None:
 def _links(synthesis: Synthesis, found: FoundLinkage) -> dict[str, str] | None:
     if found.linkage.links is None:
         return None
-    names = ("ground", "driver", "coupler", "follower")
     texts = digits.links(found, decimals_of(synthesis, found))
-    return dict(zip(names, texts, strict=True))
+    return dict(zip(LINKS, texts, strict=True))
 
 
 def _manifold(dyad: Dyad) -> list[str]:

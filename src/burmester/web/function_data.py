@@ -1,7 +1,8 @@
 """A function synthesis as plain JSON data for a page: its generators with their curves and motion.
 
-Angles are in degrees.  Each generator has a scene of its own, in which its coupler is the body that
-moves; the stops of its player are the pairs, or even places where these are many.
+Angles are in degrees; the drive of a way is the input.  Each generator has a scene of its own, in
+which its coupler is the body that moves; the stops of its player are the pairs, or even places
+where these are many.
 """
 
 from __future__ import annotations
@@ -18,15 +19,22 @@ from burmester.io.pose_data import poses_data
 from burmester.io.result import message_data
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.function_generation import FunctionSynthesis, coupler_synthesis
-from burmester.web.data import linkage_report, scene_of
+from burmester.web.data import linkage_report, scene_of, transmission_limit
 from burmester.web.image_space import chart_of
 from burmester.wording import figure, with_article
 
 __all__ = ["function_report"]
 
-SCHEMA: Final = "burmester.function-report/1"
+SCHEMA: Final = "burmester.function-report/2"
 MOST: Final = 8  # generators that are shown
-FRAMES: Final = 181  # along the way of each
+FRAMES: Final = 361  # along the way of each
+MOST_DOTS: Final = 40  # pairs whose dots stand on a curve
+MOST_ROWS: Final = 30  # pairs; more of them are there to unfold
+SOUND: Final = (30.0, "of a sound linkage")  # degrees of the transmission angle
+HEADS: Final = (
+    *("", "verdict", "type", "ground link", "input link", "coupler link", "output link"),
+    *("greatest error", "of the range", "rms error", "least transm.", "why not"),
+)
 MOST_STOPS: Final = 13  # pairs that the player stops at; of more, even places
 EXACT: Final = 1e-9  # radians; an error below is rounding
 
@@ -37,13 +45,30 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     shown = synthesis.leading(MOST)
     rest = len(synthesis.generators) - len(shown)
     more = f" {len(shown)} of {len(synthesis.generators)} are shown." if rest else ""
+    linkages = [_generator(each, task) for each in shown]
     return {
         "schema": SCHEMA,
         "outcome": message_data(synthesis.outcome),
         "best": _best(synthesis),
         "warnings": list(map(message_data, synthesis.warnings)),
-        "asked_transmission_deg": task.requirements.transmission_deg or None,
-        "generators": [_generator(each, task) for each in shown],
+        "kind": "function report",
+        "unit": None,
+        "poses": [],
+        "path": None,
+        "body": None,
+        "keep_out": [],
+        "whole": True,
+        "stop": "place",
+        "transmission_limit": transmission_limit(task.requirements, SOUND),
+        "keys": [("side0", "input link (filled)"), ("side1", "output link (hollow)")],
+        "dyads": [],
+        "linkages": linkages,
+        "table": {
+            "caption": "All linkages, best first",
+            "heads": HEADS,
+            "words": [1, 2, len(HEADS) - 1],
+            "rows": [each.pop("row") for each in linkages],
+        },
         "footnotes": "Angles are from the ground link, counter-clockwise, and counted from where "
         "input and output are 0. The structural error is the output that the linkage makes, less "
         f"the one that is wanted.{more}",
@@ -84,36 +109,70 @@ def _miss(found: FoundGenerator, task: FunctionTask) -> str:
 
 
 def _generator(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
-    one, ground = found.generator, task.ground
-    low, high = task.input_ends
-    inputs, wanted = task.compared()
+    """A generator as a linkage that guides its coupler, with its own words and curves."""
+    said, lacks = _said(found, task), [each.message for each in found.defects]
+    verdict = "✓ usable" if found.usable else "✕ not usable"
+    links = [value for _, value in said["facts"][:4]]
+    least = said["transmission"]
+    shortcomings = [*lacks, *found.shortcomings]
+    report, picture = _motion(found, task)
     return {
+        **report,
         "id": found.id,
         "type": found.type,
         "usable": found.usable,
-        "defects": [each.message for each in found.defects],
-        "shortcomings": list(found.shortcomings),
-        "range": {"low": math.degrees(low), "high": math.degrees(high)},
-        "ground": ground,
-        "input_link": float(one.input_link) * ground,
-        "coupler": float(one.coupler) * ground,
-        "output_link": float(one.output_link) * ground,
-        "side": float(one.side),
-        "input_phase": math.degrees(float(one.input_phase)),
-        "output_phase": math.degrees(float(one.output_phase)),
-        "curve": {
-            "whole": task.function is not None,
-            "input": np.degrees(inputs).tolist(),
-            "wanted": np.degrees(wanted).tolist(),
-            "error": [number(each) for each in np.degrees(found.range_errors).tolist()],
+        "picture": picture,
+        "panels": [_output_panel(report["ways"], found, task), _error_panel(found, task)],
+        "card": {
+            "verdict": verdict,
+            "facts": [
+                ["greatest error", said["max_error"]],
+                ["transmission", {"–": "–", "0°": "down to 0°"}.get(least, f"{least} or more")],
+                ["links", links, "bm-detail bm-links"],
+            ],
+            "reason": f"It {'; '.join(shortcomings)}" if shortcomings else None,
         },
-        "pair_at": [
-            {"pair": k + 1, "input": x, "wanted": y, "error": number(e)}
-            for k, (x, y, e) in enumerate(zip(*_pair_degrees(found, task), strict=True))
+        "row": [
+            *(found.id, verdict, found.type, *links),
+            *(said[key] for key in ("max_error", "percent", "rms_error", "transmission")),
+            "; ".join(lacks) or "–",
         ],
-        "pairs": _pair_texts(found, task),
-        "said": _said(found, task),
-        "motion": _motion(found, task),
+        "said": {"story": said["story"], "facts": said["facts"], "notes": []},
+        "tables": [],
+        "stops": {
+            "caption": f"Pairs of angles, and what {found.id} makes of them",
+            "heads": ["pair", "input", "output wanted", "output made", "error"],
+            "rows": [[str(k + 1), *row] for k, row in enumerate(_pair_texts(found, task))],
+            "class": "bm-pair-table",
+            "folded": f"{len(task.inputs)} pairs" if len(task.inputs) > MOST_ROWS else None,
+        },
+    }
+
+
+def _output_panel(
+    ways: list[dict[str, Any]], found: FoundGenerator, task: FunctionTask
+) -> dict[str, Any]:
+    """The output along the way, with the pairs where these are few."""
+    inputs, outputs, _ = _pair_degrees(found, task)
+    dots = list(zip(inputs, outputs, strict=True)) if len(inputs) <= MOST_DOTS else []
+    way = ways[0] if ways else {"drive": [], "output": []}
+    title = "output (°)" + (": wanted as dots, made as a line" if dots else "")
+    return {"title": title, "x": way["drive"], "y": way["output"], "dots": dots}
+
+
+def _error_panel(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
+    """The structural error: of a function along the range, else at the pairs."""
+    known = np.degrees(found.range_errors)
+    inputs, _, errors = _pair_degrees(found, task)
+    pairs = list(zip(inputs, map(number, errors), strict=True)) if len(inputs) <= MOST_DOTS else []
+    at = np.degrees(task.compared()[0]).tolist()
+    whole = task.function is not None
+    return {
+        "title": "structural error of the output (°)" + ("" if whole else ", at the pairs"),
+        "x": at,
+        "y": [number(each) for each in known.tolist()],
+        "dots": [each for each in pairs if each[1] is not None],
+        "stems": not whole,
     }
 
 
@@ -149,23 +208,22 @@ def _said(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
     share = "0 %" if found.max_error < EXACT else share
     reasons = [each.message for each in found.defects]
     story = f"Usable: it {_miss(found, task)}." if found.usable else f"It {'; '.join(reasons)}."
+    lengths_told = [
+        (name, f"{length * ground:.6g}") for name, length in zip(names, lengths, strict=True)
+    ]
     return {
         "story": story,
-        "links": [
-            [name, f"{length * ground:.6g}"] for name, length in zip(names, lengths, strict=True)
-        ],
-        "placed": [
-            ["input link, at input 0", f"{math.degrees(float(one.input_phase)) % 360:.4f}°"],
-            ["output link, at output 0", f"{math.degrees(float(one.output_phase)) % 360:.4f}°"],
-            ["output pin, from input pin to output pivot", "left" if one.side > 0 else "right"],
-        ],
-        "figures": [
-            ["greatest error", _angle(found.max_error)],
-            ["of the output's range", share],
-            ["rms error", _angle(found.rms_error)],
-            ["least transmission angle", transmission],
-            ["longest link / shortest", figure(float(one.link_ratio))],
-            ["diagonal of the box of all pivots", figure(found.extent * ground)],
+        "facts": [
+            *lengths_told,
+            ("input link, at input 0", f"{math.degrees(float(one.input_phase)) % 360:.4f}°"),
+            ("output link, at output 0", f"{math.degrees(float(one.output_phase)) % 360:.4f}°"),
+            ("output pin, from input pin to output pivot", "left" if one.side > 0 else "right"),
+            ("greatest error", _angle(found.max_error)),
+            ("of the output's range", share),
+            ("rms error", _angle(found.rms_error)),
+            ("least transmission angle", transmission),
+            ("longest link / shortest", figure(float(one.link_ratio))),
+            ("diagonal of the box of all pivots", figure(found.extent * ground)),
         ],
         "max_error": _angle(found.max_error),
         "rms_error": _angle(found.rms_error),
@@ -174,8 +232,8 @@ def _said(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
     }
 
 
-def _motion(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
-    """The scene in which the coupler is the body, with one linkage and the way that it takes."""
+def _motion(found: FoundGenerator, task: FunctionTask) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The linkage whose body is the coupler, on the way that it takes, and the scene around it."""
     stops, names = _stops(task)
     known = np.isfinite(found.generator.outputs(stops))
     judged = coupler_synthesis(task, found, stops[known])
@@ -183,20 +241,38 @@ def _motion(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
     report = linkage_report(judged, linkage, FRAMES)
     del report["space"]
     _keep_one_way(report)
+    for way in report["ways"]:
+        _count_inputs(way, found, task)
+    numbered = {name: k for k, name in enumerate(map(str, range(1, len(task.inputs) + 1)))}
     poses: list[dict[str, Any]] = [dict(each) for each in poses_data(judged.task.poses)]
-    kept = [k for k, good in enumerate(known) if good]
-    for pose, k in zip(poses, kept, strict=True):
-        pose |= {"name": names[k], "input_deg": math.degrees(stops[k])}
+    for pose, name in zip(poses, (names[k] for k in np.flatnonzero(known)), strict=True):
+        row = numbered.get(name)
+        called = name if row is None else f"pair {name}"
+        pose |= {"name": name, "row": row, "called": called}
     scene = scene_of(judged)
-    return {
-        "unit": None,
-        "poses": poses,
-        "body": None,
-        "keep_out": [],
-        "scene": scene,
-        "chart": chart_of(judged.task.poses, judged.length or scene),
-        "linkages": [report],
-    }
+    chart = chart_of(judged.task.poses, judged.length or scene)
+    return report, {"poses": poses, "scene": scene, "chart": chart}
+
+
+def _count_inputs(way: dict[str, Any], found: FoundGenerator, task: FunctionTask) -> None:
+    """Let the drive of a way be the input, in degrees, and put the output beside it."""
+    drive = np.array(way["drive"]) - math.degrees(float(found.generator.input_phase))
+    middle = math.degrees(sum(task.input_ends) / 2)
+    at = int(np.abs((drive - middle + 180) % 360 - 180).argmin())
+    drive -= 360 * np.round((drive[at] - middle) / 360)
+    output = found.generator.outputs(np.radians(drive))
+    known = np.flatnonzero(np.isfinite(output))
+    output = np.degrees(
+        np.unwrap(np.interp(np.arange(len(drive)), known, np.unwrap(output[known])))
+    )
+    inputs, wanted = task.compared()
+    near = math.degrees(wanted[int(np.abs(inputs - math.radians(drive[at])).argmin())])
+    output -= 360 * np.round((output[at] - near) / 360)
+    way["drive"], way["output"] = drive.tolist(), output.tolist()
+    way["told"] = [
+        {"name": "input", "digits": 2, "values": way["drive"]},
+        {"name": "output", "digits": 3, "values": way["output"], "panel": 1},
+    ]
 
 
 def _stops(task: FunctionTask) -> tuple[FloatArray, list[str]]:

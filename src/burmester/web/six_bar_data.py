@@ -1,8 +1,6 @@
-"""Six-bars as plain JSON data for a page: their dimensions, what they do, and the words for it.
+"""Six-bars as plain JSON data for a page: where their joints are along the branch, and the words.
 
-The page has the joints of each link in the frame of that link, and the angles of all links at some
-places along the branch; in between it turns the links until all joints meet (`widget/six_bar.mjs`).
-Angles of the driver are in degrees, others in radians, lengths in the task's unit.
+Angles of the driver are in degrees, lengths in the task's unit.
 """
 
 from __future__ import annotations
@@ -14,11 +12,12 @@ import numpy as np
 
 from burmester.describe import six_bar_words
 from burmester.io.result import message_data
-from burmester.numerics.arrays import FloatArray
+from burmester.mechanisms.transmission import transmission_angles
+from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.sixbar.six_bars import RULE, SixBars
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.notation import least_angle, length_of
-from burmester.web.data import poses_report, scene_of
+from burmester.web.data import poses_report, scene_of, transmission_limit
 from burmester.web.image_space import chart_of
 from burmester.wording import figure
 
@@ -27,14 +26,15 @@ if TYPE_CHECKING:
 
 __all__ = ["six_bar_report"]
 
-SCHEMA: Final = "burmester.six-bar-report/1"
-FRAMES: Final = (
+SCHEMA: Final = "burmester.six-bar-report/2"
+LINKS: Final = (
     "F is the ground, M the body. The frame of another link has its origin at one of its joints, "
     "and another one on its x axis. Links transmit by the angle between them at a joint that both "
     "hold."
 )
-DIGITS: Final = 7  # decimals of these angles, from which the page goes on
-STEPS: Final = 60  # for each turn of the driver: places along a branch
+FRAMES: Final = 360  # for each turn of the driver
+DIGITS: Final = 10  # significant ones of a place, counted from the size of the scene
+SOUND: Final = (30.0, "of a sound linkage")  # degrees of the transmission angle
 END: Final = 2e-5  # of a branch; nearer to a dead point rounding decides whether loops are closed
 
 
@@ -50,13 +50,25 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
         "warnings": list(map(message_data, synthesis.warnings)),
         "unit": task.length_unit,
         "poses": poses_report(task),
+        "path": None,
         "body": None if task.body is None else task.body.vertices.tolist(),
         "keep_out": [],
         "scene": scene,
+        "whole": True,
         "chart": chart_of(task.poses, synthesis.length or scene),
-        "asked_transmission_deg": task.requirements.transmission_deg or None,
-        "heads": list(six_bar_words.HEADS),
-        "six_bars": [_six_bar(synthesis, each) for each in found],
+        "transmission_limit": transmission_limit(task.requirements, SOUND),
+        "keys": _keys(found),
+        "dyads": [],
+        "linkages": [_six_bar(synthesis, each, scene) for each in found],
+        "table": {
+            "caption": "All six-bars, best first",
+            "heads": ["", *six_bar_words.HEADS[1:], "falls short"],
+            "words": [1, len(six_bar_words.HEADS)],
+            "rows": [
+                [*six_bar_words.row(synthesis, each), "; ".join(each.shortcomings) or "–"]
+                for each in found
+            ],
+        },
         "footnotes": _footnotes(result),
     }
 
@@ -65,7 +77,7 @@ def _footnotes(result: SixBars | None) -> str:
     """How the first one was chosen, and the frames of its dimensions."""
     if result is None or not result.found:
         return ""
-    return FRAMES if result.given else f"{RULE[0].upper()}{RULE[1:]}. {FRAMES}"
+    return LINKS if result.given else f"{RULE[0].upper()}{RULE[1:]}. {LINKS}"
 
 
 def _best(synthesis: Synthesis, best: FoundSixBar) -> list[str]:
@@ -74,74 +86,213 @@ def _best(synthesis: Synthesis, best: FoundSixBar) -> list[str]:
     return [*told, six_bar_words.sentences(synthesis, best)[1]] if best.usable else told
 
 
-def _six_bar(synthesis: Synthesis, found: FoundSixBar) -> dict[str, Any]:
-    skeleton, frames, met = found.skeleton, found.frames, six_bar_words.met(synthesis, found)
-    outlines = skeleton.corners(frames, found.carries)
-    low, high = (math.degrees(each) for each in found.drive_range)
-    below, above = np.degrees(found.room).tolist()
-    middle, turn = (low + high) / 2, 180 * found.turns
-    ends = (middle - turn, middle + turn) if found.turns else (low - below, high + above)
+def _keys(found: tuple[FoundSixBar, ...]) -> list[tuple[str, str]]:
+    """How links are drawn, and what those are."""
+    if not found:
+        return []
+    skeleton, body = found[0].skeleton, found[0].carries
+    inner = "links between"
+    if {(each.type, each.carries) for each in found} == {(skeleton.name, body)}:
+        cranks = {skeleton.crank(pivot) for pivot in skeleton.links[skeleton.ground]}
+        links = [each for each in skeleton.moving if each != body and each not in cranks]
+        inner = " and ".join(" ".join(dict.fromkeys((e, skeleton.links[e]))) for e in links)
+    several = len(skeleton.links[skeleton.ground]) > 2
+    return [
+        ("side0", "driver (filled)"),
+        ("side1", f"other crank{'s' if several else ''} (hollow)"),
+        ("inner", inner),
+        ("carried", "body, with its frame M"),
+    ]
+
+
+def _six_bar(synthesis: Synthesis, found: FoundSixBar, scene: float) -> dict[str, Any]:
+    words, skeleton = six_bar_words, found.skeleton
+    row, told = words.row(synthesis, found), words.sentences(synthesis, found)
+    met = words.met(synthesis, found)
+    legs = skeleton.legs(found.driver_pivot)
+    tips = [", ".join(dict.fromkeys(leg[1] for leg in group)) for group in legs]
+    which = ("first loop, ", "second loop, ") if len(tips) > 1 else ("the least, ",)
+    lacks = f"It {'; '.join(found.shortcomings)}" if found.shortcomings else None
+    turn = ", turns fully" if found.turns_fully else f", by {row[2]}"
+    works = "works, sound" if not found.shortcomings else "works"
+    least = least_angle(found.transmission)
+    cranks = sorted(skeleton.links[skeleton.ground], key=lambda each: each != found.driver_pivot)
+    ground = found.frames[skeleton.ground]
+    frame, transmits = _stops(found), np.degrees(_transmission(found, found.drive))
+    drives = np.degrees(found.drive).tolist()
+    misses = words.errors(synthesis, found) if met else [("exact", "exact")] * len(drives)
+    places = found.body(found.drive)
     return {
         "id": found.id,
-        "type": skeleton.name,
+        "type": found.type,
         "usable": found.usable,
-        "sound": not found.shortcomings,
-        "crank": six_bar_words.driver_name(found),
-        "driver": skeleton.crank(found.driver_pivot),
-        "carries": found.carries,
-        "ground": {name: _pair(at) for name, at in frames[skeleton.ground].items()},
-        "links": [
-            {
-                "name": link,
-                "on": on,
-                "pin": pin,
-                "joints": {name: _pair(at) for name, at in frames[link].items()},
-                "outline": outlines[link],
-            }
-            for link, on, pin in skeleton.tree
+        "crank": f"{words.driver_name(found)} ",
+        "led": [
+            {"id": skeleton.arm(each), "name": each, "kind": "crank", "fixed_pivot": _pair(at)}
+            for each, at in ((each, ground[each]) for each in cranks)
         ],
-        "closures": skeleton.closures,
-        "legs": skeleton.legs(found.driver_pivot),
-        "angles": _angles(found, *ends),
-        "drive_deg": np.degrees(found.drive).tolist(),
-        "ends_deg": list(ends),
-        "turns_fully": found.turns > 0,
-        "said": {
-            "story": " ".join(six_bar_words.sentences(synthesis, found)[::2]),
-            "shortcomings": list(found.shortcomings),
-            "why_not": None if found.usable else six_bar_words.sentences(synthesis, found)[1],
-            "met": met,
-            "errors": None if met is None else six_bar_words.errors(synthesis, found),
-            "transmission": least_angle(found.transmission),
-            "link_ratio": figure(found.link_ratio),
-            "extent": length_of(found.extent, synthesis.task),
-            "row": list(six_bar_words.row(synthesis, found)),
-            "dimensions": [
-                *six_bar_words.joint_rows(found),
-                *six_bar_words.length_rows(found),
+        "ground": {name: _pair(at) for name, at in ground.items()},
+        **_drawn(found),
+        "ways": [_way(found, scene)],
+        "loops": [f"{name}at {tip}" for name, tip in zip(which, tips, strict=False)],
+        "pose_errors": [
+            {
+                "x": x,
+                "y": y,
+                "angle_deg": math.degrees(angle),
+                "position": float(found.error.position[k]),
+                "way": 0,
+                "frame": frame[k],
+                "loops": transmits[:, k].tolist(),
+                "said": {"position": misses[k][0], "turned": misses[k][1]},
+            }
+            for k, (x, y, angle) in enumerate(
+                zip(*places.translation.T.tolist(), places.angle.tolist(), strict=True)
+            )
+        ],
+        "columns": [
+            [f"driver {words.driver_name(found)}", [f"{each:.1f}°" for each in drives]],
+            *(
+                [f"{'' if k else 'transm. '}at {tip}", [f"{each:.1f}°" for each in transmits[k]]]
+                for k, tip in enumerate(tips)
+            ),
+        ],
+        "card": {
+            "verdict": f"✓ {works}" if found.usable else "✕ does not work",
+            "facts": [
+                ["driver", row[1] + turn],
+                ["transmission", f"{least} or more"],
+                ["extent", length_of(found.extent, synthesis.task)],
+                ["link ratio", figure(found.link_ratio), "bm-detail"],
             ],
-            "distances": six_bar_words.distances(found),
+            "reason": lacks if found.usable else told[1],
         },
+        "said": {
+            "story": " ".join(told[::2]),
+            "facts": [
+                *zip(words.HEADS[1:], row[1:], strict=True),
+                ("at the poses", met or "exact, up to rounding"),
+            ],
+            "notes": [],
+        },
+        "tables": [
+            {
+                "caption": f"Dimensions of {found.id}",
+                "heads": ["link", "joints, or length"],
+                "words": [0],
+                "lengths": True,
+                "rows": [
+                    [link, [each for each in joints if each]]
+                    for link, *joints in (*words.joint_rows(found), *words.length_rows(found))
+                ],
+                "class": "bm-dimensions bm-joints",
+            },
+            {
+                "caption": f"Distances between joints of {found.id}",
+                "heads": ["joints", "distance"],
+                "words": [0],
+                "lengths": True,
+                "rows": words.distances(found),
+                "folded": "Distances between joints",
+            },
+        ],
     }
 
 
-def _angles(found: FoundSixBar, low: float, high: float) -> dict[str, list[float]]:
-    """The angles of links at places between two angles of the driver, without jumps.
+def _drawn(found: FoundSixBar) -> dict[str, Any]:
+    """How links are drawn, the lowest first; beside which link a joint's name stands.
 
-    Evenly, where the driver turns fully; else closer towards both ends, at which it comes to rest.
+    traced: the joints of the body, whose paths are drawn.
     """
-    count = 1 + STEPS * max(1, math.ceil((high - low) / 360))
-    share = np.linspace(0, 1, count)
+    skeleton, body = found.skeleton, found.carries
+    outlines = skeleton.corners(found.frames, body)
+    ground = skeleton.links[skeleton.ground]
+    kinds = {skeleton.crank(pivot): "side1" for pivot in ground}
+    kinds |= {skeleton.crank(found.driver_pivot): "side0", body: "carried"}
+
+    def height(link: str) -> int:
+        return 2 if link == body else 0 if len(outlines[link]) > 2 else 1
+
+    def beside(joint: str) -> str:
+        own = [each for each in skeleton.links_of(joint) if each != skeleton.ground]
+        others = [each for each in own if each != body]
+        plates = [each for each in others if len(skeleton.links[each]) > 2]
+        return skeleton.links[(*plates, *others, *own)[0]]
+
+    return {
+        "drawn": [
+            {"joints": outlines[link], "kind": kinds.get(link, "inner")}
+            for link in sorted((each for each, _, _ in skeleton.tree), key=height)
+        ],
+        "names": {each: beside(each) for each in skeleton.joints if each not in ground},
+        "traced": "".join(each for each in skeleton.links[body] if each not in ground),
+    }
+
+
+def _ends(found: FoundSixBar) -> tuple[float, float]:
+    """Between which angles the driver moves, in radians: once all round, or until it locks."""
+    low, high = found.drive_range
+    below, above = found.room.tolist()
+    middle, turn = (low + high) / 2, math.pi * found.turns
+    return (middle - turn, middle + turn) if found.turns else (low - below, high + above)
+
+
+def _frames(found: FoundSixBar) -> int:
+    low, high = _ends(found)
+    return FRAMES * max(1, math.ceil((high - low) / (2 * math.pi) - 1e-9))
+
+
+def _stops(found: FoundSixBar) -> list[float]:
+    """The frames at which the poses are met."""
+    low, high = _ends(found)
+    share = np.clip((found.drive - low) / (high - low), 0, 1)
+    along = share if found.turns else np.arccos(1 - 2 * share) / np.pi
+    return (_frames(found) * along).tolist()  # type: ignore[no-any-return]
+
+
+def _way(found: FoundSixBar, scene: float) -> dict[str, Any]:
+    """Places along the branch: evenly where the driver turns fully, else closer to both ends."""
+    low, high = _ends(found)
+    share = np.linspace(0, 1, _frames(found) + 1)
     if not found.turns:
         share = (1 - np.cos(np.pi * np.clip(share, END, 1 - END))) / 2
-    places = found.links(np.radians(low + (high - low) * share))
-    out = {}
-    for link in found.skeleton.moving:
-        angle = places[link].angle
-        known = np.flatnonzero(np.isfinite(angle))
-        near = known[np.abs(known - np.arange(count)[:, None]).argmin(axis=1)]
-        out[link] = np.round(np.unwrap(angle[near]), DIGITS).tolist()
-    return out
+    drive = low + (high - low) * share
+    places = found.body(drive)
+    # Where rounding keeps loops open at a dead point, the nearest place stands for it.
+    known = np.flatnonzero(np.isfinite(places.angle))
+    near = known[np.abs(known - np.arange(len(drive))[:, None]).argmin(axis=1)]
+    drive, places = drive[near], places[near]
+    angle = np.unwrap(places.angle)
+    loops = np.degrees(_transmission(found, drive))
+    digits = DIGITS - math.ceil(math.log10(scene))
+    x, y = np.round(places.translation.T, digits).tolist()
+    ground = found.skeleton.links[found.skeleton.ground]
+    return {
+        "circuit": 1,
+        "branch": 1,
+        "branches": 1,
+        "round": found.turns > 0,
+        "dead": [not found.turns] * 2,
+        "poses": list(range(1, len(found.drive) + 1)),
+        "drive": np.degrees(drive).tolist(),
+        "x": x,
+        "y": y,
+        "angle": np.round(angle, DIGITS).tolist(),
+        "joints": {
+            name: np.round(at.T, digits).tolist()
+            for name, at in found.joints(drive).items()
+            if name not in ground
+        },
+        "transmission": np.round(loops.min(axis=0), 4).tolist(),
+        "loops": np.round(loops, 4).tolist(),
+    }
+
+
+def _transmission(found: FoundSixBar, drive: FloatArray) -> FloatArray:
+    """The transmission angles (L, *) of the loops, in radians."""
+    at = found.joints(drive)
+    joints = np.stack([complex_of(at[name]) for name in found.skeleton.joints], axis=-1)
+    return np.stack(transmission_angles(found.skeleton, joints, found.driver_pivot))
 
 
 def _pair(point: FloatArray) -> list[float]:

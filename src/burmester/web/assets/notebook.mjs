@@ -435,91 +435,89 @@ x; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-no
 x; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden] { display: none; }\n.bm-factor { white-space\
 : nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel); border: 1px solid \
 var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: 1 1 260px; font-si\
-ze: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-stand { min-width: 0; }\
-\n.bm-view { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); align-content: start; }\n.bm-aside { display: grid; gap: 16px; grid-template-columns\
-: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content: space-between; gap: 14px; bord\
-er-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-note-text { font-size: \
-0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm table { border-colla\
-pse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-spac\
-e: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; font-weight: 600; paddi\
-ng: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top; white-space: nowrap\
-; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-align: bottom; }\n.bm tbody th { \
-text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-table td.bm-words { wh\
-ite-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td:nth-child(4) { white\
--space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbody th { position: sti\
-cky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-table) { max-height: 34\
-rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\n.bm .bm-dimensions t\
-d { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-top: 0; }\n.bm-numbers \
-.bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-every { margin-top: 12\
-px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid-template-columns: re\
-peat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: none; stroke: var(--bm-l\
-ine); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11\
-px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-m\
-uted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { \
-font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: va\
-r(--bm-follower); stroke-dasharray: 6 4; }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke:\
- var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; borde\
-r: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0;\
- width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke\
-: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { f\
-ill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map\
--name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-\
-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-\
-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { \
-outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-p\
-airs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: \
-var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-wid\
-th: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: \
-5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: v\
-ar(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-co\
-upler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm\
--side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-\
-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-c\
-oupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical\
--align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margi\
-n-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(\
---bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; colo\
-r: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); bord\
-er-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { backg\
-round: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-sele\
-ct: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; heigh\
-t: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm\
--axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-othe\
-r { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); st\
-roke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width\
-: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto\
-; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  \
-.bm-stage, .bm-stand { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-\
-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card \
-{ padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimens\
-ions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .b\
-m-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden\
-; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: fle\
-x; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .\
-bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-\
-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  \
-.bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 95\
-9px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250\
-px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .\
-bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main, .bm-view { gr\
-id-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stand, .bm-curves, .bm-pair-box { grid-column: 1 / -1; }\n  .bm-stage, .bm-aside, .bm-family-curve, .bm-\
-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plan\
-e { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-te\
-mplate-columns: minmax(0, 1fr); align-self: start; }\n  .bm-curves { grid-column: span 6; align-self: start; }\n  .bm-pair-box { grid-column: span 4; align-self: \
-start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted\
-: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b9\
-3dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c;\n  \
-  font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !imp\
-ortant; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border\
-: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scro\
-ll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid;\
- }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+ze: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-aside { display: grid; \
+gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content\
+: space-between; gap: 14px; border-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: righ\
+t; }\n.bm-note-text { font-size: 0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: \
+thin; }\n.bm table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; c\
+lip-path: inset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-alig\
+n: left; font-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical\
+-align: top; white-space: nowrap; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-\
+align: bottom; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm\
+ .bm-pose-table td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-\
+linkages td:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pos\
+e-table tbody th { position: sticky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(\
+.bm-pose-table) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--\
+bm-wash); }\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll\
+ { margin-top: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: norm\
+al; }\n.bm-every { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px\
+ 28px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel \
+{ fill: none; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none\
+; }\n.bm .bm-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { f\
+ont-size: 12px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--\
+bm-error); }\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; \
+}\n.bm-line.bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follow\
+er); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm\
+-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg\
+ { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm\
+-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); op\
+acity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: v\
+ar(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16p\
+x; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\n.bm-pairs-map can\
+vas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .b\
+m-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius: 8px; display: blo\
+ck; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11p\
+x; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-cur\
+ve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke:\
+ var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-p\
+air-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body {\
+ fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-li\
+necap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-p\
+anel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var\
+(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; border: 1px solid var(--bm-mute\
+d); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-\
+key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.b\
+m-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-re\
+adout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; height: 11px; border:\
+ 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near { background: var(-\
+-bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border-radius: 8px; touch-action\
+: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg { position: absolu\
+te; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharr\
+ay: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-line\
+cap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-p\
+anel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-order: stroke; strok\
+e: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { m\
+ax-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .b\
+m-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside { order: -3; }\n  .bm-choices { align-items: stretch; }\
+\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width:\
+ 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6p\
+x; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: b\
+reak-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: \
+1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-sta\
+cks td { display: flex; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-\
+stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-he\
+ad); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: \
+var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620p\
+x) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-\
+template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; pa\
+dding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .b\
+m-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage, .bm-aside, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; \
+}\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: \
+1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\
+\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; \
+--bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --b\
+m-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c;\n    font-s\
+ize: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !important; \
+}\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border: 0; pad\
+ding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scroll { ove\
+rflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid; }\n  .bm\
+ th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
 2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));const step=[1,2,5,10].map(k=>k*power).find(
-each=>each>=rough*.999);const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=
-1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function listed(words){if(words.length<2)return words.join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){
+each=>each>=rough*.999)??10*power;const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+step*
+1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function listed(words){if(words.length<2)return words.join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){
 const parts=[];for(let k=0;k<numbers.length;){let end=k;while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-
 1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}var SVG="http://www.w3.org/2000/svg";function furnish(node,attributes,children){for(const[name,value]of Object.entries(attributes??{})){if(value===null||value===
 void 0||value===false)continue;if(name.startsWith("on"))node.addEventListener(name.slice(2),value);else node.setAttribute(name,value===true?"":value)}node.append(
@@ -527,9 +525,9 @@ void 0||value===false)continue;if(name.startsWith("on"))node.addEventListener(na
 children);var s=(tag,attributes,...children)=>furnish(document.createElementNS(SVG,tag),attributes,children);function put(node,name,value){const text=String(value);
 if(node.getAttribute(name)!==text)node.setAttribute(name,text)}function give(node,name,value){const next=typeof node[name]==="boolean"?Boolean(value):String(value);
 if(node[name]!==next)node[name]=next}function say(node,text){const next=String(text);if(node.textContent!==next)node.textContent=next}var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName=pose=>pose.label===pose.name?pose.name:`${pose.label}: ${pose.name}`;var isPoint=pose=>pose.
-angle_deg===null;var nounOf=({poses})=>poses.length&&poses.every(isPoint)?"point":"pose";var calledOf=pose=>`${isPoint(pose)?"point":"pose"} ${poseName(pose)}`;var shortened=(text,most)=>text.length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit){
-if(position==="-")return"–";const[away,...share]=position.split(" (");const length=[away==="exact"?away:`${away}${unit}`,...share].join(" (");return angle==="\
-free"||position==="exact"&&angle==="exact"?length:`${length} and ${angle}`}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembl\
+angle_deg===null;var nounOf=({poses,stop=void 0})=>stop??(poses.length&&poses.every(isPoint)?"point":"pose");var calledOf=pose=>pose.called??`${isPoint(pose)?"point":"pose"} ${poseName(pose)}`;var shortened=(text,most)=>text.length>most?`${text.slice(0,most-1).trimEnd()}\
+…`:text;function missOf(position,angle,unit){if(position==="-")return"–";const[away,...share]=position.split(" (");const length=[away==="exact"?away:`${away}${unit}`,
+...share].join(" (");return angle==="free"||position==="exact"&&angle==="exact"?length:`${length} and ${angle}`}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembl\
 y ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.join(", ")}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
 var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
 ...list.slice(0,index),value,...list.slice(index)];var withList=(document2,key,list)=>withKeys(document2,{[key]:list.length?list:void 0});var filled=table=>Object.
@@ -553,42 +551,40 @@ if(Number.isFinite(poses[index][key]))return poses[index][key];const before=pose
 slice(index+1).findIndex(pose=>Number.isFinite(pose[key]))+index+1;const[a,b]=[poses[before]?.[key],behind>index?poses[behind][key]:void 0];if(a===void 0||b===void 0)
 return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,y,angle}=poses[index];if(Number.isFinite(x)&&Number.isFinite(
 y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,index,"y"),angle:component(poses,index,"angle")}}var poseName2=({
-poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var Events=class{on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
+poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var Events=class{heard;on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
 for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],scene:1,unit:null,dyads:[],
-linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,asked_transmission_deg:null,
-best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;this.data={...NOTHING};this.linkages=[];this.gone=
-[];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());store.on("document",()=>this.takePoses());
-store.on("chosen",()=>this.emit("shown"));store.on("placed",()=>this.takePlaced());this.takePoses();if(store.solved)this.takeSolved()}get shown(){return this.get(
-this.store.chosen)??(this.store.chosen===PLACED?void 0:this.linkages[0])}get(id){return id===PLACED?this.placed??void 0:this.byId.get(id)}get isOld(){return this.
-store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,isPath:isPath(this.store.document),...surroundingsOf(
-this.store.document,this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,before=this.linkages.filter(each=>!each.gone);const{
-renamed:names,moved}=this.store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{poses,body,keep_out,...rest}=solved;Object.assign(this.
-data,{body,keep_out,...rest,poses:posesOf(document2)});this.gone=this.store.isEmpty||this.store.isAnother?[]:before.filter(each=>!names.has(each.id)).map(each=>each.
-id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&
-kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??
-0,isNew:this.known&&!this.store.isAnother&&!stood,followed:false,gone:null,change:null});this.byId.set(now.id,now);return now});this.known=!this.store.isEmpty;this.
-emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.linkages){let now=this.byId.get(each.id);if(now&&each.fresh===
-false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.
-vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}for(const{id,kind,message}of frame.changes??[]){const now=this.byId.
-get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.
-store.placed?.linkage,{cognateOf}=this.store.placed??{},called=cognateOf?`Cognate of ${cognateOf}`:"By hand";const before=this.placed;this.placed=placed?Object.
-assign(before??{},figured(renamed(linked(placed))),{id:PLACED,called,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(
-before&&placed?"moved":"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});
-var figured=linkage=>Object.assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.range});function renamed(linkage){const names=new Map(
-linkage.dyads.map((dyad,k)=>[dyad.id,`P${k+1}`]));const named=dyad=>({...dyad,id:names.get(dyad.id)??dyad.id});const dimensions=linkage.said.dimensions.map(row=>({
-...row,dyad:names.get(row.dyad)??row.dyad}));return{...linkage,dyads:linkage.dyads.map(named),led:linkage.led.map(named),said:{...linkage.said,dimensions}}}function posesOf({
-poses=[]}){const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME);return poses.map((pose,k)=>({...pose,
-angle_deg:isPoint2(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.isArray(document2.body)?
-document2.body:document2.body===void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=each.worst;now.least=each.
-transmission_deg;now.reason=each.reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=now.ways??[];return}now.
-ways=each.ways;now.pose_errors=each.pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"-",turned:"-",transmission:"\
--"}:{position:row.position<FOLLOWED*data.scene?"exact":figure(row.position),turned:row.turned_deg<EXACT_TURN?"exact":`${figure(row.turned_deg)}°`,transmission:row.
-transmission_deg===null?"-":`${fixed(row.transmission_deg,1)}°`}}))}var appeared=each=>({id:each.id,type:each.type??"linkage",rank:Infinity,dyads:each.led,ways:[],
-pose_errors:[],isNew:true,followed:true,said:{met:"",in_short:each.reason??"",reasons:[],quality:{},dimensions:[],notes:[],links:null,manifolds:[[],[]],turns_fully:false,
-freedom:null,worst:"–",angle:"–",rms:"–",rms_angle:"–",transmission:"-"},space:null,shortcomings:[],defects:[],unmet:[]});function worstOf(linkage,data){
-if(linkage.worst===null||linkage.worst===void 0)return"–";if(!linkage.followed)return linkage.said.worst==="-"?"–":linkage.said.worst==="exact"?"exact":`${linkage.
-said.worst}${data.unit?` ${data.unit}`:""}`;return linkage.worst<FOLLOWED*data.scene?"exact":`${figure(linkage.worst)}${data.unit?` ${data.unit}`:""}`}function pathErrorOf(linkage,data){
-const{rms}=linkage.said,worst=worstOf(linkage,data);return linkage.followed||!rms||rms==="-"||rms==="exact"?worst:`${rms} rms, ${worst} at most`}function leastOf(linkage){
+linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,transmission_limit:{
+deg:40,said:"40°, a usual limit"},keys:[],table:null,best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;
+this.data={...NOTHING};this.linkages=[];this.gone=[];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());
+store.on("document",()=>this.takePoses());store.on("chosen",()=>this.emit("shown"));store.on("placed",()=>this.takePlaced());this.takePoses();if(store.solved)this.
+takeSolved()}get shown(){return this.get(this.store.chosen)??(this.store.chosen===PLACED?void 0:this.linkages[0])}get(id){return id===PLACED?this.placed??void 0:
+this.byId.get(id)}get isOld(){return this.store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,
+isPath:isPath(this.store.document),...surroundingsOf(this.store.document,this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,
+before=this.linkages.filter(each=>!each.gone);const{renamed:names,moved}=this.store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{
+poses,body,keep_out,...rest}=solved;Object.assign(this.data,{body,keep_out,...rest,poses:posesOf(document2)});this.gone=this.store.isEmpty||this.store.isAnother?
+[]:before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.get(fresh.id),now=kept??
+{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];Object.assign(now,
+figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!this.store.isAnother&&!stood,followed:false,gone:null,change:null});this.byId.
+set(now.id,now);return now});this.known=!this.store.isEmpty;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.
+linkages){let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.
+hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}
+for(const{id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.
+emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.placed?.linkage,{cognateOf}=this.store.placed??{},called=cognateOf?`Cognate of ${cognateOf}`:
+"By hand";const before=this.placed;this.placed=placed?Object.assign(before??{},figured(linked(placed)),{id:PLACED,called,gone:null,followed:false}):null;this.emit(
+"placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({
+...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.
+range});function posesOf({poses=[]}){const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME);return poses.
+map((pose,k)=>({...pose,angle_deg:isPoint2(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.
+isArray(document2.body)?document2.body:document2.body===void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=
+each.worst;now.least=each.transmission_deg;now.reason=each.reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=
+now.ways??[];return}now.ways=each.ways;now.pose_errors=each.pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"\
+-",turned:"-",transmission:"-"}:{position:row.position<FOLLOWED*data.scene?"exact":figure(row.position),turned:row.turned_deg<EXACT_TURN?"exact":`${figure(row.turned_deg)}\
+°`,transmission:row.transmission_deg===null?"-":`${fixed(row.transmission_deg,1)}°`}}))}var appeared=each=>({id:each.id,type:each.type??"linkage",rank:Infinity,
+dyads:each.led,ways:[],pose_errors:[],isNew:true,followed:true,said:{met:"",story:"",facts:[],reasons:[],quality:{},dimensions:[],notes:[],links:null,manifolds:[
+[],[]],worst:"–",rms:"–",transmission:"-"},space:null,shortcomings:[],defects:[],unmet:[]});function worstOf(linkage,data){if(linkage.worst===null||linkage.
+worst===void 0)return"–";if(!linkage.followed)return linkage.said.worst==="-"?"–":linkage.said.worst==="exact"?"exact":`${linkage.said.worst}${data.unit?` ${data.
+unit}`:""}`;return linkage.worst<FOLLOWED*data.scene?"exact":`${figure(linkage.worst)}${data.unit?` ${data.unit}`:""}`}function pathErrorOf(linkage,data){const{
+rms}=linkage.said,worst=worstOf(linkage,data);return linkage.followed||!rms||rms==="-"||rms==="exact"?worst:`${rms} rms, ${worst} at most`}function leastOf(linkage){
 if(!linkage.followed)return linkage.said.transmission==="-"?"–":linkage.said.transmission;return linkage.least===null||linkage.least===void 0?"–":`${Math.floor(
 10*linkage.least+1e-6)/10}°`}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
 a),d=Math.sin(place.a);return[c*(x-place.x)+d*(y-place.y),-d*(x-place.x)+c*(y-place.y)]}var normalOf=dyad=>{const angle=radians(dyad.line.normal_deg);return[Math.
@@ -601,71 +597,87 @@ dyad.radius]}else{[nx,ny]=normalOf(dyad);residual=nx*x+ny*y-dyad.line.offset}ret
 qq-pq*pq;if(!(det>1e-9*pp*qq))return{x,y,a};const u=(f*qq-g*pq)/det,v=(g*pp-f*pq)/det;x-=u*p[0]+v*q[0];y-=u*p[1]+v*q[1];a-=(u*p[2]+v*q[2])/length;if(Math.abs(f)+
 Math.abs(g)<1e-14*length)break}return{x,y,a}}function catmullRom(values,i,share,round){const last=values.length-1;const at=k=>{if(k>=0&&k<=last)return values[k];
 if(!round)return k<0?2*values[0]-values[-k]:2*values[last]-values[2*last-k];const wrap=k<0?k+last:k-last;return values[wrap]+(k<0?-1:1)*(values[last]-values[0])};
-const[p,q,r,t]=[at(i-1),at(i),at(i+1),at(i+2)];return q+share/2*(r-p+share*(2*p-5*q+4*r-t+share*(3*(q-r)+t-p)))}function placeAt(linkage,way,u,length){const stop=linkage.
-pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.y,a:radians(stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.
-length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,way.round),a:catmullRom(way.angle,i,share,way.round)};return project(
-linkage.led,place,length)}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===null||values[i+1]===null)return null;
-const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function frameAt(values,wanted){let low=0,high=values.length-1;if(wanted<=
-values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=wanted)low=middle2;else high=middle2}
-const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
+const[p,q,r,t]=[at(i-1),at(i),at(i+1),at(i+2)];return q+share/2*(r-p+share*(2*p-5*q+4*r-t+share*(3*(q-r)+t-p)))}function placeAt(linkage,way,u,length){if(way.joints)
+return placeOfJoints(linkage,way,u);const stop=linkage.pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.y,a:radians(
+stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,way.round),
+a:catmullRom(way.angle,i,share,way.round)};return project(linkage.led,place,length)}function placeOfJoints({ground},way,u){const at=values=>smooth(values,u),joints={
+...ground};for(const[name,[x,y]]of Object.entries(way.joints))joints[name]=[at(x),at(y)];return{x:at(way.x),y:at(way.y),a:at(way.angle),joints}}function smooth(values,u){
+const count=Math.min(6,values.length),first=clamp(Math.floor(u)-2,0,values.length-count);let sum=0;for(let j=0;j<count;j+=1){let weight=1;for(let k=0;k<count;k+=
+1)if(k!==j)weight*=(u-first-k)/(j-k);sum+=weight*values[first+j]}return sum}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===
+null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems},at){
+const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){
+let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=
+wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
 x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(
 a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3}\
  16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){
 const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point of list){while(kept.length>1){const[
 a,b]=kept.slice(-2);if((b[0]-a[0])*(point[1]-a[1])-(b[1]-a[1])*(point[0]-a[0])>0)break;kept.pop()}kept.push(point)}return kept.slice(0,-1)};const corners=[...half(
-sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}var LEAST=250;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
-timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
+sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}var LEAST=250;var SHARE=8;var Pace=class{timer;constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){
+if(this.timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
 clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
 var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
 (fact,k)=>!Object.is(fact,before[k]))}var paces=new Set;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(
-data.body,view,[0,0]);var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s(
-"g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middl\
-e"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.
-kind](this,side));this.coupler.append(s("path",{class:"bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.
-pin)this.coupler.append(part.pin);this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,this.letter)}fits({led}){return kindsOf(
+data.body,view,[0,0]);var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var NAME=15;var ARROW=24;var Mechanism=class{constructor({led,drawn:links=[],ground,names}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});this.links=s("g");this.
+blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=s("text",{class:"bm-le\
+tter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.
+map((dyad,side)=>new PARTS[dyad.kind](this,side));if(links.length)this.parts.push(...links.map(link=>new JointedLink(this,link)),new Joints(this,ground,names));
+this.coupler.append(s("path",{class:"bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.
+append(part.pin);this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,links.length?null:this.letter)}fits({led}){return kindsOf(
 led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(
 data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.
 moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).
-map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of this.plates)put(plate,"d",d);this.shapeArrow()}show(place){const{view}=this,at=transform(view.
-X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(place);
-const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;
-if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.
-led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",
-TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([
-x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(
-x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[
-x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,
-pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("c\
-ircle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=
-dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);
-setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,
-"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=
-s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,
-inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){
-this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);
-this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){
-this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(
-dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);
-for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){
-const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};
-var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing};var ANGLES={"°":1,deg:1,degree:1,degrees:1,rad:180/Math.PI,mrad:.18/Math.PI};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var button=(text,onclick,attributes={})=>h("button",{type:"button",class:"bm-button",onclick,...attributes},text);var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
+map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of linkage.drawn?[]:this.plates)put(plate,"d",d);for(const part of this.parts.slice(linkage.led.
+length))part.shape(view);this.shapeArrow()}show(place){const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.
+hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,
+"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)}\
+ translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 \
+5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(
+y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[
+x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`b\
+m-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"\
+data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("pa\
+th",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("ci\
+rcle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(
+stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){
+const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};
+var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){
+this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(
+this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));
+this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(
+...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(
+dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].
+map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dy\
+ad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.
+fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var JointedLink=class{constructor({links},{joints,kind}){this.
+joints=[...joints];this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];links.append(s("g",{class:`bm-link bm-${kind}${joints.length>2?" bm-ter\
+nary":""}`,"data-link":joints.replace("M","")},this.strokes))}shape(view){this.view=view}show(place){const d=`M${this.joints.map(joint=>inGround(place.joints[joint]??
+[place.x,place.y],this.view).map(px).join(" ")).join("L")}${this.joints.length>2?"Z":""}`;for(const stroke of this.strokes)put(stroke,"d",d)}};var Joints=class{constructor({
+pins},ground,names){this.pins=[...Object.keys(ground),...Object.keys(names)].map(joint=>{const pin=s("circle",{class:`bm-pin${joint in ground?" bm-fixed-pin":""}`,
+r:4.5,"data-joint":joint});return{joint,pin,link:[...names[joint]??""],name:joint in ground?null:s("text",{class:"bm-name","text-anchor":"middle"},joint)}});pins.
+append(...this.pins.map(({pin})=>pin),...this.pins.flatMap(({name})=>name??[]))}shape(view){this.view=view}show({joints}){for(const{joint,pin,link,name}of this.
+pins){const[x,y]=inGround(joints[joint],this.view);put(pin,"cx",px(x));put(pin,"cy",px(y));if(!name)continue;const[u,v]=outwards(link.map(each=>inGround(joints[each],
+this.view)),[x,y]);put(name,"x",px(x+NAME*u));put(name,"y",px(y+NAME*v+4))}}};function outwards(corners,[x,y]){const middle2=[0,1].map(k=>corners.reduce((sum,corner)=>sum+
+corner[k],0)/corners.length);const u=x-middle2[0],v=y-middle2[1],size2=Math.hypot(u,v);return size2>1?[u/size2,v/size2]:[0,-1]}var Nothing=class{shape(){}show(){}};
+var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing,crank:Nothing};var ANGLES={"°":1,deg:1,degree:1,degrees:1,rad:180/Math.PI,mrad:.18/Math.PI};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var button=(text,onclick,attributes={})=>h("button",{type:"button",class:"bm-button",onclick,...attributes},text);var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
 text.length+4)/2,places=[],count=few?8:16;for(let ring=0;ring<(few?1:3);ring+=1){for(let k=0;k<count;k+=1){const turn=(k%2?1:-1)*Math.ceil(k/2)*(2*Math.PI/count),
 angle=toward+turn,away=distance+9*ring;places.push([(away+half-5)*Math.cos(angle),away*Math.sin(angle),3*Math.abs(turn)+14*ring])}}return places}function along(up,width){
-const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{constructor(scene){
+const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{timer;constructor(scene){
 this.scene=scene;this.names=new Map;this.obstacles=[];this.timer=null;scene.on("dropped",()=>this.ask())}avoid(fn){this.obstacles.push(fn)}get areMany(){return this.
 names.size>MANY}put(element,x,y,text,places){const before=this.names.get(element),name={x,y,text,places,at:before?.text===text?before.at:places[0]};this.names.set(
 element,name);this.show(element,name);this.ask()}ask(){clearTimeout(this.timer);if(!this.scene.dragged)this.timer=setTimeout(()=>this.place(),REST)}show(element,{
 x,y,at}){put(element,"text-anchor","middle");put(element,"transform",`translate(${px(x+at[0])} ${px(y-at[1]+4)})`)}place(){if(this.scene.dragged)return;for(const element of[
 ...this.names.keys()])if(!element.isConnected)this.names.delete(element);const{width,height}=this.scene.view;const seen2=[...this.names].filter(([element,{x,y}])=>x>
 -20&&y>-20&&x<width+20&&y<height+20&&element.getAttribute("display")!=="none");const taken=this.obstacles.flatMap(fn=>fn()).map(boxOf),stands=new Map;for(let pass=0;pass<
-(this.areMany?1:2);pass+=1){for(const[element,name]of seen2){stands.delete(element);const others=[...stands.values()];let best=null;for(const at of name.places){
-const box=boxAt(name,at);const habit=at[0]===name.at[0]&&at[1]===name.at[1]?HABIT:0;let cost=at[2]-habit;if(box[0]<2||box[1]<2||box[2]>width-2||box[3]>height-2)
-cost+=OUTSIDE;for(const other of taken)cost+=overlap(box,other);for(const other of others)cost+=SAME*overlap(box,other);const own=awayFrom(box,name);if(seen2.some(
-([,other])=>other!==name&&awayFrom(box,other)<own+1))cost+=MISLEADING;if(!best||cost<best.cost)best={cost,at,box}}name.at=best.at;stands.set(element,best.box)}}
-for(const[element,name]of seen2)this.show(element,name)}};var boxOf=([x,y,width,height])=>[x-width/2,y-height/2,x+width/2,y+height/2];var boxAt=({x,y,text},at)=>boxOf(
-[x+at[0],y-at[1],LETTER2*text.length+4,HEIGHT]);var awayFrom=(box,{x,y})=>Math.hypot(Math.max(box[0]-x,0,x-box[2]),Math.max(box[1]-y,0,y-box[3]));function overlap(one,other){
-const across=Math.min(one[2],other[2])-Math.max(one[0],other[0]),down=Math.min(one[3],other[3])-Math.max(one[1],other[1]);return across>0&&down>0?across*down:0}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST=1e6;
-var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
+(this.areMany?1:2);pass+=1){for(const[element,name]of seen2){stands.delete(element);const others=[...stands.values()];let best={cost:Infinity,at:name.at,box:[0,
+0,0,0]};for(const at of name.places){const box=boxAt(name,at);const habit=at[0]===name.at[0]&&at[1]===name.at[1]?HABIT:0;let cost=at[2]-habit;if(box[0]<2||box[1]<
+2||box[2]>width-2||box[3]>height-2)cost+=OUTSIDE;for(const other of taken)cost+=overlap(box,other);for(const other of others)cost+=SAME*overlap(box,other);const own=awayFrom(
+box,name);if(seen2.some(([,other])=>other!==name&&awayFrom(box,other)<own+1))cost+=MISLEADING;if(cost<best.cost)best={cost,at,box}}name.at=best.at;stands.set(element,
+best.box)}}for(const[element,name]of seen2)this.show(element,name)}};var boxOf=([x,y,width,height])=>[x-width/2,y-height/2,x+width/2,y+height/2];var boxAt=({x,y,
+text},at)=>boxOf([x+at[0],y-at[1],LETTER2*text.length+4,HEIGHT]);var awayFrom=(box,{x,y})=>Math.hypot(Math.max(box[0]-x,0,x-box[2]),Math.max(box[1]-y,0,y-box[3]));
+function overlap(one,other){const across=Math.min(one[2],other[2])-Math.max(one[0],other[0]),down=Math.min(one[3],other[3])-Math.max(one[1],other[1]);return across>
+0&&down>0?across*down:0}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST=1e6;
+var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{view;constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
 tool:[],dropped:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("g\
 rid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow ke\
 ys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={
@@ -720,10 +732,10 @@ this.svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shift
 0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,width/2,height/2);else if(event.
 key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.reduce(([x,y,u,v],[
 a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
-Object.assign(this,{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(
-key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.
-values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=
-element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var NAME=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
+this.group=group;this.make=make;this.show=show;this.elements=new Map}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(
+key)??this.make(key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;
+for(const element of kept.values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(
+element,next);before=element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var NAME2=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
 0,1],ArrowDown:[0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);var strideOf=({poses},scale)=>{
 const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);return poses.length<=FEW?1:Math.ceil(poses.length/clamp(scale*
 length/ROOM,FEW,MOST))};function drawnPoses({document:document2,selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)
@@ -752,7 +764,7 @@ a=radians(angle),[c,d]=[Math.cos(a),Math.sin(a)];const at=(along2,across,size2)=
 at(0,0,13);if(isPoint2(store.document.poses[k]))continue;at(length,0,12);at(LETTER,-LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[
 .3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName2(
 store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(
-angle+215),NAME,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
+angle+215),NAME2,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
 const{store,scene}=this;let gesture,off,before,reach;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-
 from.x,y-from.y];before=store.document;reach=isPath(before)?strideOf(before,scene.view.scale):1},move:point=>reach>1?this.bend(before,k,reach,[point.x+off[0]-before.
 poses[k].x,point.y+off[1]-before.poses[k].y],gesture):this.set(k,{x:scene.rounded(point.x+off[0]),y:scene.rounded(point.y+off[1])},gesture),cancel:()=>store.abandon(
@@ -765,13 +777,14 @@ const{store,scene}=this,arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey
 store.document,k),by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===0?arrow2[1]:-arrow2[0]))},this.keyed);else this.
 set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){store.edit(document2=>removePose(
 document2,k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);this.focus(Math.min(k,left-1))}else{return}event.
-preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){Object.assign(this,{store,scene,name:"pose",gesture:null});this.hint="Click where the pose is to stand, and click ag\
-ain to turn it. Escape ends."}click(point){const{store,scene}=this;if(this.gesture){this.turn(point);this.gesture=null;return}this.gesture=Symbol("add a pose");
-const angle=store.document.poses.findLast(pose=>Number.isFinite(pose.angle))?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(point.x),y:scene.
-rounded(point.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point){if(this.gesture&&point)this.turn(point)}turn(point){
-const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point.x-x,point.y-y)*this.scene.view.scale;
-if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point.y-y,point.x-x)),angle));store.edit(document2=>setPose(document2,k,{angle:next}),{gesture})}key(event){
-if(event.key!=="Escape")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point,start,end){const along2=minus(end,
+preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PoseTool=class{constructor(store,scene){this.store=store;this.scene=scene;this.name="pose";this.gesture=null;this.hint="Click where the pose is to stand, an\
+d click again to turn it. Escape ends."}click(point){const{store,scene}=this;if(this.gesture){this.turn(point);this.gesture=null;return}this.gesture=Symbol("add\
+ a pose");const angle=store.document.poses.findLast(pose=>Number.isFinite(pose.angle))?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(point.
+x),y:scene.rounded(point.y),angle}),{gesture:this.gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point){if(this.gesture&&point)
+this.turn(point)}turn(point){const{store,gesture}=this,k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point.x-x,point.
+y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(unwrapped(degrees(Math.atan2(point.y-y,point.x-x)),angle));store.edit(document2=>setPose(document2,
+k,{angle:next}),{gesture})}key(event){if(event.key!=="Escape")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.use(null);
+return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point,start,end){const along2=minus(end,
 start),away=minus(point,start),square=along2[0]**2+along2[1]**2;const share=square>0?Math.min(1,Math.max(0,(along2[0]*away[0]+along2[1]*away[1])/square)):0;return size(
 minus(away,[share*along2[0],share*along2[1]]))}var boxCorners=([[a,b],[c,d]])=>[[a,b],[c,b],[c,d],[a,d]];var outlineOf=(shape,points)=>shape==="box"?boxCorners(
 points):points;function isInside([x,y],corners){let inside=false;corners.forEach(([a,b],k)=>{const[c,d]=corners[(k+1)%corners.length];if(b>y!==d>y&&x<a+(y-b)/(d-
@@ -788,53 +801,54 @@ return`M${px(seen2[0][0]-7)} ${px(seen2[0][1])}h14m-7 -7v14`;if(shape==="line"){
 Math.hypot(a,b);const[u,v]=[far*(c-a)/size2,far*(d-b)/size2];return`M${px(a-u)} ${px(b-v)}L${px(c+u)} ${px(d+v)}`}return`M${seen2.map(point=>point.map(px).join(
 " ")).join("L")}${CLOSED.has(shape)?"Z":""}`}function withCorner(shape,points,k,to){if(shape!=="box")return points.map((point,i)=>i===k?to:point);const opposite=boxCorners(
 points)[(k+2)%4];return[[Math.min(to[0],opposite[0]),Math.min(to[1],opposite[1])],[Math.max(to[0],opposite[0]),Math.max(to[1],opposite[1])]]}var ShapeHandles=class{constructor(scene,{
-what,set,remove,select,abandon,className=""}){Object.assign(this,{scene,what,set,remove,select,abandon});this.title=s("title");this.area=s("path",{class:"bs-sha\
-pe-area",tabindex:0,role:"button"},this.title);this.line=s("path",{class:"bs-shape-line"});this.element=s("g",{class:`bs-shape ${className}`},this.line,this.area);
-this.middles=new Kept(s("g"),(key,k)=>this.makeMiddle(k),(element,k)=>this.showMiddle(element,k));this.corners=new Kept(s("g"),(key,k)=>this.makeCorner(k),(element,k)=>this.
-showCorner(element,k));this.handles=s("g",{class:"bs-corners"},this.middles.group,this.corners.group);this.dragWhole();this.area.addEventListener("focus",()=>this.
-select());this.area.addEventListener("keydown",event=>this.keys(event,(points,by)=>points.map(([x,y])=>[stepped(x,by[0]),stepped(y,by[1])]),()=>this.remove()))}draw(){
-const{shape,points,place,name,selected,state,data}=this.now=this.what();const d=pathOf(shape,points,place,this.scene.view);put(this.line,"d",d);put(this.area,"d",
-d);this.area.classList.toggle("bs-open",!CLOSED.has(shape));put(this.area,"aria-label",`${name}${state?`, ${state} by the chosen linkage`:""}. Drag, or use the \
-arrow keys; Delete removes it.`);put(this.area,"aria-pressed",Boolean(selected));say(this.title,name);for(const[key2,value2]of Object.entries({...data,shape}))put(
-this.element,`data-${key2}`,value2);this.element.classList.toggle("bs-selected",Boolean(selected));this.element.classList.toggle("bs-met",state==="met");this.element.
-classList.toggle("bs-broken",state==="broken");const[[key,value]]=Object.entries(data);put(this.handles,"data-handles",`${key} ${value}`.trim());if(!this.handles.
-parentNode)this.scene.layer("tool").append(this.handles);const count=selected?outlineOf(shape,points).length:0,edges2=shape==="polygon"?count:0;this.corners.draw(
-[...Array(count).keys()].map(k=>[k,k]));this.middles.draw([...Array(edges2).keys()].map(k=>[k,k]))}clear(){this.element.remove();this.handles.remove()}at([x,y]){
-const[u,v]=act(this.now.place,[x,y]);return{cx:px(this.scene.view.X(u)),cy:px(this.scene.view.Y(v))}}point({x,y}){return back(this.now.place,[x,y]).map(each=>this.
-scene.rounded(each))}dragWhole(){let gesture,from,before;this.scene.drag(this.area,{start:point=>{gesture=Symbol("move a shape");from=back(this.now.place,[point.
-x,point.y]);before=this.now.points},move:point=>{const to=back(this.now.place,[point.x,point.y]),by=[to[0]-from[0],to[1]-from[1]];this.set(before.map(([x,y])=>[
-this.scene.rounded(x+by[0]),this.scene.rounded(y+by[1])]),gesture)},cancel:()=>this.abandon(gesture),click:()=>this.select()})}makeCorner(k){const circle=s("cir\
-cle",{class:"bs-corner",r:6,tabindex:0,role:"button","data-corner":k+1});let gesture;this.scene.drag(circle,{start:()=>(gesture=Symbol("move a corner"))&&true,move:point=>this.
-set(withCorner(this.now.shape,this.now.points,k,this.point(point)),gesture),cancel:()=>this.abandon(gesture)});circle.addEventListener("keydown",event=>this.keys(
-event,(points,by)=>{const[x,y]=outlineOf(this.now.shape,points)[k];return withCorner(this.now.shape,points,k,[stepped(x,by[0]),stepped(y,by[1])])},()=>this.removeCorner(
-k)));return circle}removeCorner(k){const{shape,points}=this.now;if(shape!=="polygon"||points.length<=LEAST_CORNERS)return;this.set(points.filter((_,i)=>i!==k),null)}makeMiddle(k){
-const circle=s("circle",{class:"bs-middle",r:4.5,"data-edge":k+1});let gesture;this.scene.drag(circle,{start:()=>{gesture=Symbol("add a corner");this.set([...this.
-now.points.slice(0,k+1),this.now.points[k],...this.now.points.slice(k+1)],gesture)},move:point=>this.set(withCorner("polygon",this.now.points,k+1,this.point(point)),
-gesture),cancel:()=>this.abandon(gesture)});return circle}showCorner(element,k){const corner=outlineOf(this.now.shape,this.now.points)[k];for(const[name,value]of Object.
-entries(this.at(corner)))put(element,name,value);put(element,"aria-label",`Corner ${k+1} of ${this.now.name}: ${corner.join(", ")}`)}showMiddle(element,k){const{
-points}=this.now,next=points[(k+1)%points.length];const middle2=this.at([(points[k][0]+next[0])/2,(points[k][1]+next[1])/2]);for(const[name,value]of Object.entries(
-middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS2[event.key];if(arrow2){if(!event.repeat)this.
-keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(this.now.points,[by*arrow2[0],by*arrow2[1]]),this.keyed)}else if(event.key==="Delete"||
-event.key==="Backspace"){remove()}else{return}event.preventDefault();event.stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
+what,set,remove,select,abandon,className=""}){this.scene=scene;this.what=what;this.set=set;this.remove=remove;this.select=select;this.abandon=abandon;this.title=
+s("title");this.area=s("path",{class:"bs-shape-area",tabindex:0,role:"button"},this.title);this.line=s("path",{class:"bs-shape-line"});this.element=s("g",{class:`\
+bs-shape ${className}`},this.line,this.area);this.middles=new Kept(s("g"),(key,k)=>this.makeMiddle(k),(element,k)=>this.showMiddle(element,k));this.corners=new Kept(
+s("g"),(key,k)=>this.makeCorner(k),(element,k)=>this.showCorner(element,k));this.handles=s("g",{class:"bs-corners"},this.middles.group,this.corners.group);this.
+dragWhole();this.area.addEventListener("focus",()=>this.select());this.area.addEventListener("keydown",event=>this.keys(event,(points,by)=>points.map(([x,y])=>[
+stepped(x,by[0]),stepped(y,by[1])]),()=>this.remove()))}draw(){const{shape,points,place,name,selected,state,data}=this.now=this.what();const d=pathOf(shape,points,
+place,this.scene.view);put(this.line,"d",d);put(this.area,"d",d);this.area.classList.toggle("bs-open",!CLOSED.has(shape));put(this.area,"aria-label",`${name}${state?
+`, ${state} by the chosen linkage`:""}. Drag, or use the arrow keys; Delete removes it.`);put(this.area,"aria-pressed",Boolean(selected));say(this.title,name);for(const[
+key2,value2]of Object.entries({...data,shape}))put(this.element,`data-${key2}`,value2);this.element.classList.toggle("bs-selected",Boolean(selected));this.element.
+classList.toggle("bs-met",state==="met");this.element.classList.toggle("bs-broken",state==="broken");const[[key,value]]=Object.entries(data);put(this.handles,"d\
+ata-handles",`${key} ${value}`.trim());if(!this.handles.parentNode)this.scene.layer("tool").append(this.handles);const count=selected?outlineOf(shape,points).length:
+0,edges2=shape==="polygon"?count:0;this.corners.draw([...Array(count).keys()].map(k=>[k,k]));this.middles.draw([...Array(edges2).keys()].map(k=>[k,k]))}clear(){
+this.element.remove();this.handles.remove()}at([x,y]){const[u,v]=act(this.now.place,[x,y]);return{cx:px(this.scene.view.X(u)),cy:px(this.scene.view.Y(v))}}point({
+x,y}){return back(this.now.place,[x,y]).map(each=>this.scene.rounded(each))}dragWhole(){let gesture,from,before;this.scene.drag(this.area,{start:point=>{gesture=
+Symbol("move a shape");from=back(this.now.place,[point.x,point.y]);before=this.now.points},move:point=>{const to=back(this.now.place,[point.x,point.y]),by=[to[0]-
+from[0],to[1]-from[1]];this.set(before.map(([x,y])=>[this.scene.rounded(x+by[0]),this.scene.rounded(y+by[1])]),gesture)},cancel:()=>this.abandon(gesture),click:()=>this.
+select()})}makeCorner(k){const circle=s("circle",{class:"bs-corner",r:6,tabindex:0,role:"button","data-corner":k+1});let gesture;this.scene.drag(circle,{start:()=>(gesture=
+Symbol("move a corner"))&&true,move:point=>this.set(withCorner(this.now.shape,this.now.points,k,this.point(point)),gesture),cancel:()=>this.abandon(gesture)});circle.
+addEventListener("keydown",event=>this.keys(event,(points,by)=>{const[x,y]=outlineOf(this.now.shape,points)[k];return withCorner(this.now.shape,points,k,[stepped(
+x,by[0]),stepped(y,by[1])])},()=>this.removeCorner(k)));return circle}removeCorner(k){const{shape,points}=this.now;if(shape!=="polygon"||points.length<=LEAST_CORNERS)
+return;this.set(points.filter((_,i)=>i!==k),null)}makeMiddle(k){const circle=s("circle",{class:"bs-middle",r:4.5,"data-edge":k+1});let gesture;this.scene.drag(circle,
+{start:()=>{gesture=Symbol("add a corner");this.set([...this.now.points.slice(0,k+1),this.now.points[k],...this.now.points.slice(k+1)],gesture)},move:point=>this.
+set(withCorner("polygon",this.now.points,k+1,this.point(point)),gesture),cancel:()=>this.abandon(gesture)});return circle}showCorner(element,k){const corner=outlineOf(
+this.now.shape,this.now.points)[k];for(const[name,value]of Object.entries(this.at(corner)))put(element,name,value);put(element,"aria-label",`Corner ${k+1} of ${this.
+now.name}: ${corner.join(", ")}`)}showMiddle(element,k){const{points}=this.now,next=points[(k+1)%points.length];const middle2=this.at([(points[k][0]+next[0])/2,
+(points[k][1]+next[1])/2]);for(const[name,value]of Object.entries(middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||event.metaKey)return;
+const arrow2=ARROWS2[event.key];if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(this.now.points,[by*
+arrow2[0],by*arrow2[1]]),this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){remove()}else{return}event.preventDefault();event.stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
 nds. Enter puts one in the middle, Escape gives up.",line:"Click two points of the line. Enter puts one in the middle, Escape gives up.",box:"Drag from corner t\
 o corner, or click both. Enter puts one in the middle, Escape gives up.",polygon:"Click the corners; Enter or a click on the first one closes. Backspace takes t\
 he last one back, Escape gives up."};var MIDDLE={point:[[0,0]],segment:[[-1,0],[1,0]],line:[[-1,0],[1,0]],box:[[-1,-1],[1,1]],polygon:[[-1,-1],[1,-1],[0,1]]};var SHARE2=.12;
 var ordered=([[a,b],[c,d]])=>[[Math.min(a,c),Math.min(b,d)],[Math.max(a,c),Math.max(b,d)]];var isFlat=([[a,b],[c,d]])=>a===c&&b===d;var ShapeTool=class{constructor(scene,{
-shape,place,done,name}){Object.assign(this,{scene,shape,place,done,name,points:[],next:null});this.hint=HINTS[shape];this.path=s("path",{class:"bs-draft"});this.
-dots=s("g");this.element=s("g",{},this.path,this.dots);scene.layer("tool").append(this.element)}point({x,y}){return back(this.place(),[x,y]).map(each=>this.scene.
-rounded(each))}click(point,event){const next=this.point(point);if(this.shape==="polygon"){if(this.points.length>2&&(this.isFirst(point)||event?.detail>1))return this.
-finish(this.points);if(this.points.length&&isFlat([this.points.at(-1),next]))return void 0}this.points.push(next);if(this.shape==="point"||PAIRS.has(this.shape)&&
-this.points.length===2)return this.finish(this.points);return this.draw()}isFirst({X,Y}){const[x,y]=act(this.place(),this.points[0]),{view}=this.scene;return Math.
-hypot(view.X(x)-X,view.Y(y)-Y)<CLOSE}hover(point){this.next=point&&this.point(point);this.draw()}drag(point,held){if(!PAIRS.has(this.shape)||this.points.length)
-return false;this.dragging=[this.point(this.inPlane(held.from)),this.point(point)];this.draw();return true}inPlane({X,Y}){return{x:this.scene.view.x(X),y:this.scene.
-view.y(Y)}}inMiddle(){const{width,height}=this.scene.size,half=SHARE2*Math.min(width,height);return MIDDLE[this.shape].map(([x,y])=>this.point(this.inPlane({X:width/
-2+half*x,Y:height/2-half*y})))}release(){if(!this.dragging)return;const pair=this.dragging;this.dragging=null;this.finish(pair)}finish(points){if(PAIRS.has(this.
-shape)&&isFlat(points)){this.points=points.slice(0,1);return this.draw()}this.scene.use(null);return this.done(this.shape==="box"?ordered(points):points)}key(event){
-if(event.key==="Escape")this.scene.use(null);else if(event.key==="Backspace")this.points.pop();else if(event.key==="Enter"&&!this.points.length)this.finish(this.
-inMiddle());else if(event.key==="Enter"&&this.points.length>2)this.finish(this.points);else return false;this.draw();return true}draw(){const{scene:{view},shape}=this,
-shown2=this.dragging??[...this.points,...this.next?[this.next]:[]];const place=this.place(),whole=shape==="polygon"?"open polygon":shape;const complete=shown2.length>
-1||shape==="point";put(this.path,"d",complete&&shown2.length?pathOf(whole,shown2,place,view):"");this.dots.replaceChildren(...(this.dragging??this.points).map(point=>act(
-place,point)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
+shape,place,done,name}){this.scene=scene;this.shape=shape;this.place=place;this.done=done;this.name=name;this.points=[];this.next=null;this.hint=HINTS[shape];this.
+path=s("path",{class:"bs-draft"});this.dots=s("g");this.element=s("g",{},this.path,this.dots);scene.layer("tool").append(this.element)}point({x,y}){return back(
+this.place(),[x,y]).map(each=>this.scene.rounded(each))}click(point,event){const next=this.point(point);if(this.shape==="polygon"){if(this.points.length>2&&(this.
+isFirst(point)||event?.detail>1))return this.finish(this.points);if(this.points.length&&isFlat([this.points.at(-1),next]))return void 0}this.points.push(next);if(this.
+shape==="point"||PAIRS.has(this.shape)&&this.points.length===2)return this.finish(this.points);return this.draw()}isFirst({X,Y}){const[x,y]=act(this.place(),this.
+points[0]),{view}=this.scene;return Math.hypot(view.X(x)-X,view.Y(y)-Y)<CLOSE}hover(point){this.next=point&&this.point(point);this.draw()}drag(point,held){if(!PAIRS.
+has(this.shape)||this.points.length)return false;this.dragging=[this.point(this.inPlane(held.from)),this.point(point)];this.draw();return true}inPlane({X,Y}){return{
+x:this.scene.view.x(X),y:this.scene.view.y(Y)}}inMiddle(){const{width,height}=this.scene.size,half=SHARE2*Math.min(width,height);return MIDDLE[this.shape].map(([
+x,y])=>this.point(this.inPlane({X:width/2+half*x,Y:height/2-half*y})))}release(){if(!this.dragging)return;const pair=this.dragging;this.dragging=null;this.finish(
+pair)}finish(points){if(PAIRS.has(this.shape)&&isFlat(points)){this.points=points.slice(0,1);return this.draw()}this.scene.use(null);return this.done(this.shape===
+"box"?ordered(points):points)}key(event){if(event.key==="Escape")this.scene.use(null);else if(event.key==="Backspace")this.points.pop();else if(event.key==="Ent\
+er"&&!this.points.length)this.finish(this.inMiddle());else if(event.key==="Enter"&&this.points.length>2)this.finish(this.points);else return false;this.draw();return true}draw(){
+const{scene:{view},shape}=this,shown2=this.dragging??[...this.points,...this.next?[this.next]:[]];const place=this.place(),whole=shape==="polygon"?"open polygon":
+shape;const complete=shown2.length>1||shape==="point";put(this.path,"d",complete&&shown2.length?pathOf(whole,shown2,place,view):"");this.dots.replaceChildren(...(this.
+dragging??this.points).map(point=>act(place,point)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,cx:px(view.X(x)),cy:px(view.Y(
+y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
 poses.length)store.reference=selection.index;return Math.min(store.reference??0,document2.poses.length-1)}function referencePlace(store){const k=referenceIndex(
 store);if(k<0)return{x:0,y:0,a:0};const{x,y,angle}=standing(store.document,k);return{x,y,a:radians(angle)}}var BodyEditor=class{constructor(store,scene){this.store=
 store;this.scene=scene;this.ghosts=new Kept(s("g",{class:"bs-ghosts","aria-hidden":"true"}),()=>s("path",{class:"bs-ghost"}),(path,item)=>this.showGhost(path,item));
@@ -855,9 +869,10 @@ store.undo(),y:()=>store.redo(),...files&&{s:()=>files.save(),o:()=>files.choose
 ctrlKey||event.metaKey)&&!event.altKey;if(control){const act2=acts(event)[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.
 test(key))return;event.preventDefault();act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(
 target)&&scene.tool.key(event)){event.preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},
-true);root.addEventListener("input",({target})=>target.dataset&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,
-({target})=>target.dataset&&delete target.dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{if(event.key!==
-" "||event.ctrlKey||event.metaKey||event.altKey||event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
+true);root.addEventListener("input",({target})=>target instanceof HTMLElement&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(
+name,({target})=>target instanceof HTMLElement&&delete target.dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{
+if(event.key!==" "||event.ctrlKey||event.metaKey||event.altKey||event.target instanceof Element&&event.target.closest(TYPED_IN)||!player.path)return;event.preventDefault();
+player.play(!player.playing)})}var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
 2+1;const[x,y]=(at=>[view.X(at[0]),view.Y(at[1])])(pointOnLine(dyad,(low+high)/2));const bodySide=places.reduce((sum,place)=>sum+nx*place.x+ny*place.y-dyad.line.
 offset,0);const turned=Math.atan2(nx,-ny)+(bodySide>0?Math.PI:0);const drawn=Math.min(half,LONGEST);let hatch="";for(let k=-drawn+4;k<drawn-2;k+=8)hatch+=`M${px(
 k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(row=>row.position??0));if(!(worst>1e-9*data.
@@ -865,51 +880,51 @@ scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*dat
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
-p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,
-factor:0});this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"bm-curve bm-here"});this.
-pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.others,this.beyond,...this.
-pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(side=>s("g",{class:`bm-rail\
- bm-side${side}`},s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.arrows=s("path",{});this.
-names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"bs-mechanism"},...this.rails,
-...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer("paths").append(this.paths);
-scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("shape",()=>this.shape());playing.
-on("place",({place})=>this.mechanism?.show(place));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.redraw()}points(){const{linkage}=this.
-playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<3*data.scene;const pins=linkage.led.flatMap(
-dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.led.filter(dyad=>dyad.moving_pivot).
-map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving].filter(near2)}obstacles(){const{playing:{linkage},scene:{
-view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){
-const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(
-data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)
-this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path}=playing,{view}=scene;const there=Boolean(linkage)&&!linkage.
-gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;const places=path?framesOf(path):[];
-this.enlarge();this.curves(linkage,path,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path){this.mechanism?.group.remove();this.mechanism=
-null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.group)}this.
-mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path,places,view){const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.map(([x])=>view.
-X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path);put(this.others,"d",others.map(way=>pathOf2(way,view)).join(""));
-put(this.beyond,"d",path?pathOf2(path,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];if(!path||!dyad.moving_pivot||dyad.kind===
-"PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path.round)});if(!path){put(this.here,"d","");return}const{low,high}=this.
-playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,path,u,length));list.push(end(low));for(let k=Math.
-floor(low)+1;k<high;k+=1)list.push([path.x[k],path.y[k]]);list.push(end(high));set(this.here,list,path.round&&high-low>path.x.length-1-1e-6)}ground(linkage,places,view){
-const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];const slides=dyad.kind==="PR"&&places.
-length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",slides||dyad.fixed_pivot?"inline":"non\
-e");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach(
-(d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(
-at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,
-answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>count)achieved.
-lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=
-1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*small));
-put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group.children[0],"display",data.poses[k]?.
-angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.
-at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(
-way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
-const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";
-const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*
-.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`all ${noun}s`:
+p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){this.answers=answers;this.playing=playing;
+this.scene=scene;this.factor=0;this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"b\
+m-curve bm-here"});this.pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.
+others,this.beyond,...this.pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(
+side=>s("g",{class:`bm-rail bm-side${side}`},s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.
+arrows=s("path",{});this.names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"\
+bs-mechanism"},...this.rails,...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer(
+"paths").append(this.paths);scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("s\
+hape",()=>this.shape());playing.on("place",({place})=>this.mechanism?.show(place));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.
+redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<
+3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.
+led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving].filter(near2)}obstacles(){
+const{playing:{linkage},scene:{view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.
+X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<
+UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();
+if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path}=playing,{view}=scene;
+const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;
+const places=path?framesOf(path):[];this.enlarge();this.curves(linkage,path,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path){this.
+mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.
+holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path,places,view){const set=(element,list2,closed2)=>put(
+element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path);put(this.others,"d",
+others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path?pathOf2(path,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];
+if(!path||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path.round)});if(!path){put(
+this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,
+path,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path.x[k],path.y[k]]);list.push(end(high));set(this.here,list,path.round&&
+high-low>path.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],
+this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(
+name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"trans\
+form",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(
+dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.
+id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>
+24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("pat\
+h",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.
+size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,
+"display","inline");put(group.children[0],"display",data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),
+radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.
+factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.
+x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.
+x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)}\
+ ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`all ${noun}s`:
 way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:`no ${noun}`;const dead=way.dead.filter(Boolean).length;const ends=way.round?"tu\
 rns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
 span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
-ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{constructor(data,show,rebuild){
+ways.map(one));give(this.element,"hidden",!linkage.ways.length||Boolean(this.data.whole))}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES=100;var ROW=13;var LONGEST_TICK=18;var NO_ERROR=1e-7;var STEPS=360;var Player=class{parts;steps;tick;wholeLabel;constructor(data,show,rebuild){
 this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.whole=false;this.stretch={low:0,high:1};this.playing=false;this.
 remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){return nounOf(this.data)}controls(){const button2=(name,text,label,onclick)=>h(
 "button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));
@@ -949,29 +964,32 @@ length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().
 this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.
 length)}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.
 hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){
-const{path}=this;if(!path){for(const part of this.parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path.drive,this.u),transmission=place.
-transmission??linear(path.transmission,this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"m\
-ax",this.stretch.high);give(this.slider,"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){
-const{data,linkage}=this;return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${fixed(drive,1)}°`}tell(place,drive,transmission,near2){
+const{path}=this;if(!path){for(const part of this.parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path.drive,this.u),transmission=linear(
+path.transmission,this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);
+give(this.slider,"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;
+return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${linkage.crank??""}${fixed(drive,1)}°`}tell(place,drive,transmission,near2){
 const{data,linkage}=this;const unit=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.
 pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit} fro\
 m ${calledOf(pose)}`;const missed2=()=>`at ${calledOf(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit)}`;const said=!pose?
-"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit}, ${fixed(((degrees(place.
-a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?
-`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){
-const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(
-end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",
-{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);const[x,y]=act(place,
+"between the poses":pose.called?`${at?"at":"near"} ${pose.called}`:at?missed2():away();const known=this.path.told?.map(each=>this.toldOf(each))??[`driver ${driver}`,
+`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`];const texts=[...known,`transmission ${transmission===
+null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.
+parts[k].textContent=whole});put(this.slider,"aria-valuetext",`${texts[0]}, ${texts[3]}`)}toldOf({name,digits,values,panel}){const error=panel===void 0?null:valueAt(
+this.linkage.panels[panel],smooth(this.path.drive,this.u));const off=error===null?"":`, off by ${Math.abs(error)<NO_ERROR?"0":figure(error)}°`;return`${name} ${fixed(
+smooth(values,this.u),digits)}°${off}`}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.
+length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}
+var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1\
+ 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);const[x,y]=act(place,
 dyad.moving_pivot);return Math.atan2(y-dyad.fixed_pivot[1],x-dyad.fixed_pivot[0])}function transmissionOf(driver,follower,place){if(driver.kind==="PP"||follower.
 kind==="PP")return null;const slot=dyad=>{const[nx,ny]=normalOf(dyad),c=Math.cos(place.a),d=Math.sin(place.a);return[c*nx-d*ny,d*nx+c*ny]};if(driver.kind==="RP"&&
 follower.kind==="RP")return 90;if(follower.kind==="RP"){const pin=act(place,driver.moving_pivot),[x,y]=follower.fixed_pivot;return between(slot(follower),[x-pin[0],
 y-pin[1]])}const end=act(place,follower.moving_pivot);const lever=follower.kind==="PR"?normalOf(follower):[end[0]-follower.fixed_pivot[0],end[1]-follower.fixed_pivot[1]];
 if(driver.kind==="RP")return between(slot(driver),lever);const start=act(place,driver.moving_pivot);return between([end[0]-start[0],end[1]-start[1]],lever)}var between=(a,b)=>Math.
 atan2(Math.abs(a[0]*b[1]-a[1]*b[0]),Math.abs(a[0]*b[0]+a[1]*b[1]))*180/Math.PI;var APART=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
-!linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=linkage.
-pose_errors.map(()=>null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,led,piece,
-chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.ways[row.
-way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
+!linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=Array(
+linkage.pose_errors.length).fill(null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,
+led,piece,chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.
+ways[row.way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
 way.branches=ways.filter(each=>each.circuit===way.circuit).length;named.set(way.circuit,(named.get(way.circuit)??0)+1);way.branch=named.get(way.circuit)}const pose_errors=linkage.
 pose_errors.map((row,k)=>({...row,way:places[k]?.[0]??null,frame:places[k]?.[1]??null,at:places[k]?ways[places[k][0]]:null,transmission_deg:row.x===null?null:transmissionOf(
 ...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
@@ -1057,52 +1075,53 @@ touches it at pose ${poseName2(document2,pose)}.`;if(!places.length)return"";if(
 place,dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id}\
  comes nearer than the margin.`}return""})}var LONGEST_NAME3=22;var ABOVE=10;var HATCH=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table,key}){return`${PIVOT2[key]}${limitsOf(
 document2).length>1?` of dyad ${table+1}`:""}`}function regionShape(region){if(region.box)return{shape:"box",points:region.box};return region.polygon?{shape:"po\
-lygon",points:region.polygon}:null}var Regions=class{constructor(store,scene){this.store=store;this.scene=scene;this.shapes=new Map;scene.layer("regions").append(
-s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`M0 0V${HATCH}`}))));
-this.regions=new Kept(s("g"),(key,k)=>this.makeRegion(k),element=>this.shapes.get(element).draw());this.footprint=new Kept(s("g"),()=>this.makeFootprint(),element=>this.
-shapes.get(element).draw());this.limits=new Kept(s("g"),(key,limit)=>this.makeLimit(limit),element=>this.shapes.get(element).draw());this.names=new Kept(s("g",{
-class:"bs-region-names","aria-hidden":"true"}),()=>s("text",{}),(text,name)=>this.showName(text,name));scene.layer("regions").append(this.regions.group,this.footprint.
-group);scene.layer("limits").append(this.limits.group);scene.layer("labels").append(this.names.group);store.on("document",()=>this.judge(store.state==="dragging"&&
-!this.isOther()));store.on("selection",()=>this.draw());store.on("solved followed chosen placed",()=>this.judge());scene.on("view",()=>this.draw());scene.hold(()=>limitRegions(
-store.document).filter(({shape})=>shape!=="line").flatMap(each=>this.corners(each)));scene.hold(()=>regionsOf(store.document).map(regionShape).filter(Boolean).flatMap(
-({shape,points})=>outlineOf(shape,points)),true);this.judge()}place({key}){return key==="moving_pivot"?referencePlace(this.store):GROUND}corners(limit){return outlineOf(
-limit.shape,limit.points).map(point=>act(this.place(limit),point))}isOther(){const{body,keep_out,surroundings}=this.store.document,now=[body,keep_out,surroundings];
-return now.some((each,k)=>each!==this.judged?.[k])}judge(pivots=false){const{document:document2,solved}=this.store,linkage=currentLinkage(this.store);this.broken=
-linkage?.led?limitsMissed(document2,linkage,solved?.scene??1):null;if(!pivots){this.judged=[document2.body,document2.keep_out,document2.surroundings];this.touched=
-linkage?.led?regionsTouched(document2,linkage,bodyOf(document2)):null}this.draw();this.onjudged?.()}said(table,key){return this.broken?.[table]?.filter(each=>each.
-key===key).map(each=>missedSentence(each,this.store.document.length_unit))??null}draw(){const{document:document2}=this.store,regions=regionsOf(document2),limits=limitRegions(
-document2),{footprint}=document2.requirements??{};this.regions.draw(regions.map((region,k)=>[k,k]).filter(([k])=>regionShape(regions[k])));this.limits.draw(limits.
-map(limit=>[`${limit.table} ${limit.key}`,limit]));this.footprint.draw(footprint?[["footprint",footprint]]:[]);for(const[element,handles]of this.shapes){if(element.
-parentNode)continue;handles.clear();this.shapes.delete(element)}this.names.draw([...regions.map((region,k)=>[`region ${k}`,region.name&&regionShape(region)?{text:region.
-name,at:middle(outlineOf(...Object.values(regionShape(region))))}:null]),...limits.map(limit=>[`limit ${limit.table} ${limit.key}`,{text:limitName(document2,limit),
-at:middleOf(this.corners(limit),limit.key==="moving_pivot"),off:limit.key==="moving_pivot"?ABOVE:-ABOVE,width:widthOf(this.corners(limit))}]),["footprint",footprint?
-{text:"Footprint",at:middleOf(footprint.polygon??outlineOf("box",footprint.box),true),off:ABOVE,width:widthOf(footprint.polygon??footprint.box)}:null]].filter(([
-,name])=>name))}kept(handles){this.shapes.set(handles.element,handles);return handles.element}makeRegion(k){const{store}=this;const handles=new ShapeHandles(this.
-scene,{className:"bs-region",what:()=>{const region=regionsOf(store.document)[k];return{...regionShape(region),place:GROUND,name:region.name?`Keep out: ${region.
-name}`:`Region ${k+1} to keep out of`,selected:store.selection?.kind==="region"&&store.selection.index===k,state:this.touched?this.touched[k]?"broken":"met":"",
-data:{region:k}}},set:(points,gesture)=>store.edit(document2=>setRegion(document2,k,shapeOf(regionShape(regionsOf(document2)[k]).shape,points)),{gesture}),remove:()=>this.
-removeRegion(k),select:()=>store.select({kind:"region",index:k}),abandon:gesture=>store.abandon(gesture)});handles.element.insertBefore(s("path",{class:"bs-hatc\
-hed",fill:"url(#bs-hatch)"}),handles.area);const draw=handles.draw.bind(handles);handles.draw=()=>{draw();handles.element.querySelector(".bs-hatched").setAttribute(
-"d",handles.line.getAttribute("d"))};return this.kept(handles)}removeRegion(k){this.store.edit(document2=>removeRegion(document2,k));this.store.select(null);this.
-scene.svg.focus({preventScroll:true})}makeLimit({table,key}){const{store}=this,place=()=>this.place({key});const at=()=>limitRegions(store.document).findIndex(each=>each.
-table===table&&each.key===key);return this.kept(new ShapeHandles(this.scene,{className:`bs-limit bs-${key.replace("_","-")}`,what:()=>{const index=at(),limit=limitRegions(
-store.document)[index],said=this.said(table,key);return{...limit,place:place(),name:`Limit: ${limitName(store.document,limit)}`,selected:store.selection?.kind===
-"limit"&&store.selection.index===index,state:said?said.length?"broken":"met":"",data:{limit:index,plane:key==="moving_pivot"?"M":"F"}}},set:(points,gesture)=>store.
-edit(document2=>setLimit(document2,table,{[key]:shapeOf(Object.keys(limitsOf(document2)[table][key])[0],points)}),{gesture}),remove:()=>this.removeLimit(table,key),
-select:()=>store.select({kind:"limit",index:at()}),abandon:gesture=>store.abandon(gesture)}))}removeLimit(table,key){this.store.edit(document2=>setLimit(document2,
-table,{[key]:void 0}));this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeFootprint(){const{store}=this,shape=()=>Object.keys(store.document.
-requirements.footprint)[0];return this.kept(new ShapeHandles(this.scene,{className:"bs-footprint",what:()=>({shape:shape(),points:store.document.requirements.footprint[shape()],
-place:GROUND,name:"Footprint: holds all pivots",selected:store.selection?.kind==="footprint",data:{footprint:""}}),set:(points,gesture)=>store.edit(document2=>setRequirement(
-document2,"footprint",{[shape()]:points}),{gesture}),remove:()=>{store.edit(document2=>setRequirement(document2,"footprint",void 0));store.select(null)},select:()=>store.
-select({kind:"footprint",index:0}),abandon:gesture=>store.abandon(gesture)}))}showName(text,{text:name,at:[x,y],off,width}){const{scene}=this,{view}=scene,shown2=shortened(
-name,LONGEST_NAME3);say(text,shown2);put(text,"class",off?"bs-limit-name":"bs-region-name");scene.names.put(text,view.X(x),view.Y(y),shown2,off?along(off,view.scale*
-(width??0)):[[0,0,0]])}regionTool(shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`region ${shape}`,place:()=>GROUND,done:points=>{store.edit(
-document2=>addRegion(document2,{[shape]:points}));store.select({kind:"region",index:regionsOf(store.document).length-1})}})}limitTool(table,key,shape){const{store}=this;
-return new ShapeTool(this.scene,{shape,name:`limit ${table} ${key} ${shape}`,place:()=>this.place({key}),done:points=>{store.edit(document2=>setLimit(document2,
-table,{[key]:shapeOf(shape,points)}));store.select({kind:"limit",index:limitRegions(store.document).findIndex(each=>each.table===table&&each.key===key)})}})}footprintTool(shape){
-const{store}=this;return new ShapeTool(this.scene,{shape,name:`footprint ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,
-"footprint",{[shape]:points}));store.select({kind:"footprint",index:0})}})}};function middle(points){const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){
-const[x,y,u,v]=bounds(points);return[(x+u)/2,upper?v:y]}function widthOf(points){const[x,,u]=bounds(points);return Number.isFinite(u-x)?u-x:0}var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
+lygon",points:region.polygon}:null}var Regions=class{onjudged;constructor(store,scene){this.store=store;this.scene=scene;this.shapes=new Map;scene.layer("region\
+s").append(s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatc\
+h",d:`M0 0V${HATCH}`}))));this.regions=new Kept(s("g"),(key,k)=>this.makeRegion(k),element=>this.shapes.get(element).draw());this.footprint=new Kept(s("g"),()=>this.
+makeFootprint(),element=>this.shapes.get(element).draw());this.limits=new Kept(s("g"),(key,limit)=>this.makeLimit(limit),element=>this.shapes.get(element).draw());
+this.names=new Kept(s("g",{class:"bs-region-names","aria-hidden":"true"}),()=>s("text",{}),(text,name)=>this.showName(text,name));scene.layer("regions").append(
+this.regions.group,this.footprint.group);scene.layer("limits").append(this.limits.group);scene.layer("labels").append(this.names.group);store.on("document",()=>this.
+judge(store.state==="dragging"&&!this.isOther()));store.on("selection",()=>this.draw());store.on("solved followed chosen placed",()=>this.judge());scene.on("vie\
+w",()=>this.draw());scene.hold(()=>limitRegions(store.document).filter(({shape})=>shape!=="line").flatMap(each=>this.corners(each)));scene.hold(()=>regionsOf(store.
+document).map(regionShape).filter(Boolean).flatMap(({shape,points})=>outlineOf(shape,points)),true);this.judge()}place({key}){return key==="moving_pivot"?referencePlace(
+this.store):GROUND}corners(limit){return outlineOf(limit.shape,limit.points).map(point=>act(this.place(limit),point))}isOther(){const{body,keep_out,surroundings}=this.
+store.document,now=[body,keep_out,surroundings];return now.some((each,k)=>each!==this.judged?.[k])}judge(pivots=false){const{document:document2,solved}=this.store,
+linkage=currentLinkage(this.store);this.broken=linkage?.led?limitsMissed(document2,linkage,solved?.scene??1):null;if(!pivots){this.judged=[document2.body,document2.
+keep_out,document2.surroundings];this.touched=linkage?.led?regionsTouched(document2,linkage,bodyOf(document2)):null}this.draw();this.onjudged?.()}said(table,key){
+return this.broken?.[table]?.filter(each=>each.key===key).map(each=>missedSentence(each,this.store.document.length_unit))??null}draw(){const{document:document2}=this.
+store,regions=regionsOf(document2),limits=limitRegions(document2),{footprint}=document2.requirements??{};this.regions.draw(regions.map((region,k)=>[k,k]).filter(
+([k])=>regionShape(regions[k])));this.limits.draw(limits.map(limit=>[`${limit.table} ${limit.key}`,limit]));this.footprint.draw(footprint?[["footprint",footprint]]:
+[]);for(const[element,handles]of this.shapes){if(element.parentNode)continue;handles.clear();this.shapes.delete(element)}this.names.draw([...regions.map((region,k)=>[
+`region ${k}`,region.name&&regionShape(region)?{text:region.name,at:middle(outlineOf(...Object.values(regionShape(region))))}:null]),...limits.map(limit=>[`limi\
+t ${limit.table} ${limit.key}`,{text:limitName(document2,limit),at:middleOf(this.corners(limit),limit.key==="moving_pivot"),off:limit.key==="moving_pivot"?ABOVE:
+-ABOVE,width:widthOf(this.corners(limit))}]),["footprint",footprint?{text:"Footprint",at:middleOf(footprint.polygon??outlineOf("box",footprint.box),true),off:ABOVE,
+width:widthOf(footprint.polygon??footprint.box)}:null]].filter(([,name])=>name))}kept(handles){this.shapes.set(handles.element,handles);return handles.element}makeRegion(k){
+const{store}=this;const handles=new ShapeHandles(this.scene,{className:"bs-region",what:()=>{const region=regionsOf(store.document)[k];return{...regionShape(region),
+place:GROUND,name:region.name?`Keep out: ${region.name}`:`Region ${k+1} to keep out of`,selected:store.selection?.kind==="region"&&store.selection.index===k,state:this.
+touched?this.touched[k]?"broken":"met":"",data:{region:k}}},set:(points,gesture)=>store.edit(document2=>setRegion(document2,k,shapeOf(regionShape(regionsOf(document2)[k]).
+shape,points)),{gesture}),remove:()=>this.removeRegion(k),select:()=>store.select({kind:"region",index:k}),abandon:gesture=>store.abandon(gesture)});handles.element.
+insertBefore(s("path",{class:"bs-hatched",fill:"url(#bs-hatch)"}),handles.area);const draw=handles.draw.bind(handles);handles.draw=()=>{draw();handles.element.querySelector(
+".bs-hatched").setAttribute("d",handles.line.getAttribute("d"))};return this.kept(handles)}removeRegion(k){this.store.edit(document2=>removeRegion(document2,k));
+this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeLimit({table,key}){const{store}=this,place=()=>this.place({key});const at=()=>limitRegions(
+store.document).findIndex(each=>each.table===table&&each.key===key);return this.kept(new ShapeHandles(this.scene,{className:`bs-limit bs-${key.replace("_","-")}`,
+what:()=>{const index=at(),limit=limitRegions(store.document)[index],said=this.said(table,key);return{...limit,place:place(),name:`Limit: ${limitName(store.document,
+limit)}`,selected:store.selection?.kind==="limit"&&store.selection.index===index,state:said?said.length?"broken":"met":"",data:{limit:index,plane:key==="moving_\
+pivot"?"M":"F"}}},set:(points,gesture)=>store.edit(document2=>setLimit(document2,table,{[key]:shapeOf(Object.keys(limitsOf(document2)[table][key])[0],points)}),
+{gesture}),remove:()=>this.removeLimit(table,key),select:()=>store.select({kind:"limit",index:at()}),abandon:gesture=>store.abandon(gesture)}))}removeLimit(table,key){
+this.store.edit(document2=>setLimit(document2,table,{[key]:void 0}));this.store.select(null);this.scene.svg.focus({preventScroll:true})}makeFootprint(){const{store}=this,
+shape=()=>Object.keys(store.document.requirements.footprint)[0];return this.kept(new ShapeHandles(this.scene,{className:"bs-footprint",what:()=>({shape:shape(),
+points:store.document.requirements.footprint[shape()],place:GROUND,name:"Footprint: holds all pivots",selected:store.selection?.kind==="footprint",data:{footprint:""}}),
+set:(points,gesture)=>store.edit(document2=>setRequirement(document2,"footprint",{[shape()]:points}),{gesture}),remove:()=>{store.edit(document2=>setRequirement(
+document2,"footprint",void 0));store.select(null)},select:()=>store.select({kind:"footprint",index:0}),abandon:gesture=>store.abandon(gesture)}))}showName(text,{
+text:name,at:[x,y],off,width}){const{scene}=this,{view}=scene,shown2=shortened(name,LONGEST_NAME3);say(text,shown2);put(text,"class",off?"bs-limit-name":"bs-reg\
+ion-name");scene.names.put(text,view.X(x),view.Y(y),shown2,off?along(off,view.scale*(width??0)):[[0,0,0]])}regionTool(shape){const{store}=this;return new ShapeTool(
+this.scene,{shape,name:`region ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>addRegion(document2,{[shape]:points}));store.select({kind:"region",
+index:regionsOf(store.document).length-1})}})}limitTool(table,key,shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`limit ${table} ${key} ${shape}`,
+place:()=>this.place({key}),done:points=>{store.edit(document2=>setLimit(document2,table,{[key]:shapeOf(shape,points)}));store.select({kind:"limit",index:limitRegions(
+store.document).findIndex(each=>each.table===table&&each.key===key)})}})}footprintTool(shape){const{store}=this;return new ShapeTool(this.scene,{shape,name:`foo\
+tprint ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,"footprint",{[shape]:points}));store.select({kind:"footprint",index:0})}})}};
+function middle(points){const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){const[x,y,u,v]=bounds(points);return[(x+u)/2,upper?
+v:y]}function widthOf(points){const[x,,u]=bounds(points);return Number.isFinite(u-x)?u-x:0}var ORDERS={rank:{name:"best first",of:linkage=>linkage.rank??Infinity},worst:{name:"worst miss",of:linkage=>linkage.worst??Infinity},least:{name:"transmission \
 angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.quality?.extent??Infinity},sensitivity:{name:"sensitivity",of:linkage=>linkage.quality?.
 sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
 has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
@@ -1140,75 +1159,75 @@ this.future.push(value);return last.value}redo(value){const next=this.future.pop
 if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
 0}};var REST2=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var FEWEST=2;var QUICK=1.2;var NO_ANSWER={linkages:[],dyads:[],best:[],warnings:[],pivot_map:null,
 family_map:null,outcome:{message:"Two poses or more make a task"}};var PLACED2="placed";var kindOf=({poses,path})=>`${poses.map(({free})=>free?.join("")??"-").join()}\
- ${path?path.closed:""}`;var Store=class{constructor({connection,document:document2,options={},name="task",settings={},mostFlying=MOST_FLYING}){this.connection=
-connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;this.name=name;this.settings=settings;
-this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";this.progress="";this.chosen=null;this.
-pinned=new Set;this.compared=null;this.placed=null;this.whole=null;this.task=0;this.solvedTask=0;this.selection=null;this.messages=[];this.listeners=new Map;this.
-basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;connection.on("message",message=>this.take(message));connection.on("open",()=>this.
-opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){if(!this.listeners.has(name))this.listeners.
-set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.listeners.get(name)??[]){if(told.
-has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)return;this.history.record(this.
-version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.options;this.options=value===
-void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(this.settings,{[name]:value});
-this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,options={},name=this.
-name,settings=this.settings}){this.history.record(this.version,null);this.tasks=(this.tasks??0)+1;Object.assign(this,{document:document2,options,name,settings,selection:null,
-placed:null,task:this.tasks});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.goTo(this.history.redo(
-this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,name:this.name,settings:this.
-settings,task:this.task}}goTo(version){if(!version)return;const isSame=version.document===this.document&&version.options===this.options;Object.assign(this,version);
-if(isSame)this.emit("document");else this.changed()}changed(){if(this.placed?.cognateOf)this.letCognateGo();this.follow();this.emit("document");if(this.isEmpty)
-this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.compared,...this.pinned])].
-filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=this.mostFlying)return;if(!this.canFollow){this.solveMeanwhile();return}
-const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,options,shown:shown2});if(n!==null)this.flying.
-set(n,{document:document2,isOld:false})}get canFollow(){return this.whole!==kindOf(this.document)}get slow(){return this.canFollow||this.seconds===void 0?null:this.
-seconds}solveMeanwhile(){if(this.solving||this.state==="offline"||this.isEmpty||this.slow===null||this.slow>QUICK)return;const{document:document2,options}=this,
-n=this.connection.send({do:"solve",document:document2,options});if(n!==null)this.solving={n,document:document2,options}}solveAfterRest(){clearTimeout(this.resting);
-const since=performance.now();const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST2/3);else this.solve()};this.
-resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document:document2,options}=this;if(this.solving?.document===document2&&this.solving.options===
-options){this.setState("solving","");return}const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.solving={n,document:document2,
-options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;if(!this.placeWanted){
-this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;const n=this.
-connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind==="ended")this.
-say(message.messages.map(each=>({tone:kind,...each})));if(kind==="followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(message);else if(n===
-this.placing?.n)this.takePlaced(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
-const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
-if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
-!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
-this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
-n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)
-this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){
-this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)
-this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document,isAnother=this.solvedTask!==this.task;if(message.kind===
-"progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind===
-"progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
-if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){this.forget("There is no answer to this task yet")}if(message.kind===
-"refused"){this.say(message.messages)}else if(!["solved","ended"].includes(message.kind)){const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said===
-"string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.poses.length<FEWEST}forget(message=NO_ANSWER.outcome.message){
-if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.solved.space,quadrics:[]}};this.install({n:null,result,document:this.
-document,seconds:null});if(this.placed)this.place([])}install({n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(
-told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{
-id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==
-this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.task,seconds,basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.
-flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
-pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){
-this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){
-const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=
-this.placing=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;
-this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit(
-"state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dr\
-agging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===
-this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.index===this.selection?.index)return;this.selection=
-selection;this.emit("selection")}};var MOST3=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
-const choice=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
-"option",{value},text))));this.types=choice("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"stat\
-us"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\
-bs-small",hidden:true,onclick:()=>this.showAll()});this.element=h("section",{class:"bs-results","aria-label":"Linkages"},h("div",{class:"bs-results-head"},this.
-title,this.status,this.doubt,this.gone,h("div",{class:"bs-choices"},choice("Show",Object.entries(FILTERS).map(([key,{name}])=>[key,name]),"filter"),choice("Sort\
- by",Object.entries(ORDERS).map(([key,{name}])=>[key,name]),"order"),this.types)),this.list,this.more);this.pace=new Pace(()=>this.update());this.list.addEventListener(
-"keydown",event=>this.walk(event));answers.on("answers placed",()=>this.arrange());answers.on("moved",()=>this.pace.ask());answers.on("shown",()=>this.update());
-store.on("pinned",()=>this.arrange());store.on("state document",()=>this.tell());this.arrange()}want(key,value){this.wanted[key]=value;this.arrange()}showAll(){
-this.all=true;this.arrange()}arrange(){const{answers,store,wanted}=this;this.buildTypes();const every=arranged(answers.linkages,{...wanted,pinned:store.pinned});
-const shown2=this.all?every:every.slice(0,MOST3);const list=answers.placed?[answers.placed,...shown2]:shown2;const cards=new Map;for(const linkage of list)cards.
-set(linkage,this.cards.get(linkage)??this.card());for(const[linkage,card]of this.cards)if(!cards.has(linkage))card.element.remove();this.cards=cards;let before=null;
+ ${path?path.closed:""}`;var Store=class{solving;placing;solved;constructor({connection,document:document2,options={},name="task",settings={},mostFlying=MOST_FLYING}){
+this.connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;this.name=name;this.settings=
+settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";this.progress="";this.chosen=
+null;this.pinned=new Set;this.compared=null;this.placed=null;this.whole=null;this.task=0;this.solvedTask=0;this.selection=null;this.messages=[];this.listeners=new Map;
+this.basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;connection.on("message",message=>this.take(message));connection.on("op\
+en",()=>this.opened());connection.on("closed",()=>this.closed())}on(names,fn){for(const name of[names].flat().join(" ").split(/\s+/)){if(!this.listeners.has(name))
+this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){const told=new Set;for(const name of names){for(const fn of this.listeners.get(name)??
+[]){if(told.has(fn))continue;told.add(fn);fn(name)}}}edit(change,{gesture=null}={}){const next=change(this.document);if(next===this.document)return;this.history.
+record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.options;this.
+options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(this.settings,
+{[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,options={},
+name=this.name,settings=this.settings}){this.history.record(this.version,null);this.tasks=(this.tasks??0)+1;this.document=document2;this.options=options;this.name=
+name;this.settings=settings;this.selection=null;this.placed=null;this.task=this.tasks;this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.
+undo(this.version))}redo(){this.goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.
+document,options:this.options,name:this.name,settings:this.settings,task:this.task}}goTo(version){if(!version)return;const isSame=version.document===this.document&&
+version.options===this.options;Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){if(this.placed?.cognateOf)this.letCognateGo();
+this.follow();this.emit("document");if(this.isEmpty)this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set(
+[this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=this.mostFlying)return;
+if(!this.canFollow){this.solveMeanwhile();return}const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,
+options,shown:shown2});if(n!==null)this.flying.set(n,{document:document2,isOld:false})}get canFollow(){return this.whole!==kindOf(this.document)}get slow(){return this.
+canFollow||this.seconds===void 0?null:this.seconds}solveMeanwhile(){if(this.solving||this.state==="offline"||this.isEmpty||this.slow===null||this.slow>QUICK)return;
+const{document:document2,options}=this,n=this.connection.send({do:"solve",document:document2,options});if(n!==null)this.solving={n,document:document2,options}}solveAfterRest(){
+clearTimeout(this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST2/
+3);else this.solve()};this.resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document:document2,options}=this;if(this.solving?.document===
+document2&&this.solving.options===options){this.setState("solving","");return}const n=this.connection.send({do:"solve",document:document2,options});if(n===null)
+return;this.solving={n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.
+length?pivots:null;if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,
+placeWanted:pivots}=this;const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{
+n,kind}=message;if(kind==="ended")this.say(message.messages.map(each=>({tone:kind,...each})));if(kind==="followed")this.takeFollowed(message);else if(this.flying.
+has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.
+n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?
+null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.
+solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,
+this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(
+this.document))this.follow()}followRefused({n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind===
+"refused"&&!solve)this.say(messages);if(whole)this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;
+if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.
+placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document,isAnother=this.
+solvedTask!==this.task;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)
+this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={
+...message,document:document2};if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){this.forget("There is no answer to thi\
+s task yet")}if(message.kind==="refused"){this.say(message.messages)}else if(!["solved","ended"].includes(message.kind)){const[said]=[message.message].flat();this.
+say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.poses.length<FEWEST}forget(message=NO_ANSWER.
+outcome.message){if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.solved.space,quadrics:[]}};this.install({n:null,
+result,document:this.document,seconds:null,was:void 0});if(this.placed)this.place([])}install({n,result,document:document2,seconds,was}){const told=Object.entries(
+was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&
+!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;this.isAnother=
+this.solvedTask!==this.task;this.solved=result;this.solvedFor=document2;this.solvedTask=this.task;this.seconds=seconds;this.basis=n;this.whole=null;this.pending=
+null;this.followed=null;this.followedFor=null;for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;
+this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","m\
+essages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,messages:[],
+cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)this.chosen=
+cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=null;this.setState("resting","");this.basis=null;this.solve()}closed(){
+clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===
+this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.
+chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.
+pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.
+kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var MOST3=40;var Results=class{constructor(store,answers){this.store=store;this.answers=answers;this.cards=new Map;this.wanted={order:"rank",filter:"all",type:""};
+this.all=false;const choice=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.
+map(([value,text])=>h("option",{value},text))));this.types=choice("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-resu\
+lts-status",role:"status"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("butt\
+on",{type:"button",class:"bs-small",hidden:true,onclick:()=>this.showAll()});this.element=h("section",{class:"bs-results","aria-label":"Linkages"},h("div",{class:"\
+bs-results-head"},this.title,this.status,this.doubt,this.gone,h("div",{class:"bs-choices"},choice("Show",Object.entries(FILTERS).map(([key,{name}])=>[key,name]),
+"filter"),choice("Sort by",Object.entries(ORDERS).map(([key,{name}])=>[key,name]),"order"),this.types)),this.list,this.more);this.pace=new Pace(()=>this.update());
+this.list.addEventListener("keydown",event=>this.walk(event));answers.on("answers placed",()=>this.arrange());answers.on("moved",()=>this.pace.ask());answers.on(
+"shown",()=>this.update());store.on("pinned",()=>this.arrange());store.on("state document",()=>this.tell());this.arrange()}want(key,value){this.wanted[key]=value;
+this.arrange()}showAll(){this.all=true;this.arrange()}arrange(){const{answers,store,wanted}=this;this.buildTypes();const every=arranged(answers.linkages,{...wanted,
+pinned:store.pinned});const shown2=this.all?every:every.slice(0,MOST3);const list=answers.placed?[answers.placed,...shown2]:shown2;const cards=new Map;for(const linkage of list)
+cards.set(linkage,this.cards.get(linkage)??this.card());for(const[linkage,card]of this.cards)if(!cards.has(linkage))card.element.remove();this.cards=cards;let before=null;
 for(const card of cards.values()){const next=before?before.nextSibling:this.list.firstChild;if(card.element!==next)this.list.insertBefore(card.element,next);before=
 card.element}give(this.more,"hidden",every.length<=shown2.length);if(!this.more.hidden)say(this.more,`Show all ${every.length}`);this.hidden=answers.linkages.length-
 every.length;this.update()}card(){const{store}=this;return new ResultCard({choose:id=>store.choose(id),pin:id=>store.pin(id),compare:id=>store.compare(id),improve:id=>this.
@@ -1271,7 +1290,7 @@ on?"dark":"light"};const both=()=>{follow2();setTimeout(follow2,LATE)};const see
 body])seen2.observe(element,{attributes:true});matchMedia(DARK_SCHEME).addEventListener("change",both,{signal});const placed=new ResizeObserver(follow2);placed.
 observe(root.host);signal.addEventListener("abort",()=>[seen2,placed].forEach(each=>each.disconnect()));root.adoptedStyleSheets=sheets;both()}function isDark(element){
 for(let node=element;node;node=node.parentElement??node.getRootNode().host){const colour=getComputedStyle(node).backgroundColor;const[r,g,b,a=1]=colour.startsWith(
-"rgb")?colour.match(/[\d.]+/g).map(Number):[0,0,0,0];if(a>.5)return .299*r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=2;var PATIENCE2=700;var BUSY="The kernel is busy: what is done here is answered when it is free.";var HINT="Drag a pose by its point, turn it b\
+"rgb")?(colour.match(/[\d.]+/g)??[]).map(Number):[0,0,0,0];if(a>.5)return .299*r+.587*g+.114*b<128}return matchMedia(DARK_SCHEME).matches}var MOST_FLYING2=2;var PATIENCE2=700;var BUSY="The kernel is busy: what is done here is answered when it is free.";var HINT="Drag a pose by its point, turn it b\
 y the tip of its arrow.";var ROOM2="Drag poses by their points, turn them by the tips of their arrows; limits, regions and the body are dragged, too.";function render({
 model,el}){const ended=new AbortController,{signal}=ended,kernel=new Kernel(model);const host=h("div",{}),frame=h("div",{class:"bm bs bn"},h("p",{class:"bn-line"},
 "Waiting for the kernel…"));host.attachShadow({mode:"open"}).append(frame);el.replaceChildren(host);dress(host.shadowRoot,[widget_default,studio_default,notebook_default],

@@ -11,7 +11,7 @@ visibilityState==="hidden"&&this.keep())}soon(){clearTimeout(this.timer);this.is
 ()=>this.keep(),SOON)}keep(){if(!this.isOpen)return;this.isOpen=false;clearTimeout(this.timer);const{document:task,options,name,settings,connection}=this.store,
 text={document:task,options,name,settings};document.documentElement.dataset.kept="true";try{sessionStorage.setItem(KEY,JSON.stringify(text))}catch{}connection.post(
 "/autosave",{...text,tab:tabName()},"PUT").catch(()=>this.isOpen=true)}};function tabName(){try{const name=sessionStorage.getItem(TAB)??crypto.randomUUID();sessionStorage.
-setItem(TAB,name);return name}catch{return"tab"}}function keptHere(){try{const kept=JSON.parse(sessionStorage.getItem(KEY));return Array.isArray(kept?.document?.
+setItem(TAB,name);return name}catch{return"tab"}}function keptHere(){try{const kept=JSON.parse(sessionStorage.getItem(KEY)??"null");return Array.isArray(kept?.document?.
 poses)?kept:null}catch{return null}}var LENGTHS={µm:1e-6,um:1e-6,mm:.001,cm:.01,m:1,in:.0254,inch:.0254,'"':.0254,"″":.0254,ft:.3048,"'":.3048,"′":.3048};var ANGLES={"°":1,deg:1,degree:1,degrees:1,
 rad:180/Math.PI,mrad:.18/Math.PI};var WRITTEN=/^([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;var DIGITS=12;var GREATEST=1e300;var tidy=value=>Number(
 value.toPrecision(DIGITS));var written=value=>value===void 0||value===null?"":String(value).replace("-","−").replace("e−","e-");function quantity(text,{kind="\
@@ -31,8 +31,8 @@ this.drafts=new Map;this.fault=h("p",{class:"bs-fault",id:`bs-fault-${made}`,hid
 autocomplete:"off",spellcheck:"false","aria-label":label,...attributes,onchange:()=>this.read(),oninput:()=>this.fault.hidden||this.read(),onkeydown:event=>this.
 nudge(event,step())});this.element=h("span",{class:"bs-field"},this.input,this.fault)}show(value){const changed=value!==this.value;this.value=value;if(changed||
 this.fault.hidden){const text=written(value);if(this.input.value!==text&&!(this.isEdited&&!changed))this.input.value=text;if(changed)this.say(null)}}turnTo(id,value){
-if(id===this.id)return;if(this.fault.hidden)this.drafts.delete(this.id);else this.drafts.set(this.id,this.input.value);const draft=this.drafts.get(id);Object.assign(
-this,{id,value});give(this.input,"value",draft??written(value));this.say(draft===void 0?null:quantity(draft,this.options()).fault??null)}get isEdited(){return document.
+if(id===this.id)return;if(this.fault.hidden)this.drafts.delete(this.id);else this.drafts.set(this.id,this.input.value);const draft=this.drafts.get(id);this.id=id;
+this.value=value;give(this.input,"value",draft??written(value));this.say(draft===void 0?null:quantity(draft,this.options()).fault??null)}get isEdited(){return document.
 activeElement===this.input&&this.input.value!==written(this.value)}read(){const{value,fault}=quantity(this.input.value,this.options());this.say(fault??null);if(fault)
 return;const isNew=value!==this.value;this.value=value;if(document.activeElement!==this.input||!isNew)this.input.value=written(value);if(isNew)this.commit(value);
 this.input.value=written(this.value)}nudge(event,step){if(event.key==="Enter")this.read();const sense={ArrowUp:1,ArrowDown:-1}[event.key];if(!sense||event.ctrlKey||
@@ -50,8 +50,8 @@ where,why,help}){return h("li",{},code?h("span",{class:"bm-code"},code):null," "
 where):null,why?h("p",{class:"bs-why"},`Why: ${why}.`):null,help?helpOf(help):null)}function helpOf(help){if(help.length<=LONGEST_HELP)return h("p",{class:"bs-h\
 elp"},`What to do: ${help}.`);const end=help.slice(0,LONGEST_HELP).lastIndexOf("; "),cut=end>0?end:help.slice(0,LONGEST_HELP).lastIndexOf(" ");return h("div",{class:"\
 bs-help"},h("p",{},`What to do: ${help.slice(0,cut)}${end>0?".":" …"}`),h("details",{},h("summary",{},"More"),h("p",{},`${help.slice(cut).replace(/^[; ]+/,"")}\
-.`)))}var Banners=class{constructor(store){this.store=store;this.shown=new Map;this.element=h("div",{class:"bs-banners"});this.status=h("p",{class:"bs-status"});
-this.live=h("p",{class:"bs-unseen",role:"status"});store.on("messages",()=>this.messages());store.on("state solved messages",()=>this.state())}say(kind,title,messages=[],{
+.`)))}var Banners=class{files;constructor(store){this.store=store;this.shown=new Map;this.element=h("div",{class:"bs-banners"});this.status=h("p",{class:"bs-sta\
+tus"});this.live=h("p",{class:"bs-unseen",role:"status"});store.on("messages",()=>this.messages());store.on("state solved messages",()=>this.state())}say(kind,title,messages=[],{
 undo=false,actions=[]}={}){const close=button("✕",()=>this.close(kind),{"aria-label":"Close",class:"bs-close"});const all=[...actions,...undo?[button("Undo",()=>(this.
 close(kind),this.store.undo()))]:[]];const banner=h("section",{class:`bs-banner bs-${kind}`,role:ROLES[kind]??"status","data-banner":kind},h("p",{class:"bs-bann\
 er-title"},title),messages.length?h("ul",{},messages.map(sentenceOf)):null,all.length?h("div",{class:"bs-row"},all):null,kind==="offline"?null:close);this.shown.
@@ -76,13 +76,13 @@ toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figur
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
 2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}var spans=extent=>`${figure(
 extent)} span${figure(extent)==="1"?"":"s"}`;function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));
-const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999);const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(
-low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function angleTicks(low,high,about){const step=[5,10,
-15,30,45,60,90,180].find(each=>(high-low)/each<=about)??360;const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+1e-6;k+=1){marks.push({at:k*step,text:`${fixed(
-k*step,0)}°`})}return marks.length>1?marks:ticks(low,high,about).map(t=>({...t,text:`${t.text}°`}))}function listed(words){if(words.length<2)return words.join(
-"");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){const parts=[];for(let k=0;k<numbers.length;){let end=k;while(end+
-1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=end;i+=
-1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
+const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999)??10*power;const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.
+ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function angleTicks(low,high,about){const step=[
+5,10,15,30,45,60,90,180].find(each=>(high-low)/each<=about)??360;const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+1e-6;k+=1){marks.push({at:k*step,
+text:`${fixed(k*step,0)}°`})}return marks.length>1?marks:ticks(low,high,about).map(t=>({...t,text:`${t.text}°`}))}function listed(words){if(words.length<2)return words.
+join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){const parts=[];for(let k=0;k<numbers.length;){let end=k;
+while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=
+end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
 a),d=Math.sin(place.a);return[c*(x-place.x)+d*(y-place.y),-d*(x-place.x)+c*(y-place.y)]}var normalOf=dyad=>{const angle=radians(dyad.line.normal_deg);return[Math.
 cos(angle),Math.sin(angle)]};function constraint(dyad,place){if(dyad.kind==="PP"){const away=place.a-radians(dyad.angle_deg);return[away-2*Math.PI*Math.round(away/
 (2*Math.PI)),0,0,1]}if(dyad.kind==="RP"){const[nx2,ny2]=normalOf(dyad);const c=Math.cos(place.a),d=Math.sin(place.a);const tx=c*nx2-d*ny2,ty=d*nx2+c*ny2;const ax=dyad.
@@ -94,14 +94,18 @@ dyads[1],{x,y,a});p[2]/=length;q[2]/=length;const pp=p[0]*p[0]+p[1]*p[1]+p[2]*p[
 const det=pp*qq-pq*pq;if(!(det>1e-9*pp*qq))return{x,y,a};const u=(f*qq-g*pq)/det,v=(g*pp-f*pq)/det;x-=u*p[0]+v*q[0];y-=u*p[1]+v*q[1];a-=(u*p[2]+v*q[2])/length;if(Math.
 abs(f)+Math.abs(g)<1e-14*length)break}return{x,y,a}}function catmullRom(values,i,share,round){const last=values.length-1;const at=k=>{if(k>=0&&k<=last)return values[k];
 if(!round)return k<0?2*values[0]-values[-k]:2*values[last]-values[2*last-k];const wrap=k<0?k+last:k-last;return values[wrap]+(k<0?-1:1)*(values[last]-values[0])};
-const[p,q,r,t]=[at(i-1),at(i),at(i+1),at(i+2)];return q+share/2*(r-p+share*(2*p-5*q+4*r-t+share*(3*(q-r)+t-p)))}function placeAt(linkage,way,u,length){const stop=linkage.
-pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.y,a:radians(stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.
-length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,way.round),a:catmullRom(way.angle,i,share,way.round)};return project(
-linkage.led,place,length)}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===null||values[i+1]===null)return null;
-const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function frameAt(values,wanted){let low=0,high=values.length-1;if(wanted<=
-values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=wanted)low=middle2;else high=middle2}
-const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)?{x:way.x[u],y:way.y[u],a:way.
-angle[u]}:placeAt(linkage,way,u,data.chart.length));function placesAlong(data,{low,high},at){const places=[at(low)];let before=low;const goTo=u=>{const next=at(
+const[p,q,r,t]=[at(i-1),at(i),at(i+1),at(i+2)];return q+share/2*(r-p+share*(2*p-5*q+4*r-t+share*(3*(q-r)+t-p)))}function placeAt(linkage,way,u,length){if(way.joints)
+return placeOfJoints(linkage,way,u);const stop=linkage.pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.y,a:radians(
+stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,way.round),
+a:catmullRom(way.angle,i,share,way.round)};return project(linkage.led,place,length)}function placeOfJoints({ground},way,u){const at=values=>smooth(values,u),joints={
+...ground};for(const[name,[x,y]]of Object.entries(way.joints))joints[name]=[at(x),at(y)];return{x:at(way.x),y:at(way.y),a:at(way.angle),joints}}function smooth(values,u){
+const count=Math.min(6,values.length),first=clamp(Math.floor(u)-2,0,values.length-count);let sum=0;for(let j=0;j<count;j+=1){let weight=1;for(let k=0;k<count;k+=
+1)if(k!==j)weight*=(u-first-k)/(j-k);sum+=weight*values[first+j]}return sum}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===
+null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems},at){
+const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){
+let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=
+wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.
+y[u],a:way.angle[u]}:placeAt(linkage,way,u,data.chart.length));function placesAlong(data,{low,high},at){const places=[at(low)];let before=low;const goTo=u=>{const next=at(
 u),last=places[places.length-1];const count=Math.min(MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=
 count;k+=1)places.push(at(before+k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){
 const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){
@@ -110,19 +114,20 @@ const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset
 Math.max(b,pose[k])],[Infinity,-Infinity]);return(low+high)/2});return point2=>!(Math.hypot(point2[0]-x,point2[1]-y)<WIDEST*data.scene)}function pivotsAt(linkage,places){
 const found=[];for(const dyad of linkage.led){if(dyad.fixed_pivot)found.push({dyad,fixed:true,at:dyad.fixed_pivot});const own=dyad.moving_pivot?[dyad.moving_pivot]:
 dyad.kind==="RP"&&places.length?travelOf(dyad,places).map(end=>pointOnLine(dyad,end)):[];for(const point2 of own)for(const place of places)found.push({dyad,fixed:false,
-at:act(place,point2)})}return found}function boundsOf(data,linkage,places,far){const isFar=farFrom(data),box=[Infinity,Infinity,-Infinity,-Infinity];const include=([
-x,y])=>{if(!Number.isFinite(x+y)||!far&&isFar([x,y]))return;box[0]=Math.min(box[0],x);box[1]=Math.min(box[1],y);box[2]=Math.max(box[2],x);box[3]=Math.max(box[3],
-y)};for(const pose of data.poses)include([pose.x,pose.y]);if(linkage){for(const row of linkage.pose_errors)if(row.x!==null)include([row.x,row.y]);for(const place of places)
-include([place.x,place.y]);for(const{at}of pivotsAt(linkage,places))include(at)}const least2=.25*data.scene;for(const k of[0,1]){const lack=least2-(box[k+2]-box[k]);
-if(lack>0){box[k]-=lack/2;box[k+2]+=lack/2}}return box}function viewOf(box,width,height,margin){const scale=Math.min((width-2*margin)/(box[2]-box[0]),(height-2*
-margin)/(box[3]-box[1]));const left=width/2-scale*(box[0]+box[2])/2;const top=height/2+scale*(box[1]+box[3])/2;return{scale,left,top,width,height,X:x=>left+scale*
-x,Y:y=>top-scale*y}}var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)
-hatch+=`M${5.5*k+3} 16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}
-function axes(length){const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function polyline(points,view){
-let path2="",pen="M";for(const[x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(y)){pen="M";continue}path2+=`${pen}${px(view.X(x))} ${px(view.Y(y))}`;pen=
-"L"}return path2}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point2 of list){while(kept.
-length>1){const[a,b]=kept.slice(-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*(point2[0]-a[0])>0)break;kept.pop()}kept.push(point2)}return kept.slice(0,-1)};const corners=[
-...half(sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
+at:act(place,point2)})}for(const{joints}of places)for(const at of Object.values(joints??{}))found.push({fixed:false,at});return found}function boundsOf(data,linkage,places,far){
+const isFar=farFrom(data),box=[Infinity,Infinity,-Infinity,-Infinity];const include=([x,y])=>{if(!Number.isFinite(x+y)||!far&&isFar([x,y]))return;box[0]=Math.min(
+box[0],x);box[1]=Math.min(box[1],y);box[2]=Math.max(box[2],x);box[3]=Math.max(box[3],y)};for(const pose of data.poses)include([pose.x,pose.y]);if(linkage){for(const row of linkage.
+pose_errors)if(row.x!==null)include([row.x,row.y]);for(const place of places)include([place.x,place.y]);for(const{at}of pivotsAt(linkage,places))include(at)}const least2=.25*
+data.scene;for(const k of[0,1]){const lack=least2-(box[k+2]-box[k]);if(lack>0){box[k]-=lack/2;box[k+2]+=lack/2}}return box}function viewOf(box,width,height,margin){
+const scale=Math.min((width-2*margin)/(box[2]-box[0]),(height-2*margin)/(box[3]-box[1]));const left=width/2-scale*(box[0]+box[2])/2;const top=height/2+scale*(box[1]+
+box[3])/2;return{scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y}}var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))}\
+)`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3} 16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),
+s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head}\
+ ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function polyline(points,view){let path2="",pen="M";for(const[x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(
+y)){pen="M";continue}path2+=`${pen}${px(view.X(x))} ${px(view.Y(y))}`;pen="L"}return path2}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||
+p[1]-q[1]);const half=list=>{const kept=[];for(const point2 of list){while(kept.length>1){const[a,b]=kept.slice(-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*
+(point2[0]-a[0])>0)break;kept.pop()}kept.push(point2)}return kept.slice(0,-1)};const corners=[...half(sorted),...half(sorted.reverse())];return corners.length?corners:
+sorted.slice(0,1)}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
 var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
 ...list.slice(0,index),value,...list.slice(index)];var withList=(document2,key,list)=>withKeys(document2,{[key]:list.length?list:void 0});var filled=table3=>Object.
 keys(table3).length?table3:void 0;var EXACT={x:0,y:0,angle_deg:0};var FEWEST_TRACED=10;var isFree=(pose,key)=>Boolean(pose?.free?.includes(key))||pose?.tolerance?.[key]===
@@ -159,8 +164,8 @@ pose=>Number.isFinite(pose[key]));const behind=poses.slice(index+1).findIndex(po
 index?poses[behind][key]:void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,
 y,angle}=poses[index];if(Number.isFinite(x)&&Number.isFinite(y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,
 index,"y"),angle:component(poses,index,"angle")}}var poseName=({poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(
-Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST=250;var SHARE=8;var Pace=class{constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){if(this.
-timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
+Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST=250;var SHARE=8;var Pace=class{timer;constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){
+if(this.timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
 clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
 var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
 (fact,k)=>!Object.is(fact,before[k]))}var sights=new WeakMap;var callers=new WeakMap;var observer=null;function watch(element,fn){observer??=new IntersectionObserver(
@@ -174,101 +179,112 @@ others=rows.slice(MOST_ROWS);if(!others.length)return first;return h("div",{clas
 value):h("td",{class:classes(words.includes(k)&&"bm-words",(value??NONE)===NONE&&"bm-none"),"data-head":heads[k]?.name??heads[k]},value??NONE));var classes=(...names)=>names.
 filter(Boolean).join(" ")||null;var UNIT_NAMES={in:"inches",ft:"feet"};var inUnit=data=>data.unit?`, in ${UNIT_NAMES[data.unit]??data.unit}`:"";var unitOf=data=>data.
 unit?` (${data.unit})`:"";var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName2=pose=>pose.label===pose.name?pose.name:`${pose.label}\
-: ${pose.name}`;var isPoint2=pose=>pose.angle_deg===null;var nounOf=({poses})=>poses.length&&poses.every(isPoint2)?"point":"pose";var isNamed=({path:path2,poses},k)=>!path2||
-poses.length<=MOST_NAMES||k===0||(k+1)%NAME_STEP===0;var calledOf=pose=>`${isPoint2(pose)?"point":"pose"} ${poseName2(pose)}`;var shortened=(text,most)=>text.length>
-most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position==="-")return"–";const[away,...share]=position.split(" (");const length=[
-away==="exact"?away:`${away}${unit2}`,...share].join(" (");return angle==="free"||position==="exact"&&angle==="exact"?length:`${length} and ${angle}`}function verdictOf(linkage){
-return linkage.usable?"✓ usable":"✕ not usable"}function dyadTable(data){const misses=data.poses.some(isPoint2)?[]:["rms miss","worst miss"];const heads=["",
-{name:"kind",text:true},"on the ground (F)","on the body (M)",`length${unitOf(data)}`,...misses];const rows=data.dyads.map(dyad=>h("tr",{},cells([dyad.id,dyad.kind,
-dyad.said.ground,dyad.said.body,dyad.said.length,...misses.length?[dyad.said.rms,dyad.said.worst]:[]],[1],heads)));return longTable(data.dyads_title,heads,rows,
-{class:"bm-stacks"})}function linkageTable(data){const names=["ground","driver","coupler","follower"];const heads=["",{name:"verdict",text:true},{name:"type",text:true},
-{name:"dyads",text:true},{name:"driver",text:true},...names.map(name=>`${name} link`),"worst miss",...nounOf(data)==="point"?[]:["worst angle"],"least transm.",
-"extent","sens.",{name:"why not",text:true}];const rows=data.linkages.map(each=>h("tr",{},cells([each.id,verdictOf(each),each.type,each.dyads.map(dyad=>dyad.id).
-join(" "),each.led[0].id,...names.map(name=>each.said.links?.[name]??"–"),each.said.worst,...nounOf(data)==="point"?[]:[each.said.angle],each.said.transmission,
-each.said.quality.extent?.split(" ")[0]??"–",each.said.quality.sensitivity??"–",each.said.reasons.join("; ")||"–"],[1,2,3,4,heads.length-1],heads)));return longTable(
-`All linkages${unitOf(data)}`,heads,rows,{class:"bm-linkages bm-stacks"})}function dimensionRows(linkage){const uncertain=linkage.said.dimensions.some(row=>row.
-give);let last=null;return linkage.said.dimensions.map(row=>{const name=row.dyad===last?"":row.dyad;last=row.dyad;const side=linkage.led.findIndex(dyad=>dyad.id===
-row.dyad);return h("tr",{},h("th",{scope:"row",class:name?`bm-side${side}`:null},name),h("td",{class:"bm-words"},row.what),h("td",{},row.value),uncertain?h("td",
-{},row.give):null)})}function dimensionTable(data,linkage){return table(`Dimensions of ${linkage.id}${inUnit(data)}`,["",{name:"",text:true},"value",...linkage.
-said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),
-unit2=unitOf(data),noun=nounOf(data),turned=noun!=="point";const ifTurned=value=>turned?[value]:[];const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];
-if(linkage)heads.push("coupler x",`y${unit2}`,"angle","off by",...ifTurned("turned by"),"transm.",{name:"where",text:true});const rows=data.poses.map((pose,k)=>{
-const values=[poseName2(pose)+(pose.exact?" (exact)":""),fixed(pose.x,digits),fixed(pose.y,digits),...ifTurned(isPoint2(pose)?"free":`${fixed(pose.angle_deg,2)}\
-°`)];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,
-row.said.position,...ifTurned(row.said.turned),row.said.transmission,row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},
-cells(values,[heads.length-1]))});const what=turned?"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.
-poses.some(pose=>pose.label!==pose.name)?"bm-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.
-poses.filter(pose=>!isPoint2(pose)).map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/
-2,(pose.x*c+pose.y*d)/2,d,c];return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image point\
-s of the poses${unitOf(data)}, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",
-{},cells([dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z\
-1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(
-linkage.ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`bran\
-ch ${way.branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
+: ${pose.name}`;var isPoint2=pose=>pose.angle_deg===null;var nounOf=({poses,stop=void 0})=>stop??(poses.length&&poses.every(isPoint2)?"point":"pose");var isNamed=({
+path:path2,poses},k)=>!path2||poses.length<=MOST_NAMES||k===0||(k+1)%NAME_STEP===0;var calledOf=pose=>pose.called??`${isPoint2(pose)?"point":"pose"} ${poseName2(
+pose)}`;var shortened=(text,most)=>text.length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position==="-")return"–";
+const[away,...share]=position.split(" (");const length=[away==="exact"?away:`${away}${unit2}`,...share].join(" (");return angle==="free"||position==="exact"&&angle===
+"exact"?length:`${length} and ${angle}`}function dyadTable(data){const misses=data.poses.some(isPoint2)?[]:["rms miss","worst miss"];const heads=["",{name:"kind",
+text:true},"on the ground (F)","on the body (M)",`length${unitOf(data)}`,...misses];const rows=data.dyads.map(dyad=>h("tr",{},cells([dyad.id,dyad.kind,dyad.said.
+ground,dyad.said.body,dyad.said.length,...misses.length?[dyad.said.rms,dyad.said.worst]:[]],[1],heads)));return longTable(data.dyads_title,heads,rows,{class:"bm\
+-stacks"})}function worded(data,{caption,heads,words=[],rows,...how}){const named=heads.map((name,k)=>words.includes(k)?{name,text:true}:name);const lines=cell=>Array.
+isArray(cell)?cell.map(part=>h("span",{class:"bm-line-of"},part)):cell;const made2=longTable(caption+(how.lengths?inUnit(data):""),named,rows.map(row=>h("tr",{},
+cells(row.map(lines),words,named))),{class:how.class});return how.folded?h("details",{class:"bm-every"},h("summary",{},how.folded),made2):made2}function dimensionRows(linkage){
+const uncertain=linkage.said.dimensions.some(row=>row.give);let last=null;return linkage.said.dimensions.map(row=>{const name=row.dyad===last?"":row.dyad;last=row.
+dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{},h("th",{scope:"row",class:name?`bm-side${side}`:null},name),h("td",{class:"bm-w\
+ords"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){return table(`Dimensions of ${linkage.id}${inUnit(
+data)}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data),noun=nounOf(data),turned=noun!=="point";const ifTurned=value=>turned?[value]:[];
+const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];if(linkage)heads.push("coupler x",`y${unit2}`,"angle","off by",...ifTurned("turned by"),...linkage.
+columns?.map(([head])=>head)??["transm."],{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exact)":""),
+fixed(pose.x,digits),fixed(pose.y,digits),...ifTurned(isPoint2(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];values.
+push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,...ifTurned(row.said.turned),...linkage.
+columns?.map(([,texts])=>texts[k])??[row.said.transmission],row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,
+[heads.length-1]))});const what=turned?"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.poses.
+some(pose=>pose.label!==pose.name)?"bm-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.
+filter(pose=>!isPoint2(pose)).map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.
+x*c+pose.y*d)/2,d,c];return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image points of the\
+ poses${unitOf(data)}, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells(
+[dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4\
+ Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.
+ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.
+branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
 x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
 poses.flatMap((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return isPoint2(at)?[]:[{x:at.x,y:at.y,a:radians(at.angle_deg),k}]});function ghosts(data,linkage,view){
-const group=s("g",{class:"bm-ghosts"});if(!data.body)return group;const last=Math.max(1,data.poses.length-1);for(const{x,y,a,k}of placesAtPoses(data,linkage)){const opacity=(PALEST+
+const group=s("g",{class:"bm-ghosts"});if(!data.body){for(const row of linkage?.drawn?linkage.pose_errors:[])group.append(plate(placeAt(linkage,linkage.ways[row.
+way],row.frame,data.chart.length),linkage,view));return group}const last=Math.max(1,data.poses.length-1);for(const{x,y,a,k}of placesAtPoses(data,linkage)){const opacity=(PALEST+
 (1-PALEST)*k/last).toFixed(3);group.append(s("path",{class:"bm-ghost",d:bodyOutline(data,view),"data-pose":k+1,opacity,transform:transform(view.X(x),view.Y(y),a)}))}
-return group}function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm-hatch-${patterns+=1}`;group.
-append(s("defs",{},s("pattern",{id,width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`M0 0V${HATCH}`}))));
-for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"bm-region"},s("title",{},region.name||"ke\
-ep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){return data.
-keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME);labels.block(view.X(x),view.Y(y),7.2*text.length,14);return s("t\
-ext",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)return[];
-const some=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES)===0);return[...placesAtPoses(data,linkage),...some].flatMap(place=>data.body.map(corner=>act(
-place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),Math.max(u,a),
-Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(withBody,
-data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;const inner=sizeOf(
-withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var ARROW=24;function mechanism(data,linkage,view,places){
-const drawn=new Mechanism(linkage);drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({led}){this.kinds=kindsOf(led);this.outline=
-s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"b\
-m-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-\
-plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.kind](this,side));this.coupler.append(s("path",{class:"bm-body-fram\
-e",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.group=s("g",{class:"bm-l\
-inkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){this.
-view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.group.
-prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,
+return group}var plate=(place,{drawn},view)=>s("path",{class:"bm-ghost",d:`${polyline([...drawn.find(({kind})=>kind==="carried").joints].map(joint=>place.joints[joint]??
+[place.x,place.y]),view)}Z`});function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm-hatch-${patterns+=
+1}`;group.append(s("defs",{},s("pattern",{id,width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`\
+M0 0V${HATCH}`}))));for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"bm-region"},s("title",
+{},region.name||"keep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){
+return data.keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME);labels.block(view.X(x),view.Y(y),7.2*text.length,14);
+return s("text",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)
+return[];const some=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES)===0);return[...placesAtPoses(data,linkage),...some].flatMap(place=>data.body.map(
+corner=>act(place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),
+Math.max(u,a),Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(
+withBody,data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;
+const inner=sizeOf(withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+
+reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var NAME=15;var ARROW=24;
+function mechanism(data,linkage,view,places){const drawn=new Mechanism(linkage);drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({
+led,drawn:links=[],ground,names}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s("g");
+this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middle"},"\
+M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.
+kind](this,side));if(links.length)this.parts.push(...links.map(link=>new JointedLink(this,link)),new Joints(this,ground,names));this.coupler.append(s("path",{class:"\
+bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.group=s("g",
+{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,links.length?null:this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){
+this.view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.
+group.prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,
 view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).map(corner=>corner.map(px).join(" ")).join("L")}\
-Z`;for(const plate of this.plates)put(plate,"d",d);this.shapeArrow()}show(place){const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.
-coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/
-view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transfor\
-m",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-2\
-6 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",TURNING_ARROW);put(arrow2,"transform",`transl\
-ate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){
-const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`\
-bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,
-"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("p\
-ath",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("c\
-ircle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(
-stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){
-const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};
-var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){
-this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(
-this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));
-this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(
-...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(
-dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].
-map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dy\
-ad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.
-fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,
-RP:Slot,PP:Nothing};var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
+Z`;for(const plate2 of linkage.drawn?[]:this.plates)put(plate2,"d",d);for(const part of this.parts.slice(linkage.led.length))part.shape(view);this.shapeArrow()}show(place){
+const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.
+parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);
+const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,
+[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(
+arrow2,"d",TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();
+var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(
+view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));
+function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({
+links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=
+s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.
+dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),
+dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.
+bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.
+pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.
+pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){
+this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);
+this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){
+this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(
+dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);
+for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){
+const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};
+var JointedLink=class{constructor({links},{joints,kind}){this.joints=[...joints];this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];links.append(
+s("g",{class:`bm-link bm-${kind}${joints.length>2?" bm-ternary":""}`,"data-link":joints.replace("M","")},this.strokes))}shape(view){this.view=view}show(place){const d=`\
+M${this.joints.map(joint=>inGround(place.joints[joint]??[place.x,place.y],this.view).map(px).join(" ")).join("L")}${this.joints.length>2?"Z":""}`;for(const stroke of this.
+strokes)put(stroke,"d",d)}};var Joints=class{constructor({pins},ground,names){this.pins=[...Object.keys(ground),...Object.keys(names)].map(joint=>{const pin=s("\
+circle",{class:`bm-pin${joint in ground?" bm-fixed-pin":""}`,r:4.5,"data-joint":joint});return{joint,pin,link:[...names[joint]??""],name:joint in ground?null:s(
+"text",{class:"bm-name","text-anchor":"middle"},joint)}});pins.append(...this.pins.map(({pin})=>pin),...this.pins.flatMap(({name})=>name??[]))}shape(view){this.
+view=view}show({joints}){for(const{joint,pin,link,name}of this.pins){const[x,y]=inGround(joints[joint],this.view);put(pin,"cx",px(x));put(pin,"cy",px(y));if(!name)
+continue;const[u,v]=outwards(link.map(each=>inGround(joints[each],this.view)),[x,y]);put(name,"x",px(x+NAME*u));put(name,"y",px(y+NAME*v+4))}}};function outwards(corners,[
+x,y]){const middle2=[0,1].map(k=>corners.reduce((sum,corner)=>sum+corner[k],0)/corners.length);const u=x-middle2[0],v=y-middle2[1],size2=Math.hypot(u,v);return size2>
+1?[u/size2,v/size2]:[0,-1]}var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing,crank:Nothing};var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
 text.length+4)/2,places=[],count=few?8:16;for(let ring=0;ring<(few?1:3);ring+=1){for(let k=0;k<count;k+=1){const turn=(k%2?1:-1)*Math.ceil(k/2)*(2*Math.PI/count),
 angle=toward+turn,away=distance+9*ring;places.push([(away+half-5)*Math.cos(angle),away*Math.sin(angle),3*Math.abs(turn)+14*ring])}}return places}function along(up,width){
-const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{constructor(scene){
+const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{timer;constructor(scene){
 this.scene=scene;this.names=new Map;this.obstacles=[];this.timer=null;scene.on("dropped",()=>this.ask())}avoid(fn){this.obstacles.push(fn)}get areMany(){return this.
 names.size>MANY}put(element,x,y,text,places){const before=this.names.get(element),name={x,y,text,places,at:before?.text===text?before.at:places[0]};this.names.set(
 element,name);this.show(element,name);this.ask()}ask(){clearTimeout(this.timer);if(!this.scene.dragged)this.timer=setTimeout(()=>this.place(),REST)}show(element,{
 x,y,at}){put(element,"text-anchor","middle");put(element,"transform",`translate(${px(x+at[0])} ${px(y-at[1]+4)})`)}place(){if(this.scene.dragged)return;for(const element of[
 ...this.names.keys()])if(!element.isConnected)this.names.delete(element);const{width,height}=this.scene.view;const seen2=[...this.names].filter(([element,{x,y}])=>x>
 -20&&y>-20&&x<width+20&&y<height+20&&element.getAttribute("display")!=="none");const taken=this.obstacles.flatMap(fn=>fn()).map(boxOf),stands=new Map;for(let pass=0;pass<
-(this.areMany?1:2);pass+=1){for(const[element,name]of seen2){stands.delete(element);const others=[...stands.values()];let best=null;for(const at of name.places){
-const box=boxAt(name,at);const habit=at[0]===name.at[0]&&at[1]===name.at[1]?HABIT:0;let cost=at[2]-habit;if(box[0]<2||box[1]<2||box[2]>width-2||box[3]>height-2)
-cost+=OUTSIDE;for(const other of taken)cost+=overlap(box,other);for(const other of others)cost+=SAME*overlap(box,other);const own=awayFrom(box,name);if(seen2.some(
-([,other])=>other!==name&&awayFrom(box,other)<own+1))cost+=MISLEADING;if(!best||cost<best.cost)best={cost,at,box}}name.at=best.at;stands.set(element,best.box)}}
-for(const[element,name]of seen2)this.show(element,name)}};var boxOf=([x,y,width,height])=>[x-width/2,y-height/2,x+width/2,y+height/2];var boxAt=({x,y,text},at)=>boxOf(
-[x+at[0],y-at[1],LETTER2*text.length+4,HEIGHT]);var awayFrom=(box,{x,y})=>Math.hypot(Math.max(box[0]-x,0,x-box[2]),Math.max(box[1]-y,0,y-box[3]));function overlap(one,other){
-const across=Math.min(one[2],other[2])-Math.max(one[0],other[0]),down=Math.min(one[3],other[3])-Math.max(one[1],other[1]);return across>0&&down>0?across*down:0}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST2=1e6;
-var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
+(this.areMany?1:2);pass+=1){for(const[element,name]of seen2){stands.delete(element);const others=[...stands.values()];let best={cost:Infinity,at:name.at,box:[0,
+0,0,0]};for(const at of name.places){const box=boxAt(name,at);const habit=at[0]===name.at[0]&&at[1]===name.at[1]?HABIT:0;let cost=at[2]-habit;if(box[0]<2||box[1]<
+2||box[2]>width-2||box[3]>height-2)cost+=OUTSIDE;for(const other of taken)cost+=overlap(box,other);for(const other of others)cost+=SAME*overlap(box,other);const own=awayFrom(
+box,name);if(seen2.some(([,other])=>other!==name&&awayFrom(box,other)<own+1))cost+=MISLEADING;if(cost<best.cost)best={cost,at,box}}name.at=best.at;stands.set(element,
+best.box)}}for(const[element,name]of seen2)this.show(element,name)}};var boxOf=([x,y,width,height])=>[x-width/2,y-height/2,x+width/2,y+height/2];var boxAt=({x,y,
+text},at)=>boxOf([x+at[0],y-at[1],LETTER2*text.length+4,HEIGHT]);var awayFrom=(box,{x,y})=>Math.hypot(Math.max(box[0]-x,0,x-box[2]),Math.max(box[1]-y,0,y-box[3]));
+function overlap(one,other){const across=Math.min(one[2],other[2])-Math.max(one[0],other[0]),down=Math.min(one[3],other[3])-Math.max(one[1],other[1]);return across>
+0&&down>0?across*down:0}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST2=1e6;
+var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{view;constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
 tool:[],dropped:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("g\
 rid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow ke\
 ys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={
@@ -323,10 +339,10 @@ if(event.target!==this.svg||event.ctrlKey||event.metaKey||event.altKey)return;co
 0],ArrowRight:[-by,0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,
 width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.
 reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
-Object.assign(this,{group,make,show,elements:new Map})}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(key)??this.make(
-key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.
-values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=
-element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var NAME=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
+this.group=group;this.make=make;this.show=show;this.elements=new Map}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(
+key)??this.make(key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;
+for(const element of kept.values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(
+element,next);before=element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var NAME2=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
 0,1],ArrowDown:[0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);var strideOf=({poses},scale)=>{
 const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);return poses.length<=FEW?1:Math.ceil(poses.length/clamp(scale*
 length/ROOM,FEW,MOST))};function drawnPoses({document:document2,selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)
@@ -355,7 +371,7 @@ document,k),a=radians(angle),[c,d]=[Math.cos(a),Math.sin(a)];const at=(along2,ac
 size2,size2]);at(0,0,13);if(isPoint(store.document.poses[k]))continue;at(length,0,12);at(LETTER,-LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[
 .3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName(
 store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(
-angle+215),NAME,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
+angle+215),NAME2,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
 const{store,scene}=this;let gesture,off,before,reach;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-
 from.x,y-from.y];before=store.document;reach=isPath(before)?strideOf(before,scene.view.scale):1},move:point2=>reach>1?this.bend(before,k,reach,[point2.x+off[0]-
 before.poses[k].x,point2.y+off[1]-before.poses[k].y],gesture):this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(point2.y+off[1])},gesture),cancel:()=>store.
@@ -369,10 +385,10 @@ keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event
 0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key===
 "Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);
 this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PointTool=class{constructor(store,scene){
-Object.assign(this,{store,scene,name:"point"});this.hint="Click where the body's point is to pass; how the body turns there is free. Escape ends."}click({x,y}){
-const{store,scene}=this,index=store.document.poses.length;store.edit(document2=>setAngle(addPose(document2,{x:scene.rounded(x),y:scene.rounded(y)}),index,void 0));
+this.store=store;this.scene=scene;this.name="point";this.hint="Click where the body's point is to pass; how the body turns there is free. Escape ends."}click({x,
+y}){const{store,scene}=this,index=store.document.poses.length;store.edit(document2=>setAngle(addPose(document2,{x:scene.rounded(x),y:scene.rounded(y)}),index,void 0));
 store.select({kind:"pose",index})}key(event){if(event.key!=="Escape")return false;this.scene.use(null);return true}};var PoseTool=class{constructor(store,scene){
-Object.assign(this,{store,scene,name:"pose",gesture:null});this.hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){
+this.store=store;this.scene=scene;this.name="pose";this.gesture=null;this.hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){
 const{store,scene}=this;if(this.gesture){this.turn(point2);this.gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.findLast(
 pose=>Number.isFinite(pose.angle))?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.
 gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point2){if(this.gesture&&point2)this.turn(point2)}turn(point2){const{store,gesture}=this,
@@ -395,53 +411,55 @@ t")return`M${px(seen2[0][0]-7)} ${px(seen2[0][1])}h14m-7 -7v14`;if(shape==="line
 Math.hypot(a,b);const[u,v]=[far*(c-a)/size2,far*(d-b)/size2];return`M${px(a-u)} ${px(b-v)}L${px(c+u)} ${px(d+v)}`}return`M${seen2.map(point2=>point2.map(px).join(
 " ")).join("L")}${CLOSED.has(shape)?"Z":""}`}function withCorner(shape,points,k,to){if(shape!=="box")return points.map((point2,i)=>i===k?to:point2);const opposite=boxCorners(
 points)[(k+2)%4];return[[Math.min(to[0],opposite[0]),Math.min(to[1],opposite[1])],[Math.max(to[0],opposite[0]),Math.max(to[1],opposite[1])]]}var ShapeHandles=class{constructor(scene,{
-what,set,remove,select,abandon,className=""}){Object.assign(this,{scene,what,set,remove,select,abandon});this.title=s("title");this.area=s("path",{class:"bs-sha\
-pe-area",tabindex:0,role:"button"},this.title);this.line=s("path",{class:"bs-shape-line"});this.element=s("g",{class:`bs-shape ${className}`},this.line,this.area);
-this.middles=new Kept(s("g"),(key,k)=>this.makeMiddle(k),(element,k)=>this.showMiddle(element,k));this.corners=new Kept(s("g"),(key,k)=>this.makeCorner(k),(element,k)=>this.
-showCorner(element,k));this.handles=s("g",{class:"bs-corners"},this.middles.group,this.corners.group);this.dragWhole();this.area.addEventListener("focus",()=>this.
-select());this.area.addEventListener("keydown",event=>this.keys(event,(points,by)=>points.map(([x,y])=>[stepped(x,by[0]),stepped(y,by[1])]),()=>this.remove()))}draw(){
-const{shape,points,place,name,selected,state,data}=this.now=this.what();const d=pathOf(shape,points,place,this.scene.view);put(this.line,"d",d);put(this.area,"d",
-d);this.area.classList.toggle("bs-open",!CLOSED.has(shape));put(this.area,"aria-label",`${name}${state?`, ${state} by the chosen linkage`:""}. Drag, or use the \
-arrow keys; Delete removes it.`);put(this.area,"aria-pressed",Boolean(selected));say(this.title,name);for(const[key2,value2]of Object.entries({...data,shape}))put(
-this.element,`data-${key2}`,value2);this.element.classList.toggle("bs-selected",Boolean(selected));this.element.classList.toggle("bs-met",state==="met");this.element.
-classList.toggle("bs-broken",state==="broken");const[[key,value]]=Object.entries(data);put(this.handles,"data-handles",`${key} ${value}`.trim());if(!this.handles.
-parentNode)this.scene.layer("tool").append(this.handles);const count=selected?outlineOf(shape,points).length:0,edges2=shape==="polygon"?count:0;this.corners.draw(
-[...Array(count).keys()].map(k=>[k,k]));this.middles.draw([...Array(edges2).keys()].map(k=>[k,k]))}clear(){this.element.remove();this.handles.remove()}at([x,y]){
-const[u,v]=act(this.now.place,[x,y]);return{cx:px(this.scene.view.X(u)),cy:px(this.scene.view.Y(v))}}point({x,y}){return back(this.now.place,[x,y]).map(each=>this.
-scene.rounded(each))}dragWhole(){let gesture,from,before;this.scene.drag(this.area,{start:point2=>{gesture=Symbol("move a shape");from=back(this.now.place,[point2.
-x,point2.y]);before=this.now.points},move:point2=>{const to=back(this.now.place,[point2.x,point2.y]),by=[to[0]-from[0],to[1]-from[1]];this.set(before.map(([x,y])=>[
-this.scene.rounded(x+by[0]),this.scene.rounded(y+by[1])]),gesture)},cancel:()=>this.abandon(gesture),click:()=>this.select()})}makeCorner(k){const circle=s("cir\
-cle",{class:"bs-corner",r:6,tabindex:0,role:"button","data-corner":k+1});let gesture;this.scene.drag(circle,{start:()=>(gesture=Symbol("move a corner"))&&true,move:point2=>this.
-set(withCorner(this.now.shape,this.now.points,k,this.point(point2)),gesture),cancel:()=>this.abandon(gesture)});circle.addEventListener("keydown",event=>this.keys(
-event,(points,by)=>{const[x,y]=outlineOf(this.now.shape,points)[k];return withCorner(this.now.shape,points,k,[stepped(x,by[0]),stepped(y,by[1])])},()=>this.removeCorner(
-k)));return circle}removeCorner(k){const{shape,points}=this.now;if(shape!=="polygon"||points.length<=LEAST_CORNERS)return;this.set(points.filter((_,i)=>i!==k),null)}makeMiddle(k){
-const circle=s("circle",{class:"bs-middle",r:4.5,"data-edge":k+1});let gesture;this.scene.drag(circle,{start:()=>{gesture=Symbol("add a corner");this.set([...this.
-now.points.slice(0,k+1),this.now.points[k],...this.now.points.slice(k+1)],gesture)},move:point2=>this.set(withCorner("polygon",this.now.points,k+1,this.point(point2)),
-gesture),cancel:()=>this.abandon(gesture)});return circle}showCorner(element,k){const corner=outlineOf(this.now.shape,this.now.points)[k];for(const[name,value]of Object.
-entries(this.at(corner)))put(element,name,value);put(element,"aria-label",`Corner ${k+1} of ${this.now.name}: ${corner.join(", ")}`)}showMiddle(element,k){const{
-points}=this.now,next=points[(k+1)%points.length];const middle2=this.at([(points[k][0]+next[0])/2,(points[k][1]+next[1])/2]);for(const[name,value]of Object.entries(
-middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS2[event.key];if(arrow2){if(!event.repeat)this.
-keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(this.now.points,[by*arrow2[0],by*arrow2[1]]),this.keyed)}else if(event.key==="Delete"||
-event.key==="Backspace"){remove()}else{return}event.preventDefault();event.stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
+what,set,remove,select,abandon,className=""}){this.scene=scene;this.what=what;this.set=set;this.remove=remove;this.select=select;this.abandon=abandon;this.title=
+s("title");this.area=s("path",{class:"bs-shape-area",tabindex:0,role:"button"},this.title);this.line=s("path",{class:"bs-shape-line"});this.element=s("g",{class:`\
+bs-shape ${className}`},this.line,this.area);this.middles=new Kept(s("g"),(key,k)=>this.makeMiddle(k),(element,k)=>this.showMiddle(element,k));this.corners=new Kept(
+s("g"),(key,k)=>this.makeCorner(k),(element,k)=>this.showCorner(element,k));this.handles=s("g",{class:"bs-corners"},this.middles.group,this.corners.group);this.
+dragWhole();this.area.addEventListener("focus",()=>this.select());this.area.addEventListener("keydown",event=>this.keys(event,(points,by)=>points.map(([x,y])=>[
+stepped(x,by[0]),stepped(y,by[1])]),()=>this.remove()))}draw(){const{shape,points,place,name,selected,state,data}=this.now=this.what();const d=pathOf(shape,points,
+place,this.scene.view);put(this.line,"d",d);put(this.area,"d",d);this.area.classList.toggle("bs-open",!CLOSED.has(shape));put(this.area,"aria-label",`${name}${state?
+`, ${state} by the chosen linkage`:""}. Drag, or use the arrow keys; Delete removes it.`);put(this.area,"aria-pressed",Boolean(selected));say(this.title,name);for(const[
+key2,value2]of Object.entries({...data,shape}))put(this.element,`data-${key2}`,value2);this.element.classList.toggle("bs-selected",Boolean(selected));this.element.
+classList.toggle("bs-met",state==="met");this.element.classList.toggle("bs-broken",state==="broken");const[[key,value]]=Object.entries(data);put(this.handles,"d\
+ata-handles",`${key} ${value}`.trim());if(!this.handles.parentNode)this.scene.layer("tool").append(this.handles);const count=selected?outlineOf(shape,points).length:
+0,edges2=shape==="polygon"?count:0;this.corners.draw([...Array(count).keys()].map(k=>[k,k]));this.middles.draw([...Array(edges2).keys()].map(k=>[k,k]))}clear(){
+this.element.remove();this.handles.remove()}at([x,y]){const[u,v]=act(this.now.place,[x,y]);return{cx:px(this.scene.view.X(u)),cy:px(this.scene.view.Y(v))}}point({
+x,y}){return back(this.now.place,[x,y]).map(each=>this.scene.rounded(each))}dragWhole(){let gesture,from,before;this.scene.drag(this.area,{start:point2=>{gesture=
+Symbol("move a shape");from=back(this.now.place,[point2.x,point2.y]);before=this.now.points},move:point2=>{const to=back(this.now.place,[point2.x,point2.y]),by=[
+to[0]-from[0],to[1]-from[1]];this.set(before.map(([x,y])=>[this.scene.rounded(x+by[0]),this.scene.rounded(y+by[1])]),gesture)},cancel:()=>this.abandon(gesture),
+click:()=>this.select()})}makeCorner(k){const circle=s("circle",{class:"bs-corner",r:6,tabindex:0,role:"button","data-corner":k+1});let gesture;this.scene.drag(
+circle,{start:()=>(gesture=Symbol("move a corner"))&&true,move:point2=>this.set(withCorner(this.now.shape,this.now.points,k,this.point(point2)),gesture),cancel:()=>this.
+abandon(gesture)});circle.addEventListener("keydown",event=>this.keys(event,(points,by)=>{const[x,y]=outlineOf(this.now.shape,points)[k];return withCorner(this.
+now.shape,points,k,[stepped(x,by[0]),stepped(y,by[1])])},()=>this.removeCorner(k)));return circle}removeCorner(k){const{shape,points}=this.now;if(shape!=="polyg\
+on"||points.length<=LEAST_CORNERS)return;this.set(points.filter((_,i)=>i!==k),null)}makeMiddle(k){const circle=s("circle",{class:"bs-middle",r:4.5,"data-edge":k+
+1});let gesture;this.scene.drag(circle,{start:()=>{gesture=Symbol("add a corner");this.set([...this.now.points.slice(0,k+1),this.now.points[k],...this.now.points.
+slice(k+1)],gesture)},move:point2=>this.set(withCorner("polygon",this.now.points,k+1,this.point(point2)),gesture),cancel:()=>this.abandon(gesture)});return circle}showCorner(element,k){
+const corner=outlineOf(this.now.shape,this.now.points)[k];for(const[name,value]of Object.entries(this.at(corner)))put(element,name,value);put(element,"aria-labe\
+l",`Corner ${k+1} of ${this.now.name}: ${corner.join(", ")}`)}showMiddle(element,k){const{points}=this.now,next=points[(k+1)%points.length];const middle2=this.at(
+[(points[k][0]+next[0])/2,(points[k][1]+next[1])/2]);for(const[name,value]of Object.entries(middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||
+event.metaKey)return;const arrow2=ARROWS2[event.key];if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(
+this.now.points,[by*arrow2[0],by*arrow2[1]]),this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){remove()}else{return}event.preventDefault();event.
+stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
 nds. Enter puts one in the middle, Escape gives up.",line:"Click two points of the line. Enter puts one in the middle, Escape gives up.",box:"Drag from corner t\
 o corner, or click both. Enter puts one in the middle, Escape gives up.",polygon:"Click the corners; Enter or a click on the first one closes. Backspace takes t\
 he last one back, Escape gives up."};var MIDDLE={point:[[0,0]],segment:[[-1,0],[1,0]],line:[[-1,0],[1,0]],box:[[-1,-1],[1,1]],polygon:[[-1,-1],[1,-1],[0,1]]};var SHARE2=.12;
 var ordered=([[a,b],[c,d]])=>[[Math.min(a,c),Math.min(b,d)],[Math.max(a,c),Math.max(b,d)]];var isFlat=([[a,b],[c,d]])=>a===c&&b===d;var ShapeTool=class{constructor(scene,{
-shape,place,done,name}){Object.assign(this,{scene,shape,place,done,name,points:[],next:null});this.hint=HINTS[shape];this.path=s("path",{class:"bs-draft"});this.
-dots=s("g");this.element=s("g",{},this.path,this.dots);scene.layer("tool").append(this.element)}point({x,y}){return back(this.place(),[x,y]).map(each=>this.scene.
-rounded(each))}click(point2,event){const next=this.point(point2);if(this.shape==="polygon"){if(this.points.length>2&&(this.isFirst(point2)||event?.detail>1))return this.
-finish(this.points);if(this.points.length&&isFlat([this.points.at(-1),next]))return void 0}this.points.push(next);if(this.shape==="point"||PAIRS.has(this.shape)&&
-this.points.length===2)return this.finish(this.points);return this.draw()}isFirst({X,Y}){const[x,y]=act(this.place(),this.points[0]),{view}=this.scene;return Math.
-hypot(view.X(x)-X,view.Y(y)-Y)<CLOSE}hover(point2){this.next=point2&&this.point(point2);this.draw()}drag(point2,held){if(!PAIRS.has(this.shape)||this.points.length)
-return false;this.dragging=[this.point(this.inPlane(held.from)),this.point(point2)];this.draw();return true}inPlane({X,Y}){return{x:this.scene.view.x(X),y:this.
-scene.view.y(Y)}}inMiddle(){const{width,height}=this.scene.size,half=SHARE2*Math.min(width,height);return MIDDLE[this.shape].map(([x,y])=>this.point(this.inPlane(
-{X:width/2+half*x,Y:height/2-half*y})))}release(){if(!this.dragging)return;const pair=this.dragging;this.dragging=null;this.finish(pair)}finish(points){if(PAIRS.
-has(this.shape)&&isFlat(points)){this.points=points.slice(0,1);return this.draw()}this.scene.use(null);return this.done(this.shape==="box"?ordered(points):points)}key(event){
-if(event.key==="Escape")this.scene.use(null);else if(event.key==="Backspace")this.points.pop();else if(event.key==="Enter"&&!this.points.length)this.finish(this.
-inMiddle());else if(event.key==="Enter"&&this.points.length>2)this.finish(this.points);else return false;this.draw();return true}draw(){const{scene:{view},shape}=this,
-shown2=this.dragging??[...this.points,...this.next?[this.next]:[]];const place=this.place(),whole=shape==="polygon"?"open polygon":shape;const complete=shown2.length>
-1||shape==="point";put(this.path,"d",complete&&shown2.length?pathOf(whole,shown2,place,view):"");this.dots.replaceChildren(...(this.dragging??this.points).map(point2=>act(
-place,point2)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST2=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
+shape,place,done,name}){this.scene=scene;this.shape=shape;this.place=place;this.done=done;this.name=name;this.points=[];this.next=null;this.hint=HINTS[shape];this.
+path=s("path",{class:"bs-draft"});this.dots=s("g");this.element=s("g",{},this.path,this.dots);scene.layer("tool").append(this.element)}point({x,y}){return back(
+this.place(),[x,y]).map(each=>this.scene.rounded(each))}click(point2,event){const next=this.point(point2);if(this.shape==="polygon"){if(this.points.length>2&&(this.
+isFirst(point2)||event?.detail>1))return this.finish(this.points);if(this.points.length&&isFlat([this.points.at(-1),next]))return void 0}this.points.push(next);
+if(this.shape==="point"||PAIRS.has(this.shape)&&this.points.length===2)return this.finish(this.points);return this.draw()}isFirst({X,Y}){const[x,y]=act(this.place(),
+this.points[0]),{view}=this.scene;return Math.hypot(view.X(x)-X,view.Y(y)-Y)<CLOSE}hover(point2){this.next=point2&&this.point(point2);this.draw()}drag(point2,held){
+if(!PAIRS.has(this.shape)||this.points.length)return false;this.dragging=[this.point(this.inPlane(held.from)),this.point(point2)];this.draw();return true}inPlane({
+X,Y}){return{x:this.scene.view.x(X),y:this.scene.view.y(Y)}}inMiddle(){const{width,height}=this.scene.size,half=SHARE2*Math.min(width,height);return MIDDLE[this.
+shape].map(([x,y])=>this.point(this.inPlane({X:width/2+half*x,Y:height/2-half*y})))}release(){if(!this.dragging)return;const pair=this.dragging;this.dragging=null;
+this.finish(pair)}finish(points){if(PAIRS.has(this.shape)&&isFlat(points)){this.points=points.slice(0,1);return this.draw()}this.scene.use(null);return this.done(
+this.shape==="box"?ordered(points):points)}key(event){if(event.key==="Escape")this.scene.use(null);else if(event.key==="Backspace")this.points.pop();else if(event.
+key==="Enter"&&!this.points.length)this.finish(this.inMiddle());else if(event.key==="Enter"&&this.points.length>2)this.finish(this.points);else return false;this.
+draw();return true}draw(){const{scene:{view},shape}=this,shown2=this.dragging??[...this.points,...this.next?[this.next]:[]];const place=this.place(),whole=shape===
+"polygon"?"open polygon":shape;const complete=shown2.length>1||shape==="point";put(this.path,"d",complete&&shown2.length?pathOf(whole,shown2,place,view):"");this.
+dots.replaceChildren(...(this.dragging??this.points).map(point2=>act(place,point2)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,
+cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST2=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
 poses.length)store.reference=selection.index;return Math.min(store.reference??0,document2.poses.length-1)}function referencePlace(store){const k=referenceIndex(
 store);if(k<0)return{x:0,y:0,a:0};const{x,y,angle}=standing(store.document,k);return{x,y,a:radians(angle)}}var BodyEditor=class{constructor(store,scene){this.store=
 store;this.scene=scene;this.ghosts=new Kept(s("g",{class:"bs-ghosts","aria-hidden":"true"}),()=>s("path",{class:"bs-ghost"}),(path2,item)=>this.showGhost(path2,
@@ -482,9 +500,9 @@ body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;co
 place,dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id}\
  comes nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var KEY2="burmester.studio.key";var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){
 super(messages.map(each=>each.message).join(" ")||`the server answered ${status}`);this.status=status;this.messages=messages}};async function messagesOf(response){
-try{return(await response.json()).messages??[]}catch{return[]}}var Connection=class{constructor(decode){this.decode=decode;this.listeners={message:[],open:[],closed:[]};
-this.asked=new Map;this.n=0;this.tries=0;this.socket=null}on(name,fn){this.listeners[name].push(fn)}emit(name,value){for(const fn of this.listeners[name])fn(value)}get isOpen(){
-return this.socket?.readyState===1}get key(){try{return localStorage.getItem(KEY2)??this.own}catch{return this.own}}async session(){const token=decodeURIComponent(
+try{return(await response.json()).messages??[]}catch{return[]}}var Connection=class{socket;constructor(decode){this.decode=decode;this.listeners={message:[],open:[],
+closed:[]};this.asked=new Map;this.n=0;this.tries=0;this.socket=null}on(name,fn){this.listeners[name].push(fn)}emit(name,value){for(const fn of this.listeners[name])
+fn(value)}get isOpen(){return this.socket?.readyState===1}get key(){try{return localStorage.getItem(KEY2)??this.own}catch{return this.own}}async session(){const token=decodeURIComponent(
 location.hash.slice(1)).replace(/^token=/,"");if(!token)return;history.replaceState(null,"",location.pathname);try{this.own=(await(await this.post("/session",{token})).
 json()).key}catch(error){if(!(error instanceof Refused)||!this.key)throw error;return}try{localStorage.setItem(KEY2,this.own)}catch{}}async get(path2){return(await this.
 request(path2,{})).json()}post(path2,body,method="POST"){return this.request(path2,{method,headers:{"Content-Type":"application/json"},body:JSON.stringify(body)})}async request(path2,options){
@@ -500,16 +518,16 @@ null)reject(new Error("the connection is closed"));else this.asked.set(n,{resolv
 awn at pose","1",{least:1,whole:true}],["density","density, kg/m³","2700",{above:0}],["seconds","film, seconds","4",{above:0}],["frames_per_second","pictures a\
  second","25",{above:0}],["width_px","pixels wide","800",{least:1,whole:true}]];var AXES=["y","x","z","-x","-y","-z"];var UNITS=["mm","cm","m","in","ft"];var SIGMA=[
 ["position","position","length"],["angle_deg","angle","angle"]];var section=(name,title,...content)=>h("details",{class:"bs-section","data-section":name},h("sum\
-mary",{},title),...content);var ExportSettings=class{constructor(store,scene){this.store=store;const set=name=>value=>store.setting(name,value);this.fields=new Map;
-const number=(name,placeholder,options)=>{const field=new NumberField({label:name.replace(/_/g," "),commit:set(name),options:()=>({optional:true,unit:store.document.
-length_unit,...options}),step:()=>options.kind?scene.step:1,attributes:{"data-setting":name,placeholder}});this.fields.set(name,field);return field.element};this.
-unit=choice("unit of what is exported",UNITS.map(unit2=>[unit2,unit2]),value=>set("unit")(value==="mm"?void 0:value),{"data-setting":"unit"});this.unitRow=labelled(
-"unit of the lengths",this.unit);this.up=choice("up",AXES.map(axis=>[axis,axis]),value=>set("up")(value==="y"?void 0:value),{"data-setting":"up"});this.dimensions=
-tick("drawings have dimension lines",on=>set("dimensions")(on?void 0:false),{"data-setting":"dimensions"});this.assembled=tick("STL: the parts in their places",
-on=>set("assembled")(on||void 0),{"data-setting":"assembled"});const rows=(all,placeholderOf,optionsOf)=>all.map(each=>labelled(each[1],number(each[0],placeholderOf(
-each),optionsOf(each))," "));this.element=h("div",{class:"bs-task"},section("export","What is exported",h("p",{class:"bs-hint"},"Left empty: sizes that suit the\
- linkage."),h("div",{class:"bs-grid"},this.unitRow,rows(LENGTHS2,()=>"–",()=>({kind:"length",above:0})),rows(NUMBERS,each=>each[2],each=>each[3]),labelled("up\
-, in models",this.up)),this.dimensions.element,this.assembled.element),this.makeSigma(scene));store.on("document",()=>this.draw());this.draw()}makeSigma(scene){
+mary",{},title),...content);var ExportSettings=class{sigma;constructor(store,scene){this.store=store;const set=name=>value=>store.setting(name,value);this.fields=
+new Map;const number=(name,placeholder,options)=>{const field=new NumberField({label:name.replace(/_/g," "),commit:set(name),options:()=>({optional:true,unit:store.
+document.length_unit,...options}),step:()=>options.kind?scene.step:1,attributes:{"data-setting":name,placeholder}});this.fields.set(name,field);return field.element};
+this.unit=choice("unit of what is exported",UNITS.map(unit2=>[unit2,unit2]),value=>set("unit")(value==="mm"?void 0:value),{"data-setting":"unit"});this.unitRow=
+labelled("unit of the lengths",this.unit);this.up=choice("up",AXES.map(axis=>[axis,axis]),value=>set("up")(value==="y"?void 0:value),{"data-setting":"up"});this.
+dimensions=tick("drawings have dimension lines",on=>set("dimensions")(on?void 0:false),{"data-setting":"dimensions"});this.assembled=tick("STL: the parts in the\
+ir places",on=>set("assembled")(on||void 0),{"data-setting":"assembled"});const rows=(all,placeholderOf,optionsOf)=>all.map(each=>labelled(each[1],number(each[0],
+placeholderOf(each),optionsOf(each))," "));this.element=h("div",{class:"bs-task"},section("export","What is exported",h("p",{class:"bs-hint"},"Left empty: sizes\
+ that suit the linkage."),h("div",{class:"bs-grid"},this.unitRow,rows(LENGTHS2,()=>"–",()=>({kind:"length",above:0})),rows(NUMBERS,each=>each[2],each=>each[3]),
+labelled("up, in models",this.up)),this.dimensions.element,this.assembled.element),this.makeSigma(scene));store.on("document",()=>this.draw());this.draw()}makeSigma(scene){
 const{store}=this;this.wanted={};this.lack=h("p",{class:"bs-fault",hidden:true},"Give both: how far positions are off, and how far angles.");this.sigma=SIGMA.map(
 ([key,name,kind])=>{const field=new NumberField({label:`standard deviation of the ${name}`,options:()=>({kind,unit:store.document.length_unit,optional:true,above:0}),
 step:()=>kind==="angle"?.1:scene.step/10,commit:value=>this.setSigma(key,value),attributes:{"data-key":`sigma-${key}`,placeholder:"–"}});return{key,name,field}});
@@ -530,18 +548,18 @@ list);const close=()=>{if(!element.open)return;element.open=false;summary.focus(
 map(({title,note,act:act2,data})=>h("button",{type:"button",role:"menuitem",class:"bs-menu-item",...data,onclick:()=>(close(),act2())},h("b",{},title),note?h("s\
 pan",{},note):null)))});element.addEventListener("keydown",event=>{const all=[...list.children],at=all.indexOf(document.activeElement);if(event.key==="Escape")close();else if(event.
 key==="ArrowDown")all[(at+1)%all.length]?.focus();else if(event.key==="ArrowUp")all[(at+all.length-1)%all.length]?.focus();else return;event.preventDefault();event.
-stopPropagation()});document.addEventListener("pointerdown",event=>element.contains(event.target)||(element.open=false));return element}var Files=class{constructor(store,start,banners){
-Object.assign(this,{store,start,banners,server:store.connection});this.chooser=h("input",{type:"file",hidden:true,accept:KINDS,"data-file":"open",onchange:()=>this.
-chosen(this.chooser)});this.outlines=h("input",{type:"file",hidden:true,accept:".svg,.dxf","data-file":"outline",onchange:()=>this.chosen(this.outlines)});this.
-dropping=h("div",{class:"bs-dropping",hidden:true,"aria-hidden":"true"},h("p",{},"Drop a task, a table of poses, or the outline of the body"));this.dialog=h("di\
-alog",{class:"bs-dialog","aria-label":"The same from the command line"});this.element=h("div",{class:"bs-files"},...this.buttons(),this.chooser,this.outlines,this.
-dropping,this.dialog);this.listen()}buttons(){const{start}=this;return[menu("Templates",()=>(start.templates??[]).map(({name,summary})=>({title:name,note:summary,
-act:()=>this.template(name),data:{"data-template":name}})),{"data-menu":"templates"}),button("New",()=>this.fresh(),{"data-do":"new",title:"An empty task"}),button(
-"Open…",()=>this.chooser.click(),{"data-do":"open",title:"A task, or a table of poses (Ctrl+O)"}),button("Save task",()=>this.save(),{"data-do":"save",title:"\
-The file that the command reads (Ctrl+S)"}),menu("Export",()=>[...(start.exports??[]).map(({format,title,suffix})=>({title,note:suffix,act:()=>this.export("/exp\
-ort",{format}),data:{"data-export":format}})),{title:"Report",note:".html",act:()=>this.export("/report"),data:{"data-export":"report"}},{title:"Result",note:".\
-json",act:()=>this.export("/result"),data:{"data-export":"result"}}],{"data-menu":"export"}),button("Copy as command",()=>this.commands(),{"data-do":"command",title:"\
-The same from the command line"})]}get task(){const{document:document2,options,name}=this.store;return{document:document2,options,name}}async trying(what,then,actions=[]){
+stopPropagation()});document.addEventListener("pointerdown",event=>element.contains(event.target)||(element.open=false));return element}var Files=class{opened;constructor(store,start,banners){
+this.store=store;this.start=start;this.banners=banners;this.server=store.connection;this.chooser=h("input",{type:"file",hidden:true,accept:KINDS,"data-file":"op\
+en",onchange:()=>this.chosen(this.chooser)});this.outlines=h("input",{type:"file",hidden:true,accept:".svg,.dxf","data-file":"outline",onchange:()=>this.chosen(
+this.outlines)});this.dropping=h("div",{class:"bs-dropping",hidden:true,"aria-hidden":"true"},h("p",{},"Drop a task, a table of poses, or the outline of the bod\
+y"));this.dialog=h("dialog",{class:"bs-dialog","aria-label":"The same from the command line"});this.element=h("div",{class:"bs-files"},...this.buttons(),this.chooser,
+this.outlines,this.dropping,this.dialog);this.listen()}buttons(){const{start}=this;return[menu("Templates",()=>(start.templates??[]).map(({name,summary})=>({title:name,
+note:summary,act:()=>this.template(name),data:{"data-template":name}})),{"data-menu":"templates"}),button("New",()=>this.fresh(),{"data-do":"new",title:"An empt\
+y task"}),button("Open…",()=>this.chooser.click(),{"data-do":"open",title:"A task, or a table of poses (Ctrl+O)"}),button("Save task",()=>this.save(),{"data-d\
+o":"save",title:"The file that the command reads (Ctrl+S)"}),menu("Export",()=>[...(start.exports??[]).map(({format,title,suffix})=>({title,note:suffix,act:()=>this.
+export("/export",{format}),data:{"data-export":format}})),{title:"Report",note:".html",act:()=>this.export("/report"),data:{"data-export":"report"}},{title:"Res\
+ult",note:".json",act:()=>this.export("/result"),data:{"data-export":"result"}}],{"data-menu":"export"}),button("Copy as command",()=>this.commands(),{"data-do":"\
+command",title:"The same from the command line"})]}get task(){const{document:document2,options,name}=this.store;return{document:document2,options,name}}async trying(what,then,actions=[]){
 try{return await then()}catch(error){if(error instanceof Refused&&error.messages.length)this.banners.say("refused",`${what} was not done.`,error.messages,{actions});else
 this.banners.say("refused",`${what} was not done: ${error instanceof Refused?error.message:"the server does not answer"}.`);return null}}fresh(){this.store.replace(
 {document:{length_unit:"mm",angle_unit:"deg",poses:[]},options:{},name:"task"})}template(name){return this.trying(`Opening ${name}`,async()=>{const made2=await this.
@@ -580,9 +598,10 @@ nd"},h("h3",{},title),h("pre",{tabindex:0},command),button("Copy",()=>copy(comma
 dialog.showModal()})}listen(){let inside2=0;const hasFiles=event=>[...event.dataTransfer?.types??[]].includes("Files");const show=by=>{inside2=Math.max(0,inside2+
 by);give(this.dropping,"hidden",inside2===0)};document.addEventListener("dragenter",event=>hasFiles(event)&&(event.preventDefault(),show(1)));document.addEventListener(
 "dragover",event=>hasFiles(event)&&event.preventDefault());document.addEventListener("dragleave",event=>hasFiles(event)&&show(-1));document.addEventListener("dr\
-op",async event=>{if(!hasFiles(event))return;event.preventDefault();show(-Infinity);inside2=0;for(const file of event.dataTransfer.files)await this.take(file)});
-document.addEventListener("paste",event=>{const text=event.clipboardData?.getData("text/plain")??"",[file]=event.clipboardData?.files??[];const typing=event.target.
-closest?.("input, textarea, select");if(file)this.take(file);else if(isTable(text))this.paste(text);else return;event.preventDefault();if(typing)typing.blur()})}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
+op",async event=>{if(!hasFiles(event))return;event.preventDefault();show(-Infinity);inside2=0;for(const file of event.dataTransfer?.files??[])await this.take(file)});
+document.addEventListener("paste",event=>{const text=event.clipboardData?.getData("text/plain")??"",[file]=event.clipboardData?.files??[];const typing=event.target instanceof
+HTMLElement&&event.target.closest("input, textarea, select");if(file)this.take(file);else if(isTable(text))this.paste(text);else return;event.preventDefault();if(typing)
+typing.blur()})}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
 buffer).getUint32(0,true);const header=JSON.parse(new TextDecoder().decode(new Uint8Array(buffer,4,length)));const numbers=floats(buffer,4+length);for(const linkage of header.
 linkages??[]){if(linkage.ways)linkage.ways=linkage.ways.map(way=>({...way,...pieces(numbers,way,WAY)}));if(!linkage.poses)continue;const{count}=linkage.poses;const columns=pieces(
 numbers,linkage.poses,POSE);linkage.pose_errors=Array.from({length:count},(_,pose)=>{const at=linkage.at?.[pose]??null;const row={way:at?at[0]:null,frame:at?at[1]:
@@ -601,32 +620,32 @@ tarea");function listenToKeys(store,scene,files=null,root=document){const acts=e
 altKey;if(control){const act2=acts(event)[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.test(key))return;event.preventDefault();
 act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(target)&&scene.tool.key(event)){event.
 preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},true);root.addEventListener("input",({
-target})=>target.dataset&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,({target})=>target.dataset&&delete target.
-dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||event.metaKey||event.altKey||
-event.target.closest?.(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}var POINTS=[12,40];var APART=26;var MEETS=16;var SHARE3=.08;var LEAST_LENGTH=40;var SMOOTHED=9;var OVAL=16;function lineOf({poses,path:path2},view){const points=poses.
+target})=>target instanceof HTMLElement&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,({target})=>target instanceof
+HTMLElement&&delete target.dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||
+event.metaKey||event.altKey||event.target instanceof Element&&event.target.closest(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}var POINTS=[12,40];var APART=26;var MEETS=16;var SHARE3=.08;var LEAST_LENGTH=40;var SMOOTHED=9;var OVAL=16;function lineOf({poses,path:path2},view){const points=poses.
 filter(({x,y})=>Number.isFinite(x)&&Number.isFinite(y)).map(({x,y})=>`${px(view.X(x))} ${px(view.Y(y))}`);return points.length?`M${points.join("L")}${path2?.closed?
-"Z":""}`:""}var PathCurve=class{constructor(store,scene){Object.assign(this,{store,scene});this.line=s("path",{class:"bs-path","aria-hidden":"true"});scene.layer(
+"Z":""}`:""}var PathCurve=class{constructor(store,scene){this.store=store;this.scene=scene;this.line=s("path",{class:"bs-path","aria-hidden":"true"});scene.layer(
 "regions").append(this.line);store.on("document",()=>this.draw());scene.on("view",()=>this.draw());this.draw()}draw(){const{store:{document:document2},scene:{view}}=this;
 put(this.line,"d",isPath(document2)?lineOf(document2,view):"");put(this.line,"data-path",isPath(document2)?document2.path?.closed?"closed":"open":null)}};function resampled(stroke,{
-meets,apart,smooth=0}){const gap=Math.hypot(stroke[0][0]-stroke.at(-1)[0],stroke[0][1]-stroke.at(-1)[1]);const size2=Math.hypot(...[0,1].map(k=>Math.max(...stroke.
-map(each=>each[k]))-Math.min(...stroke.map(each=>each[k]))));let length=0;for(let k=1;k<stroke.length;k+=1)length+=Math.hypot(stroke[k][0]-stroke[k-1][0],stroke[k][1]-
-stroke[k-1][1]);const closed2=gap<Math.max(meets,SHARE3*size2)&&length>3*gap+size2;const line2=closed2?[...stroke,stroke[0]]:stroke,along2=[0];for(let k=1;k<line2.
-length;k+=1)along2.push(along2[k-1]+Math.hypot(line2[k][0]-line2[k-1][0],line2[k][1]-line2[k-1][1]));const whole=along2.at(-1),count=clamp(Math.round(whole/apart),
-...POINTS);const at=wanted=>{const u=closed2?(wanted%whole+whole)%whole:clamp(wanted,0,whole);let k=1;while(k<line2.length-1&&along2[k]<u)k+=1;const t=along2[k]>
-along2[k-1]?(u-along2[k-1])/(along2[k]-along2[k-1]):0;return[0,1].map(axis=>line2[k-1][axis]+t*(line2[k][axis]-line2[k-1][axis]))};const near2=(u,k)=>{const half=closed2?
-smooth:Math.min(smooth,u,whole-u);const parts=[-1,-.5,0,.5,1].map(share=>at(u+share*half));return[0,1].map(axis=>parts.reduce((sum,each)=>sum+each[axis],0)/parts.
-length)};return{closed:closed2,points:Array.from({length:count},(_,k)=>near2(whole*k/(closed2?count:count-1),k))}}var PathTool=class{constructor(store,scene,done){
-Object.assign(this,{store,scene,done,name:"path",stroke:null});this.hint="Press, draw the curve that a point of the body is to trace, and let go; where the ends\
- meet it closes. Enter puts an oval in the middle, Escape gives up.";this.line=s("path",{class:"bs-draft bs-draft-path"});scene.layer("tool").append(this.line)}click(){}drag(point2,held){
-this.stroke??=[[held.from.X,held.from.Y]];this.stroke.push([point2.X,point2.Y]);put(this.line,"d",`M${this.stroke.map(each=>each.map(px).join(" ")).join("L")}`);
-return true}release(){const{stroke}=this;this.stroke=null;put(this.line,"d","");const length=stroke?.slice(1).reduce((sum,[x,y],k)=>sum+Math.hypot(x-stroke[k][0],
-y-stroke[k][1]),0);if(length>LEAST_LENGTH)this.finish(resampled(stroke,{meets:MEETS,apart:APART,smooth:SMOOTHED}))}finish({points,closed:closed2}){const{store,scene}=this,
-{view}=scene;const there=points.map(([X,Y])=>[scene.rounded(view.x(X)),scene.rounded(view.y(Y))]);const{document:document2,options}=store;if(isPath(document2))store.
-replace({document:pathDocument(document2,there,closed2),options});else store.replace({document:pathDocument({length_unit:document2.length_unit,angle_unit:"deg",
-poses:[]},there,closed2),options,name:"path"});store.select(null);scene.use(null);this.done?.(points.length,closed2)}key(event){if(event.key==="Escape")this.scene.
-use(null);else if(event.key==="Enter")this.finish(this.oval());else return false;return true}oval(){const{width,height}=this.scene.size,size2=.2*Math.min(width,
-height);const points=Array.from({length:OVAL},(_,k)=>2*Math.PI*k/OVAL).map(a=>[width/2+1.5*size2*Math.cos(a),height/2-size2*Math.sin(a)]);return{points,closed:true}}end(){
-this.line.remove()}};var PathPanel=class{constructor(store,scene){this.store=store;this.title=h("h3",{});this.closed=tick("closed: the last point leads back to the first",on=>store.
+meets,apart,smooth:smooth2=0}){const gap=Math.hypot(stroke[0][0]-stroke.at(-1)[0],stroke[0][1]-stroke.at(-1)[1]);const size2=Math.hypot(...[0,1].map(k=>Math.max(
+...stroke.map(each=>each[k]))-Math.min(...stroke.map(each=>each[k]))));let length=0;for(let k=1;k<stroke.length;k+=1)length+=Math.hypot(stroke[k][0]-stroke[k-1][0],
+stroke[k][1]-stroke[k-1][1]);const closed2=gap<Math.max(meets,SHARE3*size2)&&length>3*gap+size2;const line2=closed2?[...stroke,stroke[0]]:stroke,along2=[0];for(let k=1;k<
+line2.length;k+=1)along2.push(along2[k-1]+Math.hypot(line2[k][0]-line2[k-1][0],line2[k][1]-line2[k-1][1]));const whole=along2[along2.length-1],count=clamp(Math.
+round(whole/apart),...POINTS);const at=wanted=>{const u=closed2?(wanted%whole+whole)%whole:clamp(wanted,0,whole);let k=1;while(k<line2.length-1&&along2[k]<u)k+=
+1;const t=along2[k]>along2[k-1]?(u-along2[k-1])/(along2[k]-along2[k-1]):0;return[0,1].map(axis=>line2[k-1][axis]+t*(line2[k][axis]-line2[k-1][axis]))};const near2=(u,k)=>{
+const half=closed2?smooth2:Math.min(smooth2,u,whole-u);const parts=[-1,-.5,0,.5,1].map(share=>at(u+share*half));return[0,1].map(axis=>parts.reduce((sum,each)=>sum+
+each[axis],0)/parts.length)};return{closed:closed2,points:Array.from({length:count},(_,k)=>near2(whole*k/(closed2?count:count-1),k))}}var PathTool=class{constructor(store,scene,done){
+this.store=store;this.scene=scene;this.done=done;this.name="path";this.stroke=null;this.hint="Press, draw the curve that a point of the body is to trace, and le\
+t go; where the ends meet it closes. Enter puts an oval in the middle, Escape gives up.";this.line=s("path",{class:"bs-draft bs-draft-path"});scene.layer("tool").
+append(this.line)}click(){}drag(point2,held){this.stroke??=[[held.from.X,held.from.Y]];this.stroke.push([point2.X,point2.Y]);put(this.line,"d",`M${this.stroke.map(
+each=>each.map(px).join(" ")).join("L")}`);return true}release(){const{stroke}=this;this.stroke=null;put(this.line,"d","");const length=stroke?.slice(1).reduce(
+(sum,[x,y],k)=>sum+Math.hypot(x-stroke[k][0],y-stroke[k][1]),0);if(length>LEAST_LENGTH)this.finish(resampled(stroke,{meets:MEETS,apart:APART,smooth:SMOOTHED}))}finish({
+points,closed:closed2}){const{store,scene}=this,{view}=scene;const there=points.map(([X,Y])=>[scene.rounded(view.x(X)),scene.rounded(view.y(Y))]);const{document:document2,
+options}=store;if(isPath(document2))store.replace({document:pathDocument(document2,there,closed2),options});else store.replace({document:pathDocument({length_unit:document2.
+length_unit,angle_unit:"deg",poses:[]},there,closed2),options,name:"path"});store.select(null);scene.use(null);this.done?.(points.length,closed2)}key(event){if(event.
+key==="Escape")this.scene.use(null);else if(event.key==="Enter")this.finish(this.oval());else return false;return true}oval(){const{width,height}=this.scene.size,
+size2=.2*Math.min(width,height);const points=Array.from({length:OVAL},(_,k)=>2*Math.PI*k/OVAL).map(a=>[width/2+1.5*size2*Math.cos(a),height/2-size2*Math.sin(a)]);
+return{points,closed:true}}end(){this.line.remove()}};var PathPanel=class{constructor(store,scene){this.store=store;this.title=h("h3",{});this.closed=tick("closed: the last point leads back to the first",on=>store.
 edit(document2=>setPath(document2,{closed:on})),{"data-key":"path-closed"});this.fields=["x","y"].map(key=>({key,field:new NumberField({label:`how far points ma\
 y be missed in ${key}`,options:()=>({kind:"length",unit:store.document.length_unit,optional:true,least:0}),step:()=>scene.step/10,commit:value=>store.edit(document2=>setUsual(
 document2,key,value)),attributes:{"data-key":`usual-${key}`,placeholder:"–"}})}));this.hint=h("p",{class:"bs-hint"});this.element=h("div",{class:"bs-path-pane\
@@ -636,65 +655,65 @@ document2),timed=document2.path?.crank_deg;give(this.element,"hidden",!isOfPoint
  points${timed?", timed by the crank":""}`:`${count} point${count===1?"":"s"}`);give(this.closed.box,"checked",Boolean(document2.path?.closed));for(const{key,field}of this.
 fields)field.show(document2.tolerance?.[key]||void 0);say(this.hint,path2?"Blank: as near as possible, and of what is about as near the one that transmits best.":
 "Nine points are met exactly by finitely many linkages, all of which are found; more are a path, which is met as nearly as possible.")}};var PAGE=60;var NUMBERS2=[["x","length"],["y","length"],["angle","angle"]];var BOUNDS=[["x","x","length"],["y","y","length"],["angle","angle_deg","angle"]];var oneLine=name=>(name??
-"").replace(/[\r\n\u2028\u2029]+/g," ");var PoseTable=class{constructor(store,scene){this.store=store;this.scene=scene;this.page=0;this.rows=[];this.body=h("tbo\
-dy",{});this.unit=h("span",{class:"bs-unit"});this.pages=h("div",{class:"bs-pages",hidden:true});this.details=h("div",{class:"bs-details","data-details":"pose"});
-this.hint=h("p",{class:"bs-hint"},"A blank angle is free: then the row is a point, which the body passes at any angle.");this.table=h("table",{class:"bs-poses",
-"aria-label":"Poses"},h("thead",{},h("tr",{},h("th",{scope:"col"},"#"),h("th",{scope:"col"},"name"),h("th",{scope:"col"},"x"),h("th",{scope:"col"},"y"),h("th",{
-scope:"col"},"angle °"))),this.body);const add=button("Add a pose",()=>this.add(),{"data-do":"add-pose-row"});this.element=h("div",{class:"bs-table-box"},this.
-table,this.pages,h("div",{class:"bs-row"},add,this.unit),this.hint,this.details);this.makeDetails();this.pace=new Pace(()=>this.draw());store.on("document selec\
-tion",()=>scene.dragged?this.pace.ask():this.draw());scene.on("dropped",()=>this.pace.catchUp());this.draw()}get selected(){const{selection,document:document2}=this.
-store;return selection?.kind==="pose"&&selection.index<document2.poses.length?selection.index:null}draw(){const{document:document2}=this.store,count=document2.poses.
-length,pages=Math.max(1,Math.ceil(count/PAGE));if(this.selected!==null&&this.selected!==this.shownSelection)this.page=Math.floor(this.selected/PAGE);this.shownSelection=
-this.selected;this.page=Math.min(this.page,pages-1);const first=this.page*PAGE,shown2=Math.min(PAGE,count-first);while(this.rows.length<shown2)this.rows.push(this.
-makeRow(this.rows.length));while(this.body.children.length>shown2)this.body.lastChild.remove();for(let k=0;k<shown2;k+=1){if(!this.rows[k].tr.isConnected||this.
-body.children[k]!==this.rows[k].tr)this.body.append(this.rows[k].tr);this.showRow(this.rows[k],first+k)}say(this.unit,document2.length_unit?`x and y in ${document2.
-length_unit}`:"");this.showPages(pages,count);this.showDetails()}makeRow(place){const row={index:place,fields:{}};const change=changes=>this.store.edit(document2=>setPose(
-document2,row.index,changes));row.number=h("button",{type:"button",class:"bs-index",onclick:()=>this.store.select(row.index===this.selected?null:{kind:"pose",index:row.
-index})});row.name=textField("Name",text=>change({name:text.trim()||void 0}),{class:"bs-text bs-name",placeholder:"–"});const cells2=NUMBERS2.map(([key,kind])=>{
-const field=new NumberField({label:key,options:()=>({kind,unit:this.store.document.length_unit,optional:key==="angle"||this.isFree(row.index,key)}),step:()=>kind===
-"angle"?1:this.scene.step,commit:value=>key==="angle"?this.store.edit(document2=>setAngle(document2,row.index,value)):change({[key]:value}),attributes:{"data-ke\
-y":key}});row.fields[key]=field;return h("td",{},field.element)});row.tr=h("tr",{class:"bs-pose-row"},h("th",{scope:"row"},row.number),h("td",{},row.name),cells2);
-row.tr.addEventListener("focusin",event=>event.target!==row.number&&this.store.select({kind:"pose",index:row.index}));return row}isFree(index,key){return isFree(
-this.store.document.poses[index],key)}showRow(row,index){const pose=this.store.document.poses[index],moved=row.index!==index,selected=index===this.selected;row.
-index=index;if(!isOther(row.tr,[index,pose,selected])&&document.activeElement?.closest("tr")!==row.tr)return;put(row.tr,"data-row",index+1);row.tr.classList.toggle(
-"bs-selected",selected);say(row.number,index+1);put(row.number,"aria-label",`Pose ${index+1}`);put(row.number,"aria-pressed",selected);if(moved||document.activeElement!==
-row.name)give(row.name,"value",oneLine(pose.name));put(row.name,"aria-label",`Name of pose ${index+1}`);for(const[key]of NUMBERS2){const{input}=row.fields[key],
-free=this.isFree(index,key);put(input,"aria-label",`${key} of pose ${index+1}`);put(input,"placeholder",free?"free":"");row.fields[key].turnTo(index,pose[key]);
-row.fields[key].show(pose[key])}}showPages(pages,count){give(this.pages,"hidden",pages<2);if(pages<2)return;const go=page=>{this.page=page;this.draw()};this.pages.
-replaceChildren(button("‹",()=>go(Math.max(0,this.page-1)),{"aria-label":"Earlier poses",disabled:this.page===0}),h("span",{},`${this.page*PAGE+1}–${Math.min(
-count,(this.page+1)*PAGE)} of ${count}`),button("›",()=>go(Math.min(pages-1,this.page+1)),{"aria-label":"Later poses",disabled:this.page===pages-1}))}add(){const{
-store,scene}=this,count=store.document.poses.length;const last=count?standing(store.document,count-1):{x:0,y:0,angle:0},ofPoints=isOfPoints(store.document);store.
-edit(document2=>{const more=addPose(document2,count?{...last,x:scene.rounded(last.x+10*scene.step)}:last);return ofPoints?setAngle(more,count,void 0):more});store.
-select({kind:"pose",index:count});const field=this.rows.find(row=>row.index===count&&row.tr.isConnected)?.fields.x.input;field?.focus();field?.select()}makeDetails(){
-const{store}=this;const at=()=>this.selected;const edit=change=>store.edit(document2=>change(document2,at()));this.title=h("h3",{class:"bs-pose-title"});this.exact=
-tick("met exactly",on=>edit((document2,k)=>setPose(document2,k,{exact:on||void 0})),{"data-key":"exact"});this.weight=new NumberField({label:"weight",options:()=>({
-optional:true,above:0}),commit:value=>edit((document2,k)=>setPose(document2,k,{weight:value})),attributes:{"data-key":"weight",placeholder:"1"}});this.bounds=BOUNDS.
-map(([component2,key,kind])=>{const field=new NumberField({label:`tolerance of ${component2}`,options:()=>({kind,unit:store.document.length_unit,optional:true,least:0}),
-step:()=>kind==="angle"?1:this.scene.step,commit:value=>edit((document2,k)=>setTolerance(document2,k,key,value)),attributes:{"data-key":`tolerance-${component2}`,
-placeholder:"–"}});const turned=(document2,k,on)=>setAngle(document2,k,on?void 0:standing(document2,k).angle);const free=tick("free",on=>edit((document2,k)=>component2===
-"angle"?turned(document2,k,on):setFree(document2,k,component2,on)),{"data-key":`free-${component2}`,"aria-label":`${component2} is free`});return{component:component2,
-key,field,free}});this.axes=choice("Axes of the tolerance",[["fixed","along the axes of the ground"],["body","along the axes of the body"]],value=>edit((document2,k)=>setTolerance(
-document2,k,"axes",value==="body"?value:void 0)),{"data-key":"tolerance-axes"});const act2=(text,name,change,then)=>button(text,()=>{const k=at();edit(change);store.
-select(then(k)===null?null:{kind:"pose",index:then(k)})},{"data-do":name});const last=()=>store.document.poses.length-1;this.up=act2("Earlier","earlier",(document2,k)=>movePose(
-document2,k,k-1),k=>k-1);this.down=act2("Later","later",(document2,k)=>movePose(document2,k,k+1),k=>k+1);this.crank=new NumberField({label:"crank angle",options:()=>({
-kind:"angle"}),step:()=>1,commit:value=>edit((document2,k)=>setCrank(document2,k,value)),attributes:{"data-key":"crank"}});this.crankLine=labelled("crank angle \
-°",this.crank.element);this.details.append(this.title,this.crankLine,h("div",{class:"bs-row"},this.exact.element,labelled("weight",this.weight.element)),h("p",
-{class:"bs-hint"},"Tolerance: how far from it the body may be, to either side"),h("table",{class:"bs-tolerances","aria-label":"Tolerance"},h("tbody",{},this.bounds.
-map(({component:component2,field,free})=>h("tr",{},h("th",{scope:"row"},component2==="angle"?"angle °":component2),h("td",{},field.element),h("td",{},free.element))))),
-this.axes,h("div",{class:"bs-row"},this.up,this.down,act2("Duplicate","duplicate",duplicatePose,k=>k+1),act2("Delete","delete-pose",removePose,k=>last()<0?null:
-Math.min(k,last()))))}showDetails(){const k=this.selected;give(this.details,"hidden",k===null);if(k===null)return;const{poses}=this.store.document,pose=poses[k];
-if(!isOther(this.details,[k,pose,poses.length,this.store.document.path])&&!this.details.contains(document.activeElement))return;const turned=this.store.document.
-path?.crank_deg?.[k];give(this.crankLine,"hidden",turned===void 0);this.crank.turnTo(k,turned);this.crank.show(turned);this.title.replaceChildren(`${isPoint(pose)?
-"Point":"Pose"} ${k+1}`,...pose.name?[": ",h("bdi",{},oneLine(pose.name))]:[]);give(this.exact.box,"checked",Boolean(pose.exact));this.weight.turnTo(k,pose.weight);
-this.weight.show(pose.weight);for(const{component:component2,key,field,free}of this.bounds){const isFree2=this.isFree(k,component2)||pose.tolerance?.[component2]===
-"free";give(free.box,"checked",isFree2);give(field.input,"disabled",isFree2);const stated=pose.tolerance?.[key],bound=typeof stated==="number"?stated:void 0;field.
-turnTo(k,bound);field.show(bound)}give(this.axes,"hidden",!pose.tolerance);give(this.axes,"value",pose.tolerance?.axes??"fixed");give(this.up,"disabled",k===0);
-give(this.down,"disabled",k===poses.length-1)}};var LONGEST_NAME3=22;var ABOVE=10;var HATCH2=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table:table3,key}){
+"").replace(/[\r\n\u2028\u2029]+/g," ");var PoseTable=class{exact;crank;weight;bounds;crankLine;constructor(store,scene){this.store=store;this.scene=scene;this.
+page=0;this.rows=[];this.body=h("tbody",{});this.unit=h("span",{class:"bs-unit"});this.pages=h("div",{class:"bs-pages",hidden:true});this.details=h("div",{class:"\
+bs-details","data-details":"pose"});this.hint=h("p",{class:"bs-hint"},"A blank angle is free: then the row is a point, which the body passes at any angle.");this.
+table=h("table",{class:"bs-poses","aria-label":"Poses"},h("thead",{},h("tr",{},h("th",{scope:"col"},"#"),h("th",{scope:"col"},"name"),h("th",{scope:"col"},"x"),
+h("th",{scope:"col"},"y"),h("th",{scope:"col"},"angle °"))),this.body);const add=button("Add a pose",()=>this.add(),{"data-do":"add-pose-row"});this.element=h(
+"div",{class:"bs-table-box"},this.table,this.pages,h("div",{class:"bs-row"},add,this.unit),this.hint,this.details);this.makeDetails();this.pace=new Pace(()=>this.
+draw());store.on("document selection",()=>scene.dragged?this.pace.ask():this.draw());scene.on("dropped",()=>this.pace.catchUp());this.draw()}get selected(){const{
+selection,document:document2}=this.store;return selection?.kind==="pose"&&selection.index<document2.poses.length?selection.index:null}draw(){const{document:document2}=this.
+store,count=document2.poses.length,pages=Math.max(1,Math.ceil(count/PAGE));if(this.selected!==null&&this.selected!==this.shownSelection)this.page=Math.floor(this.
+selected/PAGE);this.shownSelection=this.selected;this.page=Math.min(this.page,pages-1);const first=this.page*PAGE,shown2=Math.min(PAGE,count-first);while(this.rows.
+length<shown2)this.rows.push(this.makeRow(this.rows.length));while(this.body.children.length>shown2)this.body.lastChild.remove();for(let k=0;k<shown2;k+=1){if(!this.
+rows[k].tr.isConnected||this.body.children[k]!==this.rows[k].tr)this.body.append(this.rows[k].tr);this.showRow(this.rows[k],first+k)}say(this.unit,document2.length_unit?
+`x and y in ${document2.length_unit}`:"");this.showPages(pages,count);this.showDetails()}makeRow(place){const row={index:place,fields:{}};const change=changes=>this.
+store.edit(document2=>setPose(document2,row.index,changes));row.number=h("button",{type:"button",class:"bs-index",onclick:()=>this.store.select(row.index===this.
+selected?null:{kind:"pose",index:row.index})});row.name=textField("Name",text=>change({name:text.trim()||void 0}),{class:"bs-text bs-name",placeholder:"–"});const cells2=NUMBERS2.
+map(([key,kind])=>{const field=new NumberField({label:key,options:()=>({kind,unit:this.store.document.length_unit,optional:key==="angle"||this.isFree(row.index,
+key)}),step:()=>kind==="angle"?1:this.scene.step,commit:value=>key==="angle"?this.store.edit(document2=>setAngle(document2,row.index,value)):change({[key]:value}),
+attributes:{"data-key":key}});row.fields[key]=field;return h("td",{},field.element)});row.tr=h("tr",{class:"bs-pose-row"},h("th",{scope:"row"},row.number),h("td",
+{},row.name),cells2);row.tr.addEventListener("focusin",event=>event.target!==row.number&&this.store.select({kind:"pose",index:row.index}));return row}isFree(index,key){
+return isFree(this.store.document.poses[index],key)}showRow(row,index){const pose=this.store.document.poses[index],moved=row.index!==index,selected=index===this.
+selected;row.index=index;if(!isOther(row.tr,[index,pose,selected])&&document.activeElement?.closest("tr")!==row.tr)return;put(row.tr,"data-row",index+1);row.tr.
+classList.toggle("bs-selected",selected);say(row.number,index+1);put(row.number,"aria-label",`Pose ${index+1}`);put(row.number,"aria-pressed",selected);if(moved||
+document.activeElement!==row.name)give(row.name,"value",oneLine(pose.name));put(row.name,"aria-label",`Name of pose ${index+1}`);for(const[key]of NUMBERS2){const{
+input}=row.fields[key],free=this.isFree(index,key);put(input,"aria-label",`${key} of pose ${index+1}`);put(input,"placeholder",free?"free":"");row.fields[key].turnTo(
+index,pose[key]);row.fields[key].show(pose[key])}}showPages(pages,count){give(this.pages,"hidden",pages<2);if(pages<2)return;const go=page=>{this.page=page;this.
+draw()};this.pages.replaceChildren(button("‹",()=>go(Math.max(0,this.page-1)),{"aria-label":"Earlier poses",disabled:this.page===0}),h("span",{},`${this.page*
+PAGE+1}–${Math.min(count,(this.page+1)*PAGE)} of ${count}`),button("›",()=>go(Math.min(pages-1,this.page+1)),{"aria-label":"Later poses",disabled:this.page===
+pages-1}))}add(){const{store,scene}=this,count=store.document.poses.length;const last=count?standing(store.document,count-1):{x:0,y:0,angle:0},ofPoints=isOfPoints(
+store.document);store.edit(document2=>{const more=addPose(document2,count?{...last,x:scene.rounded(last.x+10*scene.step)}:last);return ofPoints?setAngle(more,count,
+void 0):more});store.select({kind:"pose",index:count});const field=this.rows.find(row=>row.index===count&&row.tr.isConnected)?.fields.x.input;field?.focus();field?.
+select()}makeDetails(){const{store}=this;const at=()=>this.selected;const edit=change=>store.edit(document2=>change(document2,at()));this.title=h("h3",{class:"b\
+s-pose-title"});this.exact=tick("met exactly",on=>edit((document2,k)=>setPose(document2,k,{exact:on||void 0})),{"data-key":"exact"});this.weight=new NumberField(
+{label:"weight",options:()=>({optional:true,above:0}),commit:value=>edit((document2,k)=>setPose(document2,k,{weight:value})),attributes:{"data-key":"weight",placeholder:"\
+1"}});this.bounds=BOUNDS.map(([component2,key,kind])=>{const field=new NumberField({label:`tolerance of ${component2}`,options:()=>({kind,unit:store.document.length_unit,
+optional:true,least:0}),step:()=>kind==="angle"?1:this.scene.step,commit:value=>edit((document2,k)=>setTolerance(document2,k,key,value)),attributes:{"data-key":`\
+tolerance-${component2}`,placeholder:"–"}});const turned=(document2,k,on)=>setAngle(document2,k,on?void 0:standing(document2,k).angle);const free=tick("free",
+on=>edit((document2,k)=>component2==="angle"?turned(document2,k,on):setFree(document2,k,component2,on)),{"data-key":`free-${component2}`,"aria-label":`${component2}\
+ is free`});return{component:component2,key,field,free}});this.axes=choice("Axes of the tolerance",[["fixed","along the axes of the ground"],["body","along the \
+axes of the body"]],value=>edit((document2,k)=>setTolerance(document2,k,"axes",value==="body"?value:void 0)),{"data-key":"tolerance-axes"});const act2=(text,name,change,then)=>button(
+text,()=>{const k=at();edit(change);store.select(then(k)===null?null:{kind:"pose",index:then(k)})},{"data-do":name});const last=()=>store.document.poses.length-
+1;this.up=act2("Earlier","earlier",(document2,k)=>movePose(document2,k,k-1),k=>k-1);this.down=act2("Later","later",(document2,k)=>movePose(document2,k,k+1),k=>k+
+1);this.crank=new NumberField({label:"crank angle",options:()=>({kind:"angle"}),step:()=>1,commit:value=>edit((document2,k)=>setCrank(document2,k,value)),attributes:{
+"data-key":"crank"}});this.crankLine=labelled("crank angle °",this.crank.element);this.details.append(this.title,this.crankLine,h("div",{class:"bs-row"},this.exact.
+element,labelled("weight",this.weight.element)),h("p",{class:"bs-hint"},"Tolerance: how far from it the body may be, to either side"),h("table",{class:"bs-toler\
+ances","aria-label":"Tolerance"},h("tbody",{},this.bounds.map(({component:component2,field,free})=>h("tr",{},h("th",{scope:"row"},component2==="angle"?"angle °":
+component2),h("td",{},field.element),h("td",{},free.element))))),this.axes,h("div",{class:"bs-row"},this.up,this.down,act2("Duplicate","duplicate",duplicatePose,
+k=>k+1),act2("Delete","delete-pose",removePose,k=>last()<0?null:Math.min(k,last()))))}showDetails(){const k=this.selected;give(this.details,"hidden",k===null);if(k===
+null)return;const{poses}=this.store.document,pose=poses[k];if(!isOther(this.details,[k,pose,poses.length,this.store.document.path])&&!this.details.contains(document.
+activeElement))return;const turned=this.store.document.path?.crank_deg?.[k];give(this.crankLine,"hidden",turned===void 0);this.crank.turnTo(k,turned);this.crank.
+show(turned);this.title.replaceChildren(`${isPoint(pose)?"Point":"Pose"} ${k+1}`,...pose.name?[": ",h("bdi",{},oneLine(pose.name))]:[]);give(this.exact.box,"che\
+cked",Boolean(pose.exact));this.weight.turnTo(k,pose.weight);this.weight.show(pose.weight);for(const{component:component2,key,field,free}of this.bounds){const isFree2=this.
+isFree(k,component2)||pose.tolerance?.[component2]==="free";give(free.box,"checked",isFree2);give(field.input,"disabled",isFree2);const stated=pose.tolerance?.[key],
+bound=typeof stated==="number"?stated:void 0;field.turnTo(k,bound);field.show(bound)}give(this.axes,"hidden",!pose.tolerance);give(this.axes,"value",pose.tolerance?.
+axes??"fixed");give(this.up,"disabled",k===0);give(this.down,"disabled",k===poses.length-1)}};var LONGEST_NAME3=22;var ABOVE=10;var HATCH2=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table:table3,key}){
 return`${PIVOT2[key]}${limitsOf(document2).length>1?` of dyad ${table3+1}`:""}`}function regionShape(region){if(region.box)return{shape:"box",points:region.box};
-return region.polygon?{shape:"polygon",points:region.polygon}:null}var Regions=class{constructor(store,scene){this.store=store;this.scene=scene;this.shapes=new Map;
-scene.layer("regions").append(s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH2,height:HATCH2,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("\
-path",{class:"bm-hatch",d:`M0 0V${HATCH2}`}))));this.regions=new Kept(s("g"),(key,k)=>this.makeRegion(k),element=>this.shapes.get(element).draw());this.footprint=
-new Kept(s("g"),()=>this.makeFootprint(),element=>this.shapes.get(element).draw());this.limits=new Kept(s("g"),(key,limit)=>this.makeLimit(limit),element=>this.
+return region.polygon?{shape:"polygon",points:region.polygon}:null}var Regions=class{onjudged;constructor(store,scene){this.store=store;this.scene=scene;this.shapes=
+new Map;scene.layer("regions").append(s("defs",{},s("pattern",{id:"bs-hatch",width:HATCH2,height:HATCH2,patternUnits:"userSpaceOnUse",patternTransform:"rotate(4\
+5)"},s("path",{class:"bm-hatch",d:`M0 0V${HATCH2}`}))));this.regions=new Kept(s("g"),(key,k)=>this.makeRegion(k),element=>this.shapes.get(element).draw());this.
+footprint=new Kept(s("g"),()=>this.makeFootprint(),element=>this.shapes.get(element).draw());this.limits=new Kept(s("g"),(key,limit)=>this.makeLimit(limit),element=>this.
 shapes.get(element).draw());this.names=new Kept(s("g",{class:"bs-region-names","aria-hidden":"true"}),()=>s("text",{}),(text,name)=>this.showName(text,name));scene.
 layer("regions").append(this.regions.group,this.footprint.group);scene.layer("limits").append(this.limits.group);scene.layer("labels").append(this.names.group);
 store.on("document",()=>this.judge(store.state==="dragging"&&!this.isOther()));store.on("selection",()=>this.draw());store.on("solved followed chosen placed",()=>this.
@@ -739,42 +758,40 @@ this.scene,{shape,name:`footprint ${shape}`,place:()=>GROUND,done:points=>{store
 {kind:"footprint",index:0})}})}};function middle(points){const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){const[x,y,u,v]=bounds(
 points);return[(x+u)/2,upper?v:y]}function widthOf(points){const[x,,u]=bounds(points);return Number.isFinite(u-x)?u-x:0}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of root.querySelectorAll("details:not([open])")){part.open=true;part.
 dataset.opened=""}},{signal});window.addEventListener("afterprint",()=>{for(const part of root.querySelectorAll("details[data-opened]")){part.open=false;delete part.
-dataset.opened}},{signal})}var Events=class{on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
+dataset.opened}},{signal})}var Events=class{heard;on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
 for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME4=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],scene:1,unit:null,dyads:[],
-linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,asked_transmission_deg:null,
-best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;this.data={...NOTHING};this.linkages=[];this.gone=
-[];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());store.on("document",()=>this.takePoses());
-store.on("chosen",()=>this.emit("shown"));store.on("placed",()=>this.takePlaced());this.takePoses();if(store.solved)this.takeSolved()}get shown(){return this.get(
-this.store.chosen)??(this.store.chosen===PLACED?void 0:this.linkages[0])}get(id){return id===PLACED?this.placed??void 0:this.byId.get(id)}get isOld(){return this.
-store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,isPath:isPath(this.store.document),...surroundingsOf(
-this.store.document,this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,before=this.linkages.filter(each=>!each.gone);const{
-renamed:names,moved}=this.store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{poses,body,keep_out,...rest}=solved;Object.assign(this.
-data,{body,keep_out,...rest,poses:posesOf(document2)});this.gone=this.store.isEmpty||this.store.isAnother?[]:before.filter(each=>!names.has(each.id)).map(each=>each.
-id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.get(fresh.id),now=kept??{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&
-kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];Object.assign(now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??
-0,isNew:this.known&&!this.store.isAnother&&!stood,followed:false,gone:null,change:null});this.byId.set(now.id,now);return now});this.known=!this.store.isEmpty;this.
-emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.linkages){let now=this.byId.get(each.id);if(now&&each.fresh===
-false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.
-vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}for(const{id,kind,message}of frame.changes??[]){const now=this.byId.
-get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.
-store.placed?.linkage,{cognateOf}=this.store.placed??{},called=cognateOf?`Cognate of ${cognateOf}`:"By hand";const before=this.placed;this.placed=placed?Object.
-assign(before??{},figured(renamed(linked(placed))),{id:PLACED,called,gone:null,followed:false}):null;this.emit("placed");if(this.store.chosen===PLACED)this.emit(
-before&&placed?"moved":"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({...row,at:row.way===null?null:linkage.ways[row.way]}))});
-var figured=linkage=>Object.assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.range});function renamed(linkage){const names=new Map(
-linkage.dyads.map((dyad,k)=>[dyad.id,`P${k+1}`]));const named=dyad=>({...dyad,id:names.get(dyad.id)??dyad.id});const dimensions=linkage.said.dimensions.map(row=>({
-...row,dyad:names.get(row.dyad)??row.dyad}));return{...linkage,dyads:linkage.dyads.map(named),led:linkage.led.map(named),said:{...linkage.said,dimensions}}}function posesOf({
-poses=[]}){const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME4);return poses.map((pose,k)=>({...pose,
-angle_deg:isPoint(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.isArray(document2.body)?
-document2.body:document2.body===void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=each.worst;now.least=each.
-transmission_deg;now.reason=each.reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=now.ways??[];return}now.
-ways=each.ways;now.pose_errors=each.pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"-",turned:"-",transmission:"\
--"}:{position:row.position<FOLLOWED*data.scene?"exact":figure(row.position),turned:row.turned_deg<EXACT_TURN?"exact":`${figure(row.turned_deg)}°`,transmission:row.
-transmission_deg===null?"-":`${fixed(row.transmission_deg,1)}°`}}))}var appeared=each=>({id:each.id,type:each.type??"linkage",rank:Infinity,dyads:each.led,ways:[],
-pose_errors:[],isNew:true,followed:true,said:{met:"",in_short:each.reason??"",reasons:[],quality:{},dimensions:[],notes:[],links:null,manifolds:[[],[]],turns_fully:false,
-freedom:null,worst:"–",angle:"–",rms:"–",rms_angle:"–",transmission:"-"},space:null,shortcomings:[],defects:[],unmet:[]});function worstOf(linkage,data){
-if(linkage.worst===null||linkage.worst===void 0)return"–";if(!linkage.followed)return linkage.said.worst==="-"?"–":linkage.said.worst==="exact"?"exact":`${linkage.
-said.worst}${data.unit?` ${data.unit}`:""}`;return linkage.worst<FOLLOWED*data.scene?"exact":`${figure(linkage.worst)}${data.unit?` ${data.unit}`:""}`}function pathErrorOf(linkage,data){
-const{rms}=linkage.said,worst=worstOf(linkage,data);return linkage.followed||!rms||rms==="-"||rms==="exact"?worst:`${rms} rms, ${worst} at most`}function leastOf(linkage){
+linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,transmission_limit:{
+deg:40,said:"40°, a usual limit"},keys:[],table:null,best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;
+this.data={...NOTHING};this.linkages=[];this.gone=[];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());
+store.on("document",()=>this.takePoses());store.on("chosen",()=>this.emit("shown"));store.on("placed",()=>this.takePlaced());this.takePoses();if(store.solved)this.
+takeSolved()}get shown(){return this.get(this.store.chosen)??(this.store.chosen===PLACED?void 0:this.linkages[0])}get(id){return id===PLACED?this.placed??void 0:
+this.byId.get(id)}get isOld(){return this.store.solvedFor!==this.store.document}takePoses(){const poses=posesOf(this.store.document);Object.assign(this.data,{poses,
+isPath:isPath(this.store.document),...surroundingsOf(this.store.document,this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,
+before=this.linkages.filter(each=>!each.gone);const{renamed:names,moved}=this.store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{
+poses,body,keep_out,...rest}=solved;Object.assign(this.data,{body,keep_out,...rest,poses:posesOf(document2)});this.gone=this.store.isEmpty||this.store.isAnother?
+[]:before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.get(fresh.id),now=kept??
+{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];Object.assign(now,
+figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!this.store.isAnother&&!stood,followed:false,gone:null,change:null});this.byId.
+set(now.id,now);return now});this.known=!this.store.isEmpty;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.
+linkages){let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.
+hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}
+for(const{id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.
+emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.placed?.linkage,{cognateOf}=this.store.placed??{},called=cognateOf?`Cognate of ${cognateOf}`:
+"By hand";const before=this.placed;this.placed=placed?Object.assign(before??{},figured(linked(placed)),{id:PLACED,called,gone:null,followed:false}):null;this.emit(
+"placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({
+...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.
+range});function posesOf({poses=[]}){const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME4);return poses.
+map((pose,k)=>({...pose,angle_deg:isPoint(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.
+isArray(document2.body)?document2.body:document2.body===void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=
+each.worst;now.least=each.transmission_deg;now.reason=each.reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=
+now.ways??[];return}now.ways=each.ways;now.pose_errors=each.pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"\
+-",turned:"-",transmission:"-"}:{position:row.position<FOLLOWED*data.scene?"exact":figure(row.position),turned:row.turned_deg<EXACT_TURN?"exact":`${figure(row.turned_deg)}\
+°`,transmission:row.transmission_deg===null?"-":`${fixed(row.transmission_deg,1)}°`}}))}var appeared=each=>({id:each.id,type:each.type??"linkage",rank:Infinity,
+dyads:each.led,ways:[],pose_errors:[],isNew:true,followed:true,said:{met:"",story:"",facts:[],reasons:[],quality:{},dimensions:[],notes:[],links:null,manifolds:[
+[],[]],worst:"–",rms:"–",transmission:"-"},space:null,shortcomings:[],defects:[],unmet:[]});function worstOf(linkage,data){if(linkage.worst===null||linkage.
+worst===void 0)return"–";if(!linkage.followed)return linkage.said.worst==="-"?"–":linkage.said.worst==="exact"?"exact":`${linkage.said.worst}${data.unit?` ${data.
+unit}`:""}`;return linkage.worst<FOLLOWED*data.scene?"exact":`${figure(linkage.worst)}${data.unit?` ${data.unit}`:""}`}function pathErrorOf(linkage,data){const{
+rms}=linkage.said,worst=worstOf(linkage,data);return linkage.followed||!rms||rms==="-"||rms==="exact"?worst:`${rms} rms, ${worst} at most`}function leastOf(linkage){
 if(!linkage.followed)return linkage.said.transmission==="-"?"–":linkage.said.transmission;return linkage.least===null||linkage.least===void 0?"–":`${Math.floor(
 10*linkage.least+1e-6)/10}°`}function dimensionsOf(linkage,data){const digits=decimalsOf(data),point2=p=>`(${p.map(value=>fixed(value,digits)).join(", ")})`;return linkage.
 led.flatMap(dyad=>[...dyad.fixed_pivot?[{dyad:dyad.id,what:"fixed pivot in F",value:point2(dyad.fixed_pivot)}]:[],...dyad.moving_pivot?[{dyad:dyad.id,what:"movi\
@@ -792,173 +809,188 @@ if(driver.kind==="RP"&&follower.kind==="RP")return 90;if(follower.kind==="RP"){c
 slot(follower),[x-pin[0],y-pin[1]])}const end=act(place,follower.moving_pivot);const lever=follower.kind==="PR"?normalOf(follower):[end[0]-follower.fixed_pivot[0],
 end[1]-follower.fixed_pivot[1]];if(driver.kind==="RP")return between(slot(driver),lever);const start=act(place,driver.moving_pivot);return between([end[0]-start[0],
 end[1]-start[1]],lever)}var between=(a,b)=>Math.atan2(Math.abs(a[0]*b[1]-a[1]*b[0]),Math.abs(a[0]*b[0]+a[1]*b[1]))*180/Math.PI;var Labels=class{constructor(view){this.view=view;this.taken=[]}block(x,y,width,height){this.taken.push([x-width/2,y-height/2,x+width/2,y+height/2])}put(x,y,text,distance,attributes){
-const width=7.2*text.length+4,height=14;let best=null;for(let ring=0;ring<3;ring+=1){for(let k=0;k<16;k+=1){const angle=Math.PI/8*k+Math.PI/4;const away=distance+
-9*ring;const cx=x+(away+width/2-6)*Math.cos(angle);const cy=y-away*Math.sin(angle);const box=[cx-width/2,cy-height/2,cx+width/2,cy+height/2];let cost=.02*k+6*ring;
-for(const other of this.taken){const across=Math.min(box[2],other[2])-Math.max(box[0],other[0]);const down=Math.min(box[3],other[3])-Math.max(box[1],other[1]);if(across>
-0&&down>0)cost+=across*down}if(box[0]<2||box[2]>this.view.width-2)cost+=500;if(box[1]<2||box[3]>this.view.height-2)cost+=500;if(!best||cost<best.cost)best={cost,
-cx,cy,box}}}this.taken.push(best.box);return s("text",{x:px(best.cx),y:px(best.cy+4),"text-anchor":"middle",...attributes},text)}};var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
+const width=7.2*text.length+4,height=14;let best={cost:Infinity,cx:0,cy:0,box:[0,0,0,0]};for(let ring=0;ring<3;ring+=1){for(let k=0;k<16;k+=1){const angle=Math.
+PI/8*k+Math.PI/4;const away=distance+9*ring;const cx=x+(away+width/2-6)*Math.cos(angle);const cy=y-away*Math.sin(angle);const box=[cx-width/2,cy-height/2,cx+width/
+2,cy+height/2];let cost=.02*k+6*ring;for(const other of this.taken){const across=Math.min(box[2],other[2])-Math.max(box[0],other[0]);const down=Math.min(box[3],
+other[3])-Math.max(box[1],other[1]);if(across>0&&down>0)cost+=across*down}if(box[0]<2||box[2]>this.view.width-2)cost+=500;if(box[1]<2||box[3]>this.view.height-2)
+cost+=500;if(cost<best.cost)best={cost,cx,cy,box}}}this.taken.push(best.box);return s("text",{x:px(best.cx),y:px(best.cy+4),"text-anchor":"middle",...attributes},
+text)}};var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
 2+1;const[x,y]=(at=>[view.X(at[0]),view.Y(at[1])])(pointOnLine(dyad,(low+high)/2));const bodySide=places.reduce((sum,place)=>sum+nx*place.x+ny*place.y-dyad.line.
 offset,0);const turned=Math.atan2(nx,-ny)+(bodySide>0?Math.PI:0);const drawn=Math.min(half,LONGEST);let hatch="";for(let k=-drawn+4;k<drawn-2;k+=8)hatch+=`M${px(
-k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(row=>row.position??0));if(!(worst>1e-9*data.
-scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*data.scene);return fits.length?fits[fits.length-1]:1}var standing2=(dyad,places)=>dyad.
-fixed_pivot??(dyad.kind==="PR"&&places.length?pointOnLine(dyad,travelOf(dyad,places).reduce((a,b)=>(a+b)/2)):null);var Plane=class{constructor(data,parent){this.data=data;this.svg=s("svg",{class:"bm-plane",role:"img",tabindex:"0"});this.parent=parent;parent.append(this.svg)}build(linkage,way,stretch,{
-factor,fill,far}){const{data,svg}=this,path2=linkage?.ways[way];this.linkage=linkage;this.way=way;this.places=path2?this.placesOf(path2,stretch):[];const bare=this.
-bounds(far);const width=Math.max(260,this.parent.clientWidth);const box=widened(bare,data,linkage,this.places,width,far);this.cut=!far&&widened(bare,data,linkage,
-this.places,width,true).some((each,k)=>each!==box[k]);const shape=(box[3]-box[1])/(box[2]-box[0]);const own=clamp(width*clamp(shape,.45,1),260,clamp(.62*window.
-innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(box,width,height,width<500?34:42);this.view=view;svg.setAttribute(
-"viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;svg.dataset.left=view.left;svg.dataset.top=view.top;svg.replaceChildren();
-svg.append(this.grid(),keepOut(data,view),this.ghosts());svg.append(...[this.wantedPath(),linkage?this.paths():null].filter(Boolean));const labels=new Labels(view);
-this.names=s("g",{class:"bm-names"},keepOutNames(data,view,labels));if(linkage)svg.append(this.ground(labels));for(const pose of data.poses){const x=view.X(pose.
-x),y=view.Y(pose.y),angle=radians(pose.angle_deg);const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(x,y,12,12);if(isPoint2(pose))continue;for(const share of[
-.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-.6*share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?this.
-mechanism():null;if(this.moving)svg.append(this.moving.group);if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}placesOf(way,stretch){return placesOf(
-this.data,this.linkage,way,stretch)}bounds(far){return boundsOf(this.data,this.linkage,this.places,far)}ghosts(){return ghosts(this.data,this.linkage,this.view)}mechanism(){
-return mechanism(this.data,this.linkage,this.view,this.places)}grid(){const{view}=this,group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.
-unit?` ${this.data.unit}`:"";const across=ticks(-view.left/view.scale,(view.width-view.left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/view.
-scale,view.top/view.scale,view.height/80);for(const{at,text}of across){const x=px(view.X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.
-width-(unit2?54:30)){group.append(s("text",{x,y:view.height-6,"text-anchor":"middle"},text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(s("pa\
-th",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-24)group.append(s("text",{x:6,y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.
-width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));return group}paths(){const{view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.ways.forEach(
-(way,k)=>{const same=way.circuit===linkage.ways[this.way]?.circuit;const kind=k===this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=this.placesOf(way,{
-low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,y})=>[x,y]),view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const{side,points}of this.
-pivotPaths()){group.append(s("path",{class:`bm-pivot-path bm-side${side}`,d:polyline(points,view)}))}const d=polyline(places.map(({x,y})=>[x,y]),view);group.append(
-s("path",{class:"bm-curve bm-here",d}));return group}pivotPaths(){const drawn=[...this.linkage.led.entries()].filter(([,dyad])=>dyad.moving_pivot&&dyad.kind!=="\
-PR");return drawn.map(([side,dyad])=>({side,points:this.places.map(place=>act(place,dyad.moving_pivot))}))}ground(labels){const group=s("g",{class:"bm-grounds"});
-this.linkage.led.forEach((dyad,side)=>{if(dyad.kind==="PR")this.rail(group,labels,dyad,side);else if(dyad.fixed_pivot)this.fixedPivot(group,labels,dyad,side)});
-return group}rail(group,labels,dyad,side){if(!this.places.length)return;const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);
-group.append(s("g",{class:`bm-rail bm-side${side}`,"data-dyad":dyad.id,transform:transform(x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"\
-bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=14)labels.block(x-k*ny,y-k*nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name \
-bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.view.X(dyad.fixed_pivot[0]),y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)
-labels.block(x,y,40,40);const at=foot();at.setAttribute("transform",`translate(${px(x)} ${px(y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.id,
-27,{class:`bm-name bm-side${side}`}))}farPivots(labels){const{data,view}=this,isFar=farFrom(data),digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{
-const at=standing2(dyad,this.places);if(!at||!isFar(at))return;const[x,y]=[view.X(at[0]),view.Y(at[1])];const cx=view.width/2,cy=view.height/2,size2=Math.hypot(
-x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.min((cx-12)/Math.abs(u),(cy-12)/Math.abs(v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.
-id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(each,digits)).join(", ")})`;labels.block(ex,ey,20,20);this.names.append(s("path",{class:`\
-bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(ex,ey,Math.atan2(-v,u))}),labels.put(ex,ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}wantedPath(){
-const{data,view}=this;if(!data.path)return null;const points=data.poses.map(({x,y})=>[x,y]);return s("path",{class:"bm-wanted-path",d:`${polyline(points,view)}${data.
-path.closed?"Z":""}`})}poses(linkage,factor,labels){const{data,view}=this,group=s("g",{class:"bm-poses"});const small=data.poses.length>24?.6:1;const arrows=this.
-errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});data.poses.forEach((pose,k)=>{const x=view.X(pose.x),y=view.Y(pose.y);group.append(s("g",
-{class:"bm-wanted",transform:transform(x,y,isPoint2(pose)?0:radians(pose.angle_deg)),"data-pose":k+1},isPoint2(pose)?null:s("path",{d:axes(AXIS*small)}),s("circ\
-le",{r:4.5*small})));if(data.poses.length<=60&&isNamed(data,k))names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===
-null)return;const elsewhere=row.way===this.way?"":" bm-elsewhere";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.
-y),radians(row.angle_deg))},isPoint2(pose)?null:s("path",{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){
-const{data,view}=this,arrows=s("g",{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.
-poses[k],x=view.X(pose.x),y=view.Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<
-1.5)return;const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(
-y+dy-head*(uy+sign*.5*ux))}`;arrows.append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(
-x+share*dx,y+share*dy,8,8)});return arrows}show(place){this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
+k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var BESIDE_PIVOT=[16,28,40];var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(row=>row.position??
+0));if(!(worst>1e-9*data.scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*data.scene);return fits.length?fits[fits.length-1]:1}var standing2=(dyad,places)=>dyad.
+fixed_pivot??(dyad.kind==="PR"&&places.length?pointOnLine(dyad,travelOf(dyad,places).reduce((a,b)=>(a+b)/2)):null);var Plane=class{view;places;linkage;constructor(data,parent){this.data=data;this.svg=s("svg",{class:"bm-plane",role:"img",tabindex:"0"});this.parent=parent;parent.
+append(this.svg)}build(linkage,way,stretch,{factor,fill,far}){const{data,svg}=this,path2=linkage?.ways[way];this.linkage=linkage;this.way=way;this.places=path2?
+placesOf(data,linkage,path2,stretch):[];const bare=boundsOf(data,linkage,this.places,far);const width=Math.max(260,this.parent.clientWidth);const box=widened(bare,
+data,linkage,this.places,width,far);this.cut=!far&&widened(bare,data,linkage,this.places,width,true).some((each,k)=>each!==box[k]);const shape=(box[3]-box[1])/(box[2]-
+box[0]);const own=clamp(width*clamp(shape,.45,1),260,clamp(.62*window.innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(
+box,width,height,width<500?34:42);this.view=view;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;
+svg.dataset.left=view.left;svg.dataset.top=view.top;svg.replaceChildren();svg.append(this.grid(),keepOut(data,view),ghosts(data,linkage,view));svg.append(...[this.
+wantedPath(),linkage?this.paths():null].filter(Boolean));const labels=new Labels(view);this.names=s("g",{class:"bm-names"},keepOutNames(data,view,labels));if(linkage)
+svg.append(this.ground(labels));for(const pose of data.poses){const x=view.X(pose.x),y=view.Y(pose.y),angle=radians(pose.angle_deg);const c=AXIS*Math.cos(angle),
+d=AXIS*Math.sin(angle);labels.block(x,y,12,12);if(isPoint2(pose))continue;for(const share of[.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-.6*
+share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?mechanism(data,linkage,view,this.places):null;if(this.moving)svg.append(
+this.moving.group);if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}grid(){const{view}=this,group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.
+data.unit?` ${this.data.unit}`:"";const across=ticks(-view.left/view.scale,(view.width-view.left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/
+view.scale,view.top/view.scale,view.height/80);for(const{at,text}of across){const x=px(view.X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&
+x<view.width-(unit2?54:30)){group.append(s("text",{x,y:view.height-6,"text-anchor":"middle"},text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(
+s("path",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-24)group.append(s("text",{x:6,y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",
+{x:view.width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));return group}paths(){const{view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.
+ways.forEach((way,k)=>{const same=way.circuit===linkage.ways[this.way]?.circuit;const kind=k===this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=placesOf(
+this.data,linkage,way,{low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,y})=>[x,y]),view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const{
+side,points}of this.pivotPaths()){group.append(s("path",{class:`bm-pivot-path bm-side${side}`,d:polyline(points,view)}))}const d=polyline(places.map(({x,y})=>[x,
+y]),view);group.append(s("path",{class:"bm-curve bm-here",d}));return group}pivotPaths(){const{places,linkage}=this;if(linkage.traced)return[...linkage.traced].
+map(joint=>({side:"-inner",points:places.map(place=>place.joints[joint])}));const drawn=[...linkage.led.entries()].filter(([,dyad])=>dyad.moving_pivot&&dyad.kind!==
+"PR");return drawn.map(([side,dyad])=>({side,points:places.map(place=>act(place,dyad.moving_pivot))}))}ground(labels){const group=s("g",{class:"bm-grounds"});this.
+keepCranksFree(labels);this.linkage.led.forEach((dyad,k)=>{const side=Math.min(k,1);if(dyad.kind==="PR")this.rail(group,labels,dyad,side);else if(dyad.fixed_pivot)
+this.fixedPivot(group,labels,dyad,side)});return group}keepCranksFree(labels){const{view,places,linkage}=this,every=Math.ceil(places.length/9);const arms=(linkage.
+drawn??[]).flatMap(({joints})=>[...joints].filter(joint=>joint in linkage.ground).flatMap(pivot=>[...joints].map(end=>[pivot,end])));for(const{joints}of places.
+filter((_,k)=>k%every===0)){for(const[pivot,end]of arms){const[[x,y],[u,v]]=[joints[pivot],joints[end]].map(at=>[view.X(at[0]),view.Y(at[1])]),size2=Math.hypot(
+u-x,v-y);if(size2)for(const along2 of BESIDE_PIVOT)labels.block(x+along2*(u-x)/size2,y+along2*(v-y)/size2,12,12)}}}rail(group,labels,dyad,side){if(!this.places.
+length)return;const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,"data-d\
+yad":dyad.id,transform:transform(x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=
+14)labels.block(x-k*ny,y-k*nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.
+view.X(dyad.fixed_pivot[0]),y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute("tran\
+sform",`translate(${px(x)} ${px(y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.name??dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){
+const{data,view}=this,isFar=farFrom(data),digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);if(!at||!isFar(at))
+return;const[x,y]=[view.X(at[0]),view.Y(at[1])];const cx=view.width/2,cy=view.height/2,size2=Math.hypot(x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.
+min((cx-12)/Math.abs(u),(cy-12)/Math.abs(v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.name??dyad.id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.
+map(each=>fixed(each,digits)).join(", ")})`;labels.block(ex,ey,20,20);this.names.append(s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(
+ex,ey,Math.atan2(-v,u))}),labels.put(ex,ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}wantedPath(){const{data,view}=this;if(!data.path)return null;
+const points=data.poses.map(({x,y})=>[x,y]);return s("path",{class:"bm-wanted-path",d:`${polyline(points,view)}${data.path.closed?"Z":""}`})}poses(linkage,factor,labels){
+const{data,view}=this,group=s("g",{class:"bm-poses"});const small=data.poses.length>24?.6:1;const arrows=this.errors(linkage,factor,labels);const names=s("g",{class:"\
+bm-pose-names"});data.poses.forEach((pose,k)=>{const x=view.X(pose.x),y=view.Y(pose.y);group.append(s("g",{class:"bm-wanted",transform:transform(x,y,isPoint2(pose)?
+0:radians(pose.angle_deg)),"data-pose":k+1},isPoint2(pose)?null:s("path",{d:axes(AXIS*small)}),s("circle",{r:4.5*small})));if(data.poses.length<=60&&isNamed(data,
+k))names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===null)return;const elsewhere=row.way===this.way?"":" bm-else\
+where";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg))},isPoint2(pose)?null:s("path",
+{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){const{data,view}=this,arrows=s("g",
+{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.x),y=view.
+Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.min(7,
+.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;arrows.
+append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});return arrows}show(place){
+this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
-p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,
-factor:0});this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"bm-curve bm-here"});this.
-pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.others,this.beyond,...this.
-pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(side=>s("g",{class:`bm-rail\
- bm-side${side}`},s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.arrows=s("path",{});this.
-names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"bs-mechanism"},...this.rails,
-...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer("paths").append(this.paths);
-scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("shape",()=>this.shape());playing.
-on("place",({place})=>this.mechanism?.show(place));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.redraw()}points(){const{linkage}=this.
-playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<3*data.scene;const pins=linkage.led.flatMap(
-dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.led.filter(dyad=>dyad.moving_pivot).
-map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving].filter(near2)}obstacles(){const{playing:{linkage},scene:{
-view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){
-const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(
-data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)
-this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;const there=Boolean(linkage)&&
-!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;const places=path2?framesOf(
-path2):[];this.enlarge();this.curves(linkage,path2,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){this.mechanism?.group.remove();
-this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.
-group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.
-map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",others.map(way=>pathOf2(way,
-view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];if(!path2||!dyad.moving_pivot||
-dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(this.here,"d","");return}const{
-low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,path2,u,length));list.push(
-end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&high-low>path2.x.length-
-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];
-const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",
-slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(
-x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),
-view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){
-const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>
-count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<
-count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*
-small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group.children[0],"display",
-data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm\
--elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.
-from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
-const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";
-const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*
-.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){this.answers=answers;this.playing=playing;
+this.scene=scene;this.factor=0;this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"b\
+m-curve bm-here"});this.pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.
+others,this.beyond,...this.pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(
+side=>s("g",{class:`bm-rail bm-side${side}`},s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.
+arrows=s("path",{});this.names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"\
+bs-mechanism"},...this.rails,...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer(
+"paths").append(this.paths);scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("s\
+hape",()=>this.shape());playing.on("place",({place})=>this.mechanism?.show(place));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.
+redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<
+3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.
+led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving].filter(near2)}obstacles(){
+const{playing:{linkage},scene:{view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.
+X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<
+UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();
+if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;
+const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;
+const places=path2?framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){
+this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);
+this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(
+element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",
+others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];
+if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(
+this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,
+path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&
+high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],
+this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(
+name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"trans\
+form",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(
+dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.
+id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>
+24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("pat\
+h",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.
+size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,
+"display","inline");put(group.children[0],"display",data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),
+radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.
+factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.
+x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.
+x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)}\
+ ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
 led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
 point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
-[null,point2&&point2[key]]:[point2[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
-if(point2)d+=`${pen}${px(X(point2[0]))} ${px(Y(point2[1]))}`;pen=point2?"L":"M"}return d};var Centrodes=class{constructor(answers,playing,scene){Object.assign(this,
-{answers,playing,scene});this.fixed=s("path",{class:"bs-centrode bs-fixed-centrode"});this.moving=s("path",{class:"bs-centrode bs-moving-centrode"});this.mark=s(
-"g",{class:"bs-instant-centre"},s("circle",{r:5}),s("path",{d:"M-9 0H9M0 -9V9"}));this.rays=s("path",{class:"bs-rays"});this.group=s("g",{class:"bs-centrodes",visibility:"\
-hidden","aria-hidden":"true"},this.fixed,this.moving,this.rays,this.mark);scene.layer("curves").append(this.group);this.box=h("input",{type:"checkbox","data-too\
-l":"centrodes",onchange:()=>this.shape()});this.readout=h("output",{class:"bs-quiet"});this.element=h("div",{class:"bs-tool"},h("label",{},this.box," Instant ce\
-ntre and centrodes")," ",this.readout);playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.show(place));scene.on("view",()=>this.shape())}get on(){
-return this.box.checked&&Boolean(this.playing.path)&&!this.playing.linkage.gone}shape(){put(this.group,"visibility",this.on?"visible":"hidden");if(!this.on){this.
-readout.textContent="";return}const{data}=this.answers,{linkage,path:way}=this.playing,{view}=this.scene;const[pose]=data.poses,both=centrodesOf(linkage,way,data.
-scene,pose?[pose.x,pose.y]:[0,0]);put(this.fixed,"d",path(both.fixed,view.X,view.Y));put(this.moving,"d",path(both.moving,x=>view.scale*x,y=>-view.scale*y));if(this.
-playing.here)this.show(this.playing.here.place)}show(place){if(!this.on)return;const{view}=this.scene,{led}=this.playing.linkage,centre=instantCentre(led,place);
-put(this.moving,"transform",transform(view.X(place.x),view.Y(place.y),place.a));const there=centre&&Math.hypot(centre[0]-place.x,centre[1]-place.y)<FARTHEST*this.
-answers.data.scene;put(this.mark,"visibility",there?"inherit":"hidden");put(this.rays,"visibility",there?"inherit":"hidden");const digits=decimalsOf(this.answers.
+[null,point2&&point2[key]]:[point2?.[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
+if(point2)d+=`${pen}${px(X(point2[0]))} ${px(Y(point2[1]))}`;pen=point2?"L":"M"}return d};var Centrodes=class{constructor(answers,playing,scene){this.answers=answers;
+this.playing=playing;this.scene=scene;this.fixed=s("path",{class:"bs-centrode bs-fixed-centrode"});this.moving=s("path",{class:"bs-centrode bs-moving-centrode"});
+this.mark=s("g",{class:"bs-instant-centre"},s("circle",{r:5}),s("path",{d:"M-9 0H9M0 -9V9"}));this.rays=s("path",{class:"bs-rays"});this.group=s("g",{class:"bs-\
+centrodes",visibility:"hidden","aria-hidden":"true"},this.fixed,this.moving,this.rays,this.mark);scene.layer("curves").append(this.group);this.box=h("input",{type:"\
+checkbox","data-tool":"centrodes",onchange:()=>this.shape()});this.readout=h("output",{class:"bs-quiet"});this.element=h("div",{class:"bs-tool"},h("label",{},this.
+box," Instant centre and centrodes")," ",this.readout);playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.show(place));scene.on("view",()=>this.
+shape())}get on(){return this.box.checked&&Boolean(this.playing.path)&&!this.playing.linkage.gone}shape(){put(this.group,"visibility",this.on?"visible":"hidden");
+if(!this.on){this.readout.textContent="";return}const{data}=this.answers,{linkage,path:way}=this.playing,{view}=this.scene;const[pose]=data.poses,both=centrodesOf(
+linkage,way,data.scene,pose?[pose.x,pose.y]:[0,0]);put(this.fixed,"d",path(both.fixed,view.X,view.Y));put(this.moving,"d",path(both.moving,x=>view.scale*x,y=>-view.
+scale*y));if(this.playing.here)this.show(this.playing.here.place)}show(place){if(!this.on)return;const{view}=this.scene,{led}=this.playing.linkage,centre=instantCentre(
+led,place);put(this.moving,"transform",transform(view.X(place.x),view.Y(place.y),place.a));const there=centre&&Math.hypot(centre[0]-place.x,centre[1]-place.y)<FARTHEST*
+this.answers.data.scene;put(this.mark,"visibility",there?"inherit":"hidden");put(this.rays,"visibility",there?"inherit":"hidden");const digits=decimalsOf(this.answers.
 data),unit2=this.answers.data.unit?` ${this.answers.data.unit}`:"";this.readout.textContent=centre?`at (${centre.map(value=>fixed(value,digits)).join(", ")})${unit2}`:
 "at infinity: the body only shifts";if(!there)return;const[x,y]=[view.X(centre[0]),view.Y(centre[1])];put(this.mark,"transform",`translate(${px(x)} ${px(y)})`);
 const ends=led.filter(dyad=>dyad.fixed_pivot).map(dyad=>`M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);put(this.rays,
-"d",ends.join(""))}};var CognatePanel=class{constructor(store,answers){Object.assign(this,{store,answers,known:null,asking:false});this.story=h("p",{class:"bm-story"});this.cards=h(
-"div",{class:"bs-cognates",role:"group","aria-label":"The linkages of one curve"});this.element=h("div",{class:"bs-cognate-panel"},this.story,this.cards);this.pace=
-new Pace(()=>this.renew(),()=>isSeen(this.element));answers.on("answers shown placed",()=>this.pace.ask());store.on("state document",()=>this.pace.ask());watch(
-this.element,()=>this.pace.ask())}get of(){const{placed,chosen}=this.store;return this.answers.get(chosen===PLACED?placed?.cognateOf:chosen)??(chosen===PLACED?void 0:
-this.answers.shown)}async renew(){const{store,answers}=this,{of}=this;if(!isOfPoints(store.document))return;if(!of||of.gone||answers.isOld)return this.show(of&&
-!of.gone?"The cognates are looked for when the answer is there.":"No linkage is there.");const key=store.solved;if(this.known?.key===key&&this.known.of===of.id)
-return this.show();if(this.asking||!store.connection?.isOpen)return void 0;this.asking=true;try{const answer=await store.connection.ask({do:"cognates",document:store.
-document,linkage:of.id});if(answer.kind==="cognates")this.known={key,of:of.id,linkages:answer.linkages.map(linked)}}catch{}this.asking=false;if(this.known?.key===
-store.solved&&this.known.of===this.of?.id)return this.show();if(store.solved!==key)this.pace.ask();return void 0}show(instead){const{known,of}=this,there=!instead&&
-known&&of;const none=there&&!known.linkages.length;say(this.story,instead??(none?`${of.id} has no cognates: a link of theirs would have no length.`:"By Roberts'\
- theorem these linkages trace the same curve, with the same error. Choose one by its room, its pivots and its transmission."));this.cards.replaceChildren(...there&&
-!none?[of,...known.linkages].map((each,k)=>this.card(each,k)):[]);give(this.cards,"hidden",!there||none);put(this.element,"data-of",there?of.id:null)}card(linkage,k){
-const{store,answers:{data}}=this,{of}=this,digits=decimalsOf(data),unit2=data.unit?` ${data.unit}`:"";const point2=at=>`(${at.map(value=>fixed(value,digits)).join(
-", ")})`,{links}=linkage.said;const chosen=k?store.chosen===PLACED&&store.placed?.linkage?.id===linkage.id:store.chosen===of.id;const facts=[["fixed pivots",linkage.
-led.filter(dyad=>dyad.fixed_pivot).map(dyad=>point2(dyad.fixed_pivot)).join(" and ")],...links?[["links",`${Object.entries(links).map(([name,value])=>`${name} ${value}`).
-join(", ")}${unit2}`]]:[],["transmission",leastOf(linkage)==="–"?"–":`${leastOf(linkage)} or more`],["size",linkage.said.quality.extent??"–"]];return h("a\
-rticle",{class:`bs-card bm-choice ${linkage.usable?"bm-good":"bm-bad"}${chosen?" bs-chosen":""}`,"data-cognate":k},h("button",{type:"button",class:"bs-card-main",
-"aria-pressed":String(Boolean(chosen)),onclick:()=>this.choose(k)},h("span",{class:"bm-choice-head"},h("b",{},k?`Cognate ${k}`:of.id)," ",h("span",{class:"bm-ty\
-pe"},linkage.type)),h("span",{class:"bm-verdict"},linkage.usable?"✓ usable":"✕ not usable"),h("dl",{class:"bs-figures"},facts.map(([name,value])=>[h("dt",{},
-name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){const{store,of,known}=this;if(k)store.takeCognate(
-known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.show();this.cards.children[k]?.querySelector("butt\
-on").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var GAP=28;var USUAL_LIMIT=40;var MANY_POSES=40;var HEADROOM=1.32;var INSET=8;var LONGEST_NAME5=16;
-var NAME_WIDTH=11;var Plots=class{static HEIGHT=3*PANEL+2*GAP;static TITLE="Errors and transmission angle";constructor(data,parent,scrub){this.data=data;this.parent=
-parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":this.constructor.TITLE});parent.append(this.svg);const go=event=>{if(!this.way)return;const box=this.
-svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);scrub(frameAt(this.way.drive,this.low+clamp(at,0,1)*(this.
-high-this.low)))};this.svg.addEventListener("pointerdown",event=>{this.svg.setPointerCapture(event.pointerId);go(event)});this.svg.addEventListener("pointermove",
-event=>event.buttons&1&&go(event))}build(linkage,index,stretch){const{data,svg}=this,way=linkage.ways[index];this.way=way;svg.replaceChildren();this.cursor=null;
-if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: ${this.constructor.TITLE.toLowerCase()} along the driver`);const width=this.width=Math.max(260,this.
-parent.clientWidth);const poses=linkage.pose_errors.map((row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.some(
-({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+
-6:0);const height=this.top+this.height+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);const[driver]=linkage.led,slides=driver.
-kind==="PR";this.stretch=stretch;this.low=linear(way.drive,stretch.low);this.high=linear(way.drive,stretch.high);this.X=drive=>LEFT+INSET+(drive-this.low)/(this.
-high-this.low)*(width-LEFT-RIGHT-2*INSET);this.across=slides?ticks(this.low,this.high,width/90):angleTicks(this.low,this.high,Math.max(3,width/70));const rows=poses.
-map(row=>({...row,drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";const base=this.panels(rows,unit2);if(upright)this.uprightNames(
-rows);const title=slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/
-2,y:height-6,"text-anchor":"middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.mark=s("circle",{r:4.5});this.cursor.
-append(this.mark);svg.append(this.cursor)}get height(){return this.constructor.HEIGHT-(nounOf(this.data)==="point"?PANEL+GAP:0)}panels(rows,unit2){this.errors(0,
-`position error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);if(nounOf(this.data)==="point")return this.transmission(1,rows);this.errors(1,"angle e\
-rror (°)",rows.filter(({pose})=>!isPoint2(pose)),row=>row.turned_deg,1e-9);return this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,
-y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*
-greatest:1;const Y=v=>base-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, u\
-p to rounding":`no ${nounOf(this.data)} is on this assembly`))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"\
-bm-tick",x:LEFT-6,y:base+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[
-...rows].sort((a,b)=>a.drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s(
-"circle",{class:"bm-dot",cx:x,cy:y,r:3.5},s("title",{},`${calledOf(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.
-length<=MANY_POSES||greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{
-svg,way,width,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const Y=this.Y=v=>base-v/90*PANEL;this.panel("transmission angle (°)",y0,base,true);for(const at of[
-0,30,60,90])this.rule(Y(at),at);const asked=this.data.asked_transmission_deg,limit=asked??USUAL_LIMIT;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}\
-H${width-RIGHT}`}));const below=limit>15&&(linear(way.transmission,this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-
-4,y:px(Y(limit))+(below?12:-4),"text-anchor":"end"},`${figure(limit)}°, ${asked?"asked":"a usual limit"}`);this.curve(way.transmission,Y,"bm-line");for(const row of rows){
-if(row.transmission_deg===null)continue;svg.append(s("circle",{class:"bm-dot",cx:px(X(row.drive)),cy:px(Y(row.transmission_deg)),r:3}))}svg.append(limitName2);return base}curve(values,Y,name){
+"d",ends.join(""))}};var CognatePanel=class{known;constructor(store,answers){this.store=store;this.answers=answers;this.known=null;this.asking=false;this.story=h("p",{class:"bm-stor\
+y"});this.cards=h("div",{class:"bs-cognates",role:"group","aria-label":"The linkages of one curve"});this.element=h("div",{class:"bs-cognate-panel"},this.story,
+this.cards);this.pace=new Pace(()=>this.renew(),()=>isSeen(this.element));answers.on("answers shown placed",()=>this.pace.ask());store.on("state document",()=>this.
+pace.ask());watch(this.element,()=>this.pace.ask())}get of(){const{placed,chosen}=this.store;return this.answers.get(chosen===PLACED?placed?.cognateOf:chosen)??
+(chosen===PLACED?void 0:this.answers.shown)}async renew(){const{store,answers}=this,{of}=this;if(!isOfPoints(store.document))return;if(!of||of.gone||answers.isOld)
+return this.show(of&&!of.gone?"The cognates are looked for when the answer is there.":"No linkage is there.");const key=store.solved;if(this.known?.key===key&&this.
+known.of===of.id)return this.show();if(this.asking||!store.connection?.isOpen)return void 0;this.asking=true;try{const answer=await store.connection.ask({do:"co\
+gnates",document:store.document,linkage:of.id});if(answer.kind==="cognates")this.known={key,of:of.id,linkages:answer.linkages.map(linked)}}catch{}this.asking=false;
+if(this.known?.key===store.solved&&this.known.of===this.of?.id)return this.show();if(store.solved!==key)this.pace.ask();return void 0}show(instead){const{known,
+of}=this,there=!instead&&known&&of;const none=there&&!known.linkages.length;say(this.story,instead??(none?`${of.id} has no cognates: a link of theirs would have\
+ no length.`:"By Roberts' theorem these linkages trace the same curve, with the same error. Choose one by its room, its pivots and its transmission."));this.cards.
+replaceChildren(...there&&!none?[of,...known.linkages].map((each,k)=>this.card(each,k)):[]);give(this.cards,"hidden",!there||none);put(this.element,"data-of",there?
+of.id:null)}card(linkage,k){const{store,answers:{data}}=this,{of}=this,digits=decimalsOf(data),unit2=data.unit?` ${data.unit}`:"";const point2=at=>`(${at.map(value=>fixed(
+value,digits)).join(", ")})`,{links}=linkage.said;const chosen=k?store.chosen===PLACED&&store.placed?.linkage?.id===linkage.id:store.chosen===of.id;const facts=[
+["fixed pivots",linkage.led.filter(dyad=>dyad.fixed_pivot).map(dyad=>point2(dyad.fixed_pivot)).join(" and ")],...links?[["links",`${Object.entries(links).map(([
+name,value])=>`${name} ${value}`).join(", ")}${unit2}`]]:[],["transmission",leastOf(linkage)==="–"?"–":`${leastOf(linkage)} or more`],["size",linkage.said.quality.
+extent??"–"]];return h("article",{class:`bs-card bm-choice ${linkage.usable?"bm-good":"bm-bad"}${chosen?" bs-chosen":""}`,"data-cognate":k},h("button",{type:"\
+button",class:"bs-card-main","aria-pressed":String(Boolean(chosen)),onclick:()=>this.choose(k)},h("span",{class:"bm-choice-head"},h("b",{},k?`Cognate ${k}`:of.id),
+" ",h("span",{class:"bm-type"},linkage.type)),h("span",{class:"bm-verdict"},linkage.usable?"✓ usable":"✕ not usable"),h("dl",{class:"bs-figures"},facts.map(
+([name,value])=>[h("dt",{},name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){const{store,of,
+known}=this;if(k)store.takeCognate(known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.show();this.cards.
+children[k]?.querySelector("button").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var ONLY=150;var GAP=28;var MANY_POSES=40;var HEADROOM=1.32;var NO_ERROR=1e-7;var TITLE="Errors a\
+nd transmission angle";var INSET=8;var LONGEST_NAME5=16;var NAME_WIDTH=11;var Plots=class{top;count;marks;way;width;X;stretch;across;constructor(data,parent,scrub){
+this.data=data;this.parent=parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":TITLE});parent.append(this.svg);const go=event=>{if(!this.way)return;
+const box=this.svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);scrub(frameAt(this.way.drive,this.low+clamp(
+at,0,1)*(this.high-this.low)))};this.svg.addEventListener("pointerdown",event=>{this.svg.setPointerCapture(event.pointerId);go(event)});this.svg.addEventListener(
+"pointermove",event=>event.buttons&1&&go(event))}build(linkage,index,stretch){const{data,svg}=this,way=linkage.ways[index];this.linkage=linkage;this.way=way;svg.
+replaceChildren();this.cursor=null;if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: ${TITLE.toLowerCase()} along the driver`);const width=this.width=
+Math.max(260,this.parent.clientWidth);const poses=linkage.pose_errors.map((row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.
+some(({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*
+longest+6:0);const count=this.count=linkage.panels?linkage.panels.length+1:way.loops?1:nounOf(data)==="point"?2:3;const height=this.top+(count>1?count*PANEL+(count-
+1)*GAP:ONLY)+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);const[driver]=linkage.led,slides=driver.kind==="PR";this.
+stretch=stretch;this.low=linear(way.drive,stretch.low);this.high=linear(way.drive,stretch.high);this.X=drive=>LEFT+INSET+(drive-this.low)/(this.high-this.low)*(width-
+LEFT-RIGHT-2*INSET);this.across=slides?ticks(this.low,this.high,width/90):angleTicks(this.low,this.high,Math.max(3,width/70));const rows=poses.map(row=>({...row,
+drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";this.marks=[];const base=this.panels(rows,unit2);if(upright)this.uprightNames(rows);
+const title=way.told?`${way.told[0].name} (°)`:slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;svg.append(s("text",{class:"\
+bm-title",x:(LEFT+width-RIGHT)/2,y:height-6,"text-anchor":"middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.cursor.
+append(...this.marks.map(({mark})=>mark));svg.append(this.cursor)}panels(rows,unit2){this.linkage.panels?.forEach((each,k)=>this.values(k,each));if(this.linkage.
+panels||this.count===1)return this.transmission(this.count-1,rows);this.errors(0,`position error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);if(nounOf(
+this.data)==="point")return this.transmission(1,rows);this.errors(1,"angle error (°)",rows.filter(({pose})=>!isPoint2(pose)),row=>row.turned_deg,1e-9);return this.
+transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const greatest=Math.max(1e-300,...rows.map(row=>value(
+row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*greatest:1;const Y=v=>base-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(
+s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, up to rounding":`no ${nounOf(this.data)} is on this assembly`))}else{for(const{at}of ticks(
+0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT-6,y:base+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].
+sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):
+base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s("circle",{class:"bm-dot",cx:x,cy:y,r:3.5},s("title",{},`${calledOf(row.pose)}: ${figure(value(
+row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.length<=MANY_POSES||greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-
+7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{svg,way,width,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+(this.count>1?PANEL:ONLY);const Y=v=>base-
+v/90*(base-y0);this.panel("transmission angle (°)",y0,base,true);for(const at of[0,30,60,90])this.rule(Y(at),at);const{deg:limit,said}=this.data.transmission_limit;
+svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}H${width-RIGHT}`}));const below=limit>15&&(linear(way.transmission,this.stretch.high)??90)>limit;
+const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-4,y:px(Y(limit))+(below?12:-4),"text-anchor":"end"},said);(way.loops??[way.transmission]).forEach(
+(values,loop)=>{this.mark(drive=>linear(values,frameAt(way.drive,drive)),Y);const kind=way.loops?` bm-loop${loop}`:"";this.curve(values,Y,`bm-line${kind}`);for(const row of rows){
+const value=way.loops?row.loops[loop]:row.transmission_deg;if(value!==null)svg.append(s("circle",{class:`bm-dot${kind}`,cx:px(X(row.drive)),cy:px(Y(value)),r:3}))}});
+svg.append(limitName2);return base}mark(value,Y){this.marks.push({mark:s("circle",{r:4.5}),value,Y})}values(k,curve){const{title,x,y,dots,stems}=curve,{svg,low,
+high}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const shown2=[...x.keys()].filter(i=>y[i]!==null&&x[i]>=low&&x[i]<=high).map(i=>[x[i],y[i]]);const all=[...shown2,
+...dots].map(([,value])=>value),least2=Math.min(...all),most=Math.max(...all),room=.08*(most-least2);this.panel(title,y0,base);if(!(Math.max(Math.abs(least2),Math.
+abs(most))>NO_ERROR)){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},shown2.length?"exact, up to rounding":"it cannot be assembled"));return}const Y=v=>base-
+(v-least2+room)/(most-least2+2*room)*PANEL;const at=point2=>`${px(this.X(point2[0]))} ${px(Y(point2[1]))}`;for(const{at:value,text}of ticks(least2,most,4))this.
+rule(Y(value),text);if(least2<0&&most>0)svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));if(stems)for(const[a,b]of shown2)svg.
+append(s("path",{class:"bm-stem",d:`M${at([a,0])}L${at([a,b])}`}));else svg.append(s("path",{class:"bm-line",d:`M${shown2.map(at).join("L")}`}));for(const[a,b]of dots)
+svg.append(s("circle",{class:"bm-dot",cx:px(this.X(a)),cy:px(Y(b)),r:3.5},s("title",{},`${figure(b)}°`)));this.mark(drive=>valueAt(curve,drive),Y)}curve(values,Y,name){
 const{low,high}=this.stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const value=linear(
 values,u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen="L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){
 let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=this.X(row.drive),y=this.top-20;if(x-last<NAME_WIDTH)continue;last=x;const text=s("\
@@ -967,14 +999,14 @@ append(s("g",{},s("title",{},poseName2(row.pose)),text))}}panel(title,y0,base,la
 y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));let last=-99;for(const{at,text}of this.across){const x=px(this.X(
 at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled3&&x-last>34){svg.append(s("text",{class:"bm-tick",x,y:base+15,"text-anchor":"mi\
 ddle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-6,y:px(
-y)+4,"text-anchor":"end"},text))}show(drive,transmission){if(!this.cursor)return;this.cursor.setAttribute("transform",`translate(${px(this.X(drive))} 0)`);if(transmission!==
-null)this.mark.setAttribute("cy",px(this.Y(transmission)))}};var Charts=class{constructor(answers,playing){this.playing=playing;const fill=h("div",{class:"bm-fill"});this.plots=new Plots(answers.data,fill,u=>playing.player.
+y)+4,"text-anchor":"end"},text))}show(drive){if(!this.cursor)return;this.cursor.setAttribute("transform",`translate(${px(this.X(drive))} 0)`);for(const{mark,value,
+Y}of this.marks){const at=value(drive);put(mark,"visibility",at===null?"hidden":"inherit");if(at!==null)put(mark,"cy",px(Y(at)))}}};var Charts=class{constructor(answers,playing){this.playing=playing;const fill=h("div",{class:"bm-fill"});this.plots=new Plots(answers.data,fill,u=>playing.player.
 go(u));this.nothing=h("p",{class:"bs-quiet",hidden:true},"No linkage is there whose motion could be shown.");this.element=h("div",{},this.nothing,fill);this.pace=
 new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive,transmission})=>{if(this.isFresh&&isSeen(fill))this.
-plots.show(drive,transmission)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);watch(fill,()=>this.pace.ask())}build(){
-const{playing,plots}=this,{linkage,path:path2,player}=playing;give(this.nothing,"hidden",Boolean(linkage&&path2&&!linkage.gone));if(!linkage||!path2||linkage.gone||
-linkage.pose_errors.length!==plots.data.poses.length){plots.svg.replaceChildren();plots.way=plots.cursor=null;return}plots.build(linkage,player.way,player.stretch);
-this.isFresh=true;if(playing.here)plots.show(playing.here.drive,playing.here.transmission)}};var stopsOf=(linkage,index)=>linkage.pose_errors.map((row,k)=>({k,way:row.way,frame:row.frame})).filter(stop=>stop.way===index).sort((a,b)=>a.frame-b.frame);function stageOf(linkage,index,u){
+plots.show(drive)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);watch(fill,()=>this.pace.ask())}build(){const{
+playing,plots}=this,{linkage,path:path2,player}=playing;give(this.nothing,"hidden",Boolean(linkage&&path2&&!linkage.gone));if(!linkage||!path2||linkage.gone||linkage.
+pose_errors.length!==plots.data.poses.length){plots.svg.replaceChildren();plots.way=plots.cursor=null;return}plots.build(linkage,player.way,player.stretch);this.
+isFresh=true;if(playing.here)plots.show(playing.here.drive)}};var stopsOf=(linkage,index)=>linkage.pose_errors.map((row,k)=>({k,way:row.way,frame:row.frame})).filter(stop=>stop.way===index).sort((a,b)=>a.frame-b.frame);function stageOf(linkage,index,u){
 const stops=stopsOf(linkage,index);if(!stops.length)return null;if(stops.length===1)return{from:stops[0].k,to:stops[0].k,share:0};let at=0;while(at+2<stops.length&&
 stops[at+1].frame<=u)at+=1;const[a,b]=[stops[at],stops[at+1]],step=b.frame-a.frame;const share=step>0?(u-a.frame)/step:0;return{from:a.k,to:b.k,share:Math.min(Math.
 max(share,-1),2)}}function frameAtStage(linkage,stage){if(!stage)return null;const[a,b]=[stage.from,stage.to].map(k=>linkage.pose_errors[k]);const there=row=>Boolean(
@@ -987,22 +1019,22 @@ ype",each=>each.type),row("worst miss",each=>worstOf(each,data),each=>each.worst
 ize",each=>each.quality?spans(each.quality.extent):"–",each=>each.quality?.extent),row("sensitivity",each=>each.quality?figure(each.quality.sensitivity):"–",
 each=>each.quality?.sensitivity),row("driver",each=>each.led[0].id),...links.map(name=>row(`${name} link`,each=>each.said.links?.[name]?`${each.said.links[name]}${unit2}`:
 "–")),row("reason",each=>each.usable?"–":(each.followed?each.reason:each.said.reasons.join("; "))||"–")]}var Compare=class{constructor(store,answers,playing){
-Object.assign(this,{store,answers,playing});this.pictures=[0,1].map(()=>h("div",{class:"bm-drawing"}));this.planes=this.pictures.map(parent=>new Plane(answers.data,
-parent));this.names=[0,1].map(()=>h("h3",{}));this.places=[0,1].map(()=>h("p",{class:"bs-quiet"}));this.table=h("div",{class:"bm-scroll",tabindex:0,role:"region",
-"aria-label":"Both linkages in numbers"});this.button=h("button",{type:"button",class:"bm-button",onclick:()=>playing.player.play(!playing.player.playing)},"Pla\
-y both");this.close=h("button",{type:"button",class:"bs-small",onclick:()=>store.compared&&store.compare(store.compared)},"End the comparison");this.pairs=h("di\
-v",{class:"bs-beside"},[0,1].map(k=>h("div",{},this.names[k],this.pictures[k],this.places[k])));this.empty=h("p",{class:"bm-story"},"Press “Compare” on a card: \
-that linkage moves beside the chosen one.");this.full=h("div",{hidden:true},this.pairs,h("div",{class:"bs-tool"},this.button," ",this.close),this.table);this.element=
-h("div",{class:"bs-compare"},this.empty,this.full);this.pace=new Pace(()=>this.build(),()=>this.on&&isSeen(this.element));answers.on("answers shown",()=>this.start());
-playing.on("shape",()=>this.pace.ask());playing.on("place",here=>this.show(here));new ResizeObserver(()=>this.pace.ask()).observe(this.element);watch(this.element,
-()=>this.pace.ask())}get other(){return this.answers.get(this.store.compared)}get on(){return Boolean(this.other&&this.playing.linkage&&this.other!==this.answers.
-shown)}start(){give(this.full,"hidden",!this.on);give(this.empty,"hidden",this.on);if(this.on){for(let part=this.element.parentElement;part;part=part.parentElement)
-if(part.tagName==="DETAILS")part.open=true;this.build()}}build(){if(!this.on)return;const{answers,playing,other}=this,mine=playing.linkage;const options={factor:0,
-fill:0,far:false};this.names.forEach((name,k)=>name.textContent=[mine,other][k].id==="placed"?"By hand":`${[mine,other][k].id}: ${[mine,other][k].type}`);this.planes[0].
-build(mine,playing.player.way,playing.player.stretch,options);this.way=null;this.buildTable(comparison(mine,other,answers.data));if(playing.here)this.show(playing.
-here)}buildTable(rows){const old=this.answers.isOld?"bs-old":null;this.table.replaceChildren(h("table",{class:"bs-compared"},h("caption",{},"Both linkages in nu\
-mbers; the better one of each row is bold"),h("thead",{},h("tr",{},h("th",{scope:"col"},""),this.names.map(name=>h("th",{scope:"col"},name.textContent)))),h("tb\
-ody",{},rows.map(({name,texts,better})=>h("tr",{class:/size|sensitivity|link/.test(name)?old:null},h("th",{scope:"row"},name),texts.map((text,k)=>h("td",{class:"\
+this.store=store;this.answers=answers;this.playing=playing;this.pictures=[0,1].map(()=>h("div",{class:"bm-drawing"}));this.planes=this.pictures.map(parent=>new Plane(
+answers.data,parent));this.names=[0,1].map(()=>h("h3",{}));this.places=[0,1].map(()=>h("p",{class:"bs-quiet"}));this.table=h("div",{class:"bm-scroll",tabindex:0,
+role:"region","aria-label":"Both linkages in numbers"});this.button=h("button",{type:"button",class:"bm-button",onclick:()=>playing.player.play(!playing.player.
+playing)},"Play both");this.close=h("button",{type:"button",class:"bs-small",onclick:()=>store.compared&&store.compare(store.compared)},"End the comparison");this.
+pairs=h("div",{class:"bs-beside"},[0,1].map(k=>h("div",{},this.names[k],this.pictures[k],this.places[k])));this.empty=h("p",{class:"bm-story"},"Press “Compare” \
+on a card: that linkage moves beside the chosen one.");this.full=h("div",{hidden:true},this.pairs,h("div",{class:"bs-tool"},this.button," ",this.close),this.table);
+this.element=h("div",{class:"bs-compare"},this.empty,this.full);this.pace=new Pace(()=>this.build(),()=>this.on&&isSeen(this.element));answers.on("answers shown",
+()=>this.start());playing.on("shape",()=>this.pace.ask());playing.on("place",here=>this.show(here));new ResizeObserver(()=>this.pace.ask()).observe(this.element);
+watch(this.element,()=>this.pace.ask())}get other(){return this.answers.get(this.store.compared)}get on(){return Boolean(this.other&&this.playing.linkage&&this.
+other!==this.answers.shown)}start(){give(this.full,"hidden",!this.on);give(this.empty,"hidden",this.on);if(this.on){for(let part=this.element.parentElement;part;part=
+part.parentElement)if(part.tagName==="DETAILS")part.open=true;this.build()}}build(){if(!this.on)return;const{answers,playing,other}=this,mine=playing.linkage;const options={
+factor:0,fill:0,far:false};this.names.forEach((name,k)=>name.textContent=[mine,other][k].id==="placed"?"By hand":`${[mine,other][k].id}: ${[mine,other][k].type}`);
+this.planes[0].build(mine,playing.player.way,playing.player.stretch,options);this.way=null;this.buildTable(comparison(mine,other,answers.data));if(playing.here)
+this.show(playing.here)}buildTable(rows){const old=this.answers.isOld?"bs-old":null;this.table.replaceChildren(h("table",{class:"bs-compared"},h("caption",{},"B\
+oth linkages in numbers; the better one of each row is bold"),h("thead",{},h("tr",{},h("th",{scope:"col"},""),this.names.map(name=>h("th",{scope:"col"},name.textContent)))),
+h("tbody",{},rows.map(({name,texts,better})=>h("tr",{class:/size|sensitivity|link/.test(name)?old:null},h("th",{scope:"row"},name),texts.map((text,k)=>h("td",{class:"\
 bm-words"},better===k?h("b",{},text):text)))))))}show({place,transmission}){if(!this.on||!isSeen(this.element))return;const{playing,other,answers:{data}}=this,{
 player}=playing;this.planes[0].show(place);this.tell(0,transmission);const at=frameAtStage(other,stageOf(playing.linkage,player.way,player.u));this.pictures[1].
 classList.toggle("bs-old",!at);if(!at){this.planes[1].build(other,0,{low:0,high:(other.ways[0]?.x.length??2)-1},{factor:0,fill:0,far:false});this.places[1].textContent=
@@ -1010,20 +1042,20 @@ classList.toggle("bs-old",!at);if(!at){this.planes[1].build(other,0,{low:0,high:
 low,high]=[Math.min(...stops),Math.max(...stops)];this.planes[1].build(other,at.way,high>low?{low,high}:{low:0,high:other.ways[at.way].x.length-1},{factor:0,fill:0,
 far:false})}const way=other.ways[at.way];this.planes[1].show(placeAt(other,way,at.u,data.chart.length));this.tell(1,way.transmission[Math.round(at.u)])}tell(k,transmission){
 const text=`transmission angle ${transmission===null||!Number.isFinite(transmission)?"–":`${fixed(transmission,1)}°`}`;say(this.places[k],text)}};var MOST2=8;var ARROWS3={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var curveOf=(way,point2)=>framesOf(way).map(place=>act(place,point2));
-var CouplerCurves=class{constructor(answers,playing,scene){Object.assign(this,{answers,playing,scene,points:[]});this.group=s("g",{class:"bs-coupler-curves"});this.
-handles=s("g",{class:"bs-coupler-points"});scene.layer("paths").append(this.group);scene.layer("pivots").append(this.handles);this.button=h("button",{type:"butt\
-on",class:"bs-small","aria-pressed":"false","data-tool":"coupler-point",onclick:()=>this.pick()},"Pick a point on the body");this.list=h("ul",{class:"bs-points"});
-this.readout=h("output",{class:"bs-quiet"});this.element=h("div",{class:"bs-tool"},this.button," ",this.readout,this.list);this.tool={name:"coupler-point",hint:"\
-Click on the body: the curve of that point is drawn. Escape ends.",click:({x,y})=>this.add([x,y]),key:event=>{if(event.key!=="Escape")return false;scene.use?.(null);
-return true},end:()=>put(this.button,"aria-pressed","false")};playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.show(place));scene.on("vie\
-w",()=>this.shape());this.tell()}pick(){const on=this.scene.tool!==this.tool;this.scene.use?.(on?this.tool:null);put(this.button,"aria-pressed",String(on))}add(at,inBody2=false){
-const place=this.playing.here?.place;if(!place&&!inBody2||this.points.length>=MOST2)return;const point2={at:inBody2?at:this.rounded(back(place,at)),path:s("path",
-{class:"bm-curve bs-coupler-curve"})};point2.handle=s("g",{class:"bs-coupler-point",tabindex:0,role:"button","data-point":this.points.length+1},s("circle",{class:"\
-bs-hold",r:13}),s("circle",{class:"bs-coupler-dot",r:4.5}));this.drag(point2);this.points.push(point2);this.group.append(point2.path);this.handles.append(point2.
-handle);this.number();this.shape()}remove(point2){this.points=this.points.filter(each=>each!==point2);point2.path.remove();point2.handle.remove();this.number();
-this.shape()}number(){this.points.forEach((point2,k)=>point2.handle.dataset.point=k+1)}rounded(point2){return point2.map(value=>Number(value.toFixed(clamp(decimalsOf(
-this.answers.data),0,12))))}drag(point2){let before;this.scene.drag?.(point2.handle,{start:()=>{before=point2.at;this.playing.player.play(false)},move:({x,y})=>this.
-put(point2,back(this.playing.here.place,[x,y])),cancel:()=>this.put(point2,before)});point2.handle.addEventListener("keydown",event=>{const arrow2=ARROWS3[event.
+var CouplerCurves=class{constructor(answers,playing,scene){this.answers=answers;this.playing=playing;this.scene=scene;this.points=[];this.group=s("g",{class:"bs\
+-coupler-curves"});this.handles=s("g",{class:"bs-coupler-points"});scene.layer("paths").append(this.group);scene.layer("pivots").append(this.handles);this.button=
+h("button",{type:"button",class:"bs-small","aria-pressed":"false","data-tool":"coupler-point",onclick:()=>this.pick()},"Pick a point on the body");this.list=h("\
+ul",{class:"bs-points"});this.readout=h("output",{class:"bs-quiet"});this.element=h("div",{class:"bs-tool"},this.button," ",this.readout,this.list);this.tool={name:"\
+coupler-point",hint:"Click on the body: the curve of that point is drawn. Escape ends.",click:({x,y})=>this.add([x,y]),key:event=>{if(event.key!=="Escape")return false;
+scene.use?.(null);return true},end:()=>put(this.button,"aria-pressed","false")};playing.on("shape",()=>this.shape());playing.on("place",({place})=>this.show(place));
+scene.on("view",()=>this.shape());this.tell()}pick(){const on=this.scene.tool!==this.tool;this.scene.use?.(on?this.tool:null);put(this.button,"aria-pressed",String(
+on))}add(at,inBody2=false){const place=this.playing.here?.place;if(!place&&!inBody2||this.points.length>=MOST2)return;const point2={at:inBody2?at:this.rounded(back(
+place,at)),path:s("path",{class:"bm-curve bs-coupler-curve"})};point2.handle=s("g",{class:"bs-coupler-point",tabindex:0,role:"button","data-point":this.points.length+
+1},s("circle",{class:"bs-hold",r:13}),s("circle",{class:"bs-coupler-dot",r:4.5}));this.drag(point2);this.points.push(point2);this.group.append(point2.path);this.
+handles.append(point2.handle);this.number();this.shape()}remove(point2){this.points=this.points.filter(each=>each!==point2);point2.path.remove();point2.handle.remove();
+this.number();this.shape()}number(){this.points.forEach((point2,k)=>point2.handle.dataset.point=k+1)}rounded(point2){return point2.map(value=>Number(value.toFixed(
+clamp(decimalsOf(this.answers.data),0,12))))}drag(point2){let before;this.scene.drag?.(point2.handle,{start:()=>{before=point2.at;this.playing.player.play(false)},
+move:({x,y})=>this.put(point2,back(this.playing.here.place,[x,y])),cancel:()=>this.put(point2,before)});point2.handle.addEventListener("keydown",event=>{const arrow2=ARROWS3[event.
 key];if(event.ctrlKey||event.metaKey)return;if(arrow2){const step=(this.scene.step??this.answers.data.scene/100)*(event.shiftKey?10:event.altKey?.1:1);this.put(
 point2,point2.at.map((value,k)=>value+step*arrow2[k]))}else if(event.key==="Delete"||event.key==="Backspace"){this.remove(point2)}else{return}event.preventDefault()})}put(point2,at){
 point2.at=this.rounded(at);this.shape()}shape(){const{path:path2,linkage}=this.playing,{view}=this.scene,there=path2&&!linkage.gone;for(const point2 of this.points){
@@ -1033,42 +1065,36 @@ points){const[x,y]=act(place,point2.at);put(point2.handle,"transform",transform(
 points.map(({at})=>at.join()).join(" ")} ${digits}`;if(key===this.told)return;this.told=key;this.readout.textContent=this.points.length?"":"Its curve is drawn, \
 and goes along with every change.";this.list.replaceChildren(...this.points.map((point2,k)=>{const name=`Point ${k+1} at (${point2.at.map(value=>fixed(value,digits)).
 join(", ")}) of the body`;put(point2.handle,"aria-label",`${name}. Drag it, or use the arrow keys; Delete removes it.`);return h("li",{},name," ",h("button",{type:"\
-button",class:"bs-small","aria-label":`Remove point ${k+1}`,onclick:()=>this.remove(point2)},"Remove"))}))}};function storyOf(linkage){const{said}=linkage;const met=`${linkage.usable?"Usable":"Not usable"}: it ${said.met}`;if(!linkage.ways.length)return`${met}. It cann\
-ot be shown moving: ${said.reasons.join("; ")||"its motion is not known"}.`;if(linkage.type==="change-point"){return`${met}, driven by ${linkage.led[0].id}. At \
-a change point, where all links lie in one line, it may go on either way.`}return linkage.usable?`${met}, driven by ${linkage.led[0].id}.`:`Not usable: it ${said.
-in_short}.`}function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`\
-all ${noun}s`:way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:`no ${noun}`;const dead=way.dead.filter(Boolean).length;const ends=way.
-round?"turns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}function factsOf(data,linkage){const{said}=linkage,
-unit2=data.unit?` ${data.unit}`:"";const rows=[["verdict",verdictOf(linkage)],...Object.entries(said.links??{}).map(([name,value])=>[`${name} link`,`${value}${unit2}`]),
-["worst miss",missOf(said.worst,said.angle,unit2)],["rms miss",missOf(said.rms,said.rms_angle,unit2)],["least transmission angle",said.transmission==="-"?"–":
-said.transmission],...Object.entries(said.quality),["driver",`${linkage.led[0].id}${said.turns_fully?", turns fully":""}`],...said.freedom?[["pivots",said.freedom.
-replace("pivots ","")]]:[]];return h("dl",{class:"bm-facts"},rows.map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))))}function spaceStory(data,linkage){
-const some=data.poses.some(isPoint2),every=nounOf(data)==="point";const taken=some&&linkage?`the places that ${linkage.id} takes at ${every?"the":"its"} points`:
-"";const marked=[every?"":"the poses",taken].filter(Boolean).join(" and ");const plain=`Every place of the body is one point of this space${marked?`; numbered p\
-oints are ${marked}`:""}.`;if(!linkage)return[plain];const surface=side=>h("b",{class:`bm-side${side}`},linkage.led[side].id);return[plain," The surfaces are al\
-l places that dyad ",surface(0)," (driver) and dyad ",surface(1)," (follower) allow; where they meet, the line, the coupler moves."]}function table2(caption,heads,rows){return h("div",{class:"bm-scroll",tabindex:0,role:"region","aria-label":caption},h("table",{},h("caption",{},caption),h("the\
+button",class:"bs-small","aria-label":`Remove point ${k+1}`,onclick:()=>this.remove(point2)},"Remove"))}))}};function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`all ${noun}s`:
+way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:`no ${noun}`;const dead=way.dead.filter(Boolean).length;const ends=way.round?"tu\
+rns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var factsOf=({said})=>h("dl",{class:"bm-facts"},said.facts.
+map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))));function spaceStory(data,linkage){const some=data.poses.some(isPoint2),every=nounOf(data)==="\
+point";const taken=some&&linkage?`the places that ${linkage.id} takes at ${every?"the":"its"} points`:"";const marked=[every?"":"the poses",taken].filter(Boolean).
+join(" and ");const plain=`Every place of the body is one point of this space${marked?`; numbered points are ${marked}`:""}.`;if(!linkage)return[plain];const surface=side=>h(
+"b",{class:`bm-side${side}`},linkage.led[side].id);return[plain," The surfaces are all places that dyad ",surface(0)," (driver) and dyad ",surface(1)," (followe\
+r) allow; where they meet, the line, the coupler moves."]}function table2(caption,heads,rows){return h("div",{class:"bm-scroll",tabindex:0,role:"region","aria-label":caption},h("table",{},h("caption",{},caption),h("the\
 ad",{},h("tr",{},heads.map(head=>h("th",{scope:"col"},head)))),h("tbody",{},rows.map(row=>h("tr",{},row.map((text,k)=>k?h("td",{},text):h("th",{scope:"row"},text)))))))}
 var point=(at,digits)=>`(${at.map(value=>fixed(value,digits)).join(", ")})`;function poseFacts(linkage,data,points){const digits=decimalsOf(data);return linkage.
 pose_errors.map((row,k)=>{const name=data.poses[k]?poseName2(data.poses[k]):String(k+1);if(row.x===null)return[name,"–",...points.map(()=>"–")];const place=placeOf(
 row),centre=instantCentre(linkage.led,place);return[name,centre?point(centre,digits):"at infinity",...points.map(each=>point(act(place,each.at),digits))]})}var FactsTable=class{constructor(store,answers,playing,curves){
-Object.assign(this,{store,answers,playing,curves});this.element=h("div",{class:"bs-facts"});this.pace=new Pace(()=>this.build(),()=>isSeen(this.element));playing.
-on("shape",()=>this.pace.ask());answers.on("answers poses placed",()=>this.pace.ask());watch(this.element,()=>this.pace.ask());this.element.append(h("p",{class:"\
-bm-story"},"Nothing is known yet."))}build(){const{answers,playing}=this,{data,isOld}=answers,{linkage}=playing;const parts=[];const part=(title,old,...content)=>parts.
+this.store=store;this.answers=answers;this.playing=playing;this.curves=curves;this.element=h("div",{class:"bs-facts"});this.pace=new Pace(()=>this.build(),()=>isSeen(
+this.element));playing.on("shape",()=>this.pace.ask());answers.on("answers poses placed",()=>this.pace.ask());watch(this.element,()=>this.pace.ask());this.element.
+append(h("p",{class:"bm-story"},"Nothing is known yet."))}build(){const{answers,playing}=this,{data,isOld}=answers,{linkage}=playing;const parts=[];const part=(title,old,...content)=>parts.
 push(h("section",{class:old?"bs-old":null,"aria-label":title},h("h3",{},title),old?h("p",{class:"bs-quiet"},"As of the last whole answer."):null,content));const fits=linkage&&
 linkage.pose_errors.length===data.poses.length;if(linkage){const name=linkage.id===PLACED?"Pivots put down by hand":`${linkage.id}: ${linkage.type}`;const live=linkage.
-followed||playing.isOther;part(name,false,live?this.followedFacts(linkage):[h("p",{class:"bm-story"},storyOf(linkage)),dimensionTable(data,{...linkage,id:linkage.
-id===PLACED?"the linkage by hand":linkage.id}),factsOf(data,linkage)])}part("Pose by pose",false,poseTable(data,fits?linkage:void 0));if(fits){const points=this.
-curves?.points??[];part("Instant centre and picked points",false,table2("At each pose, in F",["pose","instant centre",...points.map((each,k)=>`point ${k+1}`)],poseFacts(
+followed||playing.isOther;part(name,false,live?this.followedFacts(linkage):[h("p",{class:"bm-story"},linkage.said.story),dimensionTable(data,{...linkage,id:linkage.
+id===PLACED?"the linkage by hand":linkage.id}),factsOf(linkage)])}part("Pose by pose",false,poseTable(data,fits?linkage:void 0));if(fits){const points=this.curves?.
+points??[];part("Instant centre and picked points",false,table2("At each pose, in F",["pose","instant centre",...points.map((each,k)=>`point ${k+1}`)],poseFacts(
 linkage,data,points)))}if(this.store.placed)part("Pivots put down by hand",false,this.placedTable());if(data.linkages.length)part("All linkages",isOld,this.linkages());
 if(data.dyads.length)part("Dyads",isOld,dyadTable(data));if(linkage&&!linkage.followed&&linkage.said.manifolds?.[0].length&&!playing.isOther)part("Image space",
 isOld,imageTables(data,linkage));this.element.replaceChildren(...parts)}followedFacts(linkage){const{data}=this.answers;return[table2(`Dimensions of ${linkage.id}${inUnit(
 data)}`,["","","value"],dimensionsOf(linkage,data).map(({dyad,what,value})=>[dyad,what,value])),table2("Verdict",["","value"],[["verdict",linkage.gone??(linkage.
 usable?"usable":`not usable: ${linkage.reason??linkage.said.reasons.join("; ")}`)],["worst miss",worstOf(linkage,data)],["least transmission angle",leastOf(linkage)],
-["driver",linkage.led[0].id]])]}linkages(){const{answers}=this,{data}=answers;if(!answers.linkages.some(each=>each.followed))return linkageTable(data);return table2(
-"All linkages, followed",["","verdict","type","worst miss","least transmission"],answers.linkages.map(each=>[each.id,each.gone?"gone":each.usable?"usable":"not \
-usable",each.type,worstOf(each,data),leastOf(each)]))}placedTable(){const{placed}=this.store,unit2=inUnit(this.answers.data);return table2(`Their dyads${unit2}`,
-["","on the ground (F)","on the body (M)","length","rms miss","worst miss"],placed.dyads.map(dyad=>[dyad.id,dyad.said.ground,dyad.said.body,dyad.said.length,dyad.
-said.rms,dyad.said.worst]))}};var CLASSES=7;var OUTSIDE2=2;var FamilyPairs=class{constructor(data){this.data=data;this.map=data.family_map;this.isCurve=this.map.kind==="curve";this.columns=this.isCurve?this.map.fixed.length:
+["driver",linkage.led[0].id]])]}linkages(){const{answers}=this,{data}=answers;if(!answers.linkages.some(each=>each.followed))return worded(data,{...data.table,class:"\
+bm-linkages bm-stacks"});return table2("All linkages, followed",["","verdict","type","worst miss","least transmission"],answers.linkages.map(each=>[each.id,each.
+gone?"gone":each.usable?"usable":"not usable",each.type,worstOf(each,data),leastOf(each)]))}placedTable(){const{placed}=this.store,unit2=inUnit(this.answers.data);
+return table2(`Their dyads${unit2}`,["","on the ground (F)","on the body (M)","length","rms miss","worst miss"],placed.dyads.map(dyad=>[dyad.id,dyad.said.ground,
+dyad.said.body,dyad.said.length,dyad.said.rms,dyad.said.worst]))}};var CLASSES=7;var OUTSIDE2=2;var FamilyPairs=class{constructor(data){this.data=data;this.map=data.family_map;this.isCurve=this.map.kind==="curve";this.columns=this.isCurve?this.map.fixed.length:
 this.map.columns;this.rows=this.isCurve?this.columns:this.map.rows;this.starts=[];(this.map.loops??[]).reduce((start,size2)=>(this.starts.push(start),start+size2),
 0)}letter(loop){return this.starts.length>1?`${"ABCDEFGH"[loop]} `:""}pair([i,j]){const{cells:cells2}=this.map;if(!this.isCurve)return this.decoded(cells2[j*this.
 columns+i]);if(i===j)return{kind:CLASSES-1,driver:0,degrees:0};const[a,b]=[Math.min(i,j),Math.max(i,j)],n=this.columns;const pair=this.decoded(cells2[a*n-a*(a+1)/
@@ -1098,40 +1124,40 @@ push(kept.length);for(const k of kept){curves.fixed.push(loop.fixed[k]);curves.m
 ain")}}return curves}function curvePaths(points,loops,worth2,X,Y,widest){const paths={works:"",outside:"",fails:"",plain:""};const near2=(p,q)=>Math.hypot(p[0]-
 q[0],p[1]-q[1])<=widest;const text=([x,y])=>`${Math.round(X(x)*100)/100} ${Math.round(Y(y)*100)/100}`;const between2=(p,q)=>[(p[0]+q[0])/2,(p[1]+q[1])/2];let start=0;
 for(const size2 of loops){for(let i=0;i<size2;i+=1){const[a,b,c]=[-1,0,1].map(step=>points[start+(i+step+size2)%size2]);const list=[...near2(a,b)?[between2(a,b)]:
-[],b,...near2(b,c)?[between2(b,c)]:[]];if(list.length>1)paths[worth2[start+i]]+=`M${list.map(text).join("L")}`}start+=size2}return paths}var LONGEST_STEP2=.5;var STROKES=["plain","fails","outside","works"];var FamilyCurves=class{constructor(store,answers,playing,scene){Object.assign(this,{store,answers,
-playing,scene,known:null,live:null,asking:false});this.curves=["F","M"].map(plane=>s("g",{class:`bs-curve bs-curve-${plane}`},STROKES.map(name=>s("path",{class:`\
-bs-curve-${name}`}))));this.group=s("g",{class:"bs-burmester",visibility:"hidden","aria-hidden":"true"},this.curves);scene.layer("curves").append(this.group);this.
-box=h("input",{type:"checkbox",checked:true,"data-tool":"burmester-curves",onchange:()=>this.draw()});this.label=h("label",{hidden:true},this.box," Burmester cu\
-rves of the four poses, in the drawing");this.legend=h("p",{class:"bm-legend",hidden:true},h("span",{class:"bs-key-works"})," works with a partner; ",h("span",{
-class:"bs-key-outside"})," works outside limits or standard; ",h("span",{class:"bs-key-fails"})," no partner works. Solid: centre points in F; dashed: circle po\
-ints in M, where the body is now.");answers.on("poses",()=>answers.data.poses.length===4?this.ask():this.draw());playing.on("place",()=>this.move());scene.on("v\
-iew",()=>this.draw())}get family(){const{data,isOld}=this.answers;if(data.poses.length!==4)return null;if(this.live&&(isOld||!this.known))return this.live;return this.
-known}renew(){const{data}=this.answers,map=data.family_map;this.known=map?.kind==="curve"?{...map,worth:worthOf(new FamilyPairs(data))}:null;this.live=null;if(!this.
-known)this.ask();give(this.label,"hidden",data.poses.length!==4);this.draw()}async ask(){const{store,answers}=this,{document:document2,options}=store;if(document2.
-poses.length!==4||!this.box.checked||this.asking||!store.connection?.isOpen)return;this.asking=true;try{const answer=await store.connection.ask({do:"curve",document:document2,
-options,judged:store.state!=="dragging"});if(answer.kind==="curve"&&store.document.poses.length===4){this.live=curvesOf(answer);this.draw()}}catch{}this.asking=
-false;if(store.document!==document2&&answers.isOld)this.ask()}get widest(){return LONGEST_STEP2*this.answers.data.scene}onto(plane,point2){const map=this.family,
-{poses,scene}=this.answers.data;if(!map||!this.box.checked)return null;const near2=nearestOnCurve(plane==="F"?map.fixed:map.moving,map.loops,point2,this.widest);
-return near2?ontoCurve(poses,plane,near2.at,scene):point2}draw(){const map=this.family,on=Boolean(map)&&this.box.checked;put(this.group,"visibility",on?"visible":
-"hidden");give(this.legend,"hidden",!on);if(!on)return;const{view}=this.scene,planes=[[map.fixed,view.X,view.Y],[map.moving,x=>view.scale*x,y=>-view.scale*y]];planes.
-forEach(([points,X,Y],n)=>{const paths=curvePaths(points,map.loops,map.worth,X,Y,this.widest);[...this.curves[n].children].forEach((path2,k)=>put(path2,"d",paths[STROKES[k]]))});
-this.move()}move(){const{view}=this.scene,place=this.playing.here?.place;if(place&&this.family)put(this.curves[1],"transform",transform(view.X(place.x),view.Y(place.
-y),place.a))}};var MAX_BANDS=12;var PivotMap=class{constructor(data,parent){this.data=data;this.parent=parent;this.canvas=h("canvas",{"aria-hidden":"true"});const name=`bm-map\
--${Math.random().toString(36).slice(2)}`;this.svg=s("svg",{class:"bm-map-picture",role:"application",tabindex:"0","aria-roledescription":"map","aria-describedby":name,
-"aria-label":"Pivot map: the error of the best link for every fixed pivot. Arrow keys move a cursor, with Shift by ten steps; the error there is told."});this.readout=
-h("output",{class:"bm-readout",id:name});this.cursor=null;this.legend=h("p",{class:"bm-legend"});parent.append(h("div",{class:"bm-map"},this.canvas,this.svg),this.
-legend,this.readout);this.svg.addEventListener("pointermove",event=>this.read(event));this.svg.addEventListener("pointerleave",()=>this.tell());this.svg.addEventListener(
-"keydown",event=>this.move(event));const{log10_rms:levels}=data.pivot_map;const known=levels.filter(level=>level!==null).sort((a,b)=>a-b);const low=known[Math.floor(
-.002*known.length)],high=known[Math.floor(.98*known.length)];this.step=[1/24,1/12,1/6,1/3,1/2,1,2].find(step=>(high-low)/step<MAX_BANDS-1)??3;this.low=Math.floor(
-low/this.step)*this.step;this.high=Math.ceil(high/this.step)*this.step;this.count=Math.max(1,Math.round((this.high-this.low)/this.step));this.invitation="Point \
-at the map to read it, or move over it by arrow keys.";this.readout.append(this.invitation)}level(u,v){const{columns,rows,log10_rms:levels}=this.data.pivot_map;
-const i=clamp(Math.floor(u),0,columns-2),j=clamp(Math.floor(v),0,rows-2);const a=u-i,b=v-j,at=j*columns+i;const[p,q,r,t]=[levels[at],levels[at+1],levels[at+columns],
-levels[at+columns+1]];const shares=[(1-a)*(1-b),a*(1-b),(1-a)*b,a*b];if([p,q,r,t].some((level,k)=>level===null&&shares[k]>0))return null;return shares[0]*p+shares[1]*
-q+shares[2]*r+shares[3]*t}build(linkage){const{svg}=this,map=this.data.pivot_map;const width=Math.max(240,this.parent.clientWidth);const height=Math.round(width*
-(map.high[1]-map.low[1])/(map.high[0]-map.low[0]));this.paint(width,height);svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.replaceChildren();const scale=width/
-(map.high[0]-map.low[0]);const view={width,height,X:x=>(x-map.low[0])*scale,Y:y=>height-(y-map.low[1])*scale};this.linkage=linkage;this.view=view;this.explain(this.
-pivots(linkage,view));this.mark=s("path",{class:"bm-map-cursor",d:"M-11 0H-4M4 0H11M0 -11V-4M0 4V11"});svg.append(this.mark);this.tell()}paint(width,height){const{
-canvas}=this,map=this.data.pivot_map;const dense=Math.min(2,window.devicePixelRatio||1);const style=getComputedStyle(this.parent);const near2=rgb(style.getPropertyValue(
+[],b,...near2(b,c)?[between2(b,c)]:[]];if(list.length>1)paths[worth2[start+i]]+=`M${list.map(text).join("L")}`}start+=size2}return paths}var LONGEST_STEP2=.5;var STROKES=["plain","fails","outside","works"];var FamilyCurves=class{constructor(store,answers,playing,scene){this.store=store;this.answers=
+answers;this.playing=playing;this.scene=scene;this.known=null;this.live=null;this.asking=false;this.curves=["F","M"].map(plane=>s("g",{class:`bs-curve bs-curve-${plane}`},
+STROKES.map(name=>s("path",{class:`bs-curve-${name}`}))));this.group=s("g",{class:"bs-burmester",visibility:"hidden","aria-hidden":"true"},this.curves);scene.layer(
+"curves").append(this.group);this.box=h("input",{type:"checkbox",checked:true,"data-tool":"burmester-curves",onchange:()=>this.draw()});this.label=h("label",{hidden:true},
+this.box," Burmester curves of the four poses, in the drawing");this.legend=h("p",{class:"bm-legend",hidden:true},h("span",{class:"bs-key-works"})," works with \
+a partner; ",h("span",{class:"bs-key-outside"})," works outside limits or standard; ",h("span",{class:"bs-key-fails"})," no partner works. Solid: centre points \
+in F; dashed: circle points in M, where the body is now.");answers.on("poses",()=>answers.data.poses.length===4?this.ask():this.draw());playing.on("place",()=>this.
+move());scene.on("view",()=>this.draw())}get family(){const{data,isOld}=this.answers;if(data.poses.length!==4)return null;if(this.live&&(isOld||!this.known))return this.
+live;return this.known}renew(){const{data}=this.answers,map=data.family_map;this.known=map?.kind==="curve"?{...map,worth:worthOf(new FamilyPairs(data))}:null;this.
+live=null;if(!this.known)this.ask();give(this.label,"hidden",data.poses.length!==4);this.draw()}async ask(){const{store,answers}=this,{document:document2,options}=store;
+if(document2.poses.length!==4||!this.box.checked||this.asking||!store.connection?.isOpen)return;this.asking=true;try{const answer=await store.connection.ask({do:"\
+curve",document:document2,options,judged:store.state!=="dragging"});if(answer.kind==="curve"&&store.document.poses.length===4){this.live=curvesOf(answer);this.draw()}}catch{}
+this.asking=false;if(store.document!==document2&&answers.isOld)this.ask()}get widest(){return LONGEST_STEP2*this.answers.data.scene}onto(plane,point2){const map=this.
+family,{poses,scene}=this.answers.data;if(!map||!this.box.checked)return null;const near2=nearestOnCurve(plane==="F"?map.fixed:map.moving,map.loops,point2,this.
+widest);return near2?ontoCurve(poses,plane,near2.at,scene):point2}draw(){const map=this.family,on=Boolean(map)&&this.box.checked;put(this.group,"visibility",on?
+"visible":"hidden");give(this.legend,"hidden",!on);if(!on)return;const{view}=this.scene,planes=[[map.fixed,view.X,view.Y],[map.moving,x=>view.scale*x,y=>-view.scale*
+y]];planes.forEach(([points,X,Y],n)=>{const paths=curvePaths(points,map.loops,map.worth,X,Y,this.widest);[...this.curves[n].children].forEach((path2,k)=>put(path2,
+"d",paths[STROKES[k]]))});this.move()}move(){const{view}=this.scene,place=this.playing.here?.place;if(place&&this.family)put(this.curves[1],"transform",transform(
+view.X(place.x),view.Y(place.y),place.a))}};var MAX_BANDS=12;var PivotMap=class{view;constructor(data,parent){this.data=data;this.parent=parent;this.canvas=h("canvas",{"aria-hidden":"true"});const name=`b\
+m-map-${Math.random().toString(36).slice(2)}`;this.svg=s("svg",{class:"bm-map-picture",role:"application",tabindex:"0","aria-roledescription":"map","aria-descri\
+bedby":name,"aria-label":"Pivot map: the error of the best link for every fixed pivot. Arrow keys move a cursor, with Shift by ten steps; the error there is tol\
+d."});this.readout=h("output",{class:"bm-readout",id:name});this.cursor=null;this.legend=h("p",{class:"bm-legend"});parent.append(h("div",{class:"bm-map"},this.
+canvas,this.svg),this.legend,this.readout);this.svg.addEventListener("pointermove",event=>this.read(event));this.svg.addEventListener("pointerleave",()=>this.tell());
+this.svg.addEventListener("keydown",event=>this.move(event));const{log10_rms:levels}=data.pivot_map;const known=levels.filter(level=>level!==null).sort((a,b)=>a-
+b);const low=known[Math.floor(.002*known.length)],high=known[Math.floor(.98*known.length)];this.step=[1/24,1/12,1/6,1/3,1/2,1,2].find(step=>(high-low)/step<MAX_BANDS-
+1)??3;this.low=Math.floor(low/this.step)*this.step;this.high=Math.ceil(high/this.step)*this.step;this.count=Math.max(1,Math.round((this.high-this.low)/this.step));
+this.invitation="Point at the map to read it, or move over it by arrow keys.";this.readout.append(this.invitation)}level(u,v){const{columns,rows,log10_rms:levels}=this.
+data.pivot_map;const i=clamp(Math.floor(u),0,columns-2),j=clamp(Math.floor(v),0,rows-2);const a=u-i,b=v-j,at=j*columns+i;const[p,q,r,t]=[levels[at],levels[at+1],
+levels[at+columns],levels[at+columns+1]];const shares=[(1-a)*(1-b),a*(1-b),(1-a)*b,a*b];if([p,q,r,t].some((level,k)=>level===null&&shares[k]>0))return null;return shares[0]*
+p+shares[1]*q+shares[2]*r+shares[3]*t}build(linkage){const{svg}=this,map=this.data.pivot_map;const width=Math.max(240,this.parent.clientWidth);const height=Math.
+round(width*(map.high[1]-map.low[1])/(map.high[0]-map.low[0]));this.paint(width,height);svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.replaceChildren();
+const scale=width/(map.high[0]-map.low[0]);const view={width,height,X:x=>(x-map.low[0])*scale,Y:y=>height-(y-map.low[1])*scale};this.linkage=linkage;this.view=view;
+this.explain(this.pivots(linkage,view));this.mark=s("path",{class:"bm-map-cursor",d:"M-11 0H-4M4 0H11M0 -11V-4M0 4V11"});svg.append(this.mark);this.tell()}paint(width,height){
+const{canvas}=this,map=this.data.pivot_map;const dense=Math.min(2,window.devicePixelRatio||1);const style=getComputedStyle(this.parent);const near2=rgb(style.getPropertyValue(
 "--bm-map-near"));const far=rgb(style.getPropertyValue("--bm-map-far"));const w=Math.round(width*dense),t=Math.round(height*dense);if(canvas.width===w&&this.paintedIn===
 near2.join())return;this.paintedIn=near2.join();canvas.width=w;canvas.height=t;const context=canvas.getContext("2d"),image=context.createImageData(w,t);const band=new Int16Array(
 w*t);for(let j=0;j<t;j+=1){for(let i=0;i<w;i+=1){const level=this.level(i/(w-1)*(map.columns-1),(1-j/(t-1))*(map.rows-1));band[j*w+i]=level===null?-1:clamp(Math.
@@ -1156,51 +1182,51 @@ ty",cursor?"visible":"hidden");if(!cursor){this.readout.textContent=this.invitat
 late(${px(view.X(x))} ${px(view.Y(y))})`);this.say(cursor)}read(event){const box=this.svg.getBoundingClientRect(),{columns,rows}=this.data.pivot_map;this.say([(event.
 clientX-box.left)/box.width*(columns-1),(1-(event.clientY-box.top)/box.height)*(rows-1)])}say(at){const[x,y]=this.placeAt(at),level=this.level(...at);const digits=Math.
 max(0,2-Math.floor(Math.log10(this.data.scene)));const unit2=this.data.unit?` ${this.data.unit}`:"";this.readout.textContent=`Fixed pivot (${fixed(x,digits)}, ${fixed(
-y,digits)}): the best link misses by `+(level===null?"an unknown error.":`${figure(10**level)}${unit2} (rms).`)}};var GRASP=26;var STILL=3;var PivotMapPanel=class{constructor(answers,playing,hand){Object.assign(this,{answers,playing,hand,map:null,handles:null});this.element=
-h("div",{class:"bm-fill"});this.pace=new Pace(()=>this.build(),()=>isSeen(this.element));playing.on("shape",()=>this.pace.ask());new ResizeObserver(()=>this.pace.
-ask()).observe(this.element);watch(this.element,()=>this.pace.ask())}renew(){const{data}=this.answers;if(this.shown===data.pivot_map)return;this.shown=data.pivot_map;
-this.element.replaceChildren();this.map=data.pivot_map?new PivotMap(data,this.element):null;if(this.map)this.listen();this.pace.ask()}build(){if(!this.map)return;
-this.map.build(this.answers.shown);this.handles=[0,1].map(k=>s("g",{class:`bs-pivot bs-map-pivot bm-side${k}`},s("circle",{class:"bs-pivot-ring",r:8})));this.map.
-svg.append(...this.handles);this.drawHandles()}drawHandles(){if(!this.handles||!this.map?.view)return;const{view}=this.map;this.handles.forEach((element,k)=>{const pivot=this.
-hand.pivot(k,"F");put(element,"display",pivot?"inline":"none");if(!pivot)return;put(element,"transform",`translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.
-at[1]))})`);element.dataset.mapPivot=pivot.id})}nearest([x,y]){const{view}=this.map;const away=[0,1].map(k2=>{const pivot=this.hand.pivot(k2,"F");return pivot?Math.
-hypot(view.X(pivot.at[0])-view.X(x),view.Y(pivot.at[1])-view.Y(y)):Infinity});const k=away[1]<away[0]?1:0;return{k,away:away[k]}}listen(){const{hand}=this,{svg}=this.
-map;const at=event=>{const box=svg.getBoundingClientRect(),{low,high}=this.answers.data.pivot_map;const u=(event.clientX-box.left)/box.width,v=1-(event.clientY-
-box.top)/box.height;return[low[0]+u*(high[0]-low[0]),low[1]+v*(high[1]-low[1])]};let pointer=null,start=null;const end=event=>{if(event.pointerId!==pointer)return;
-pointer=null;hand.drop()};svg.addEventListener("pointerdown",event=>{if(event.button!==0)return;const point2=at(event),{k,away}=this.nearest(point2);if(!Number.
+y,digits)}): the best link misses by `+(level===null?"an unknown error.":`${figure(10**level)}${unit2} (rms).`)}};var GRASP=26;var STILL=3;var PivotMapPanel=class{map;constructor(answers,playing,hand){this.answers=answers;this.playing=playing;this.hand=hand;this.map=null;this.
+handles=null;this.element=h("div",{class:"bm-fill"});this.pace=new Pace(()=>this.build(),()=>isSeen(this.element));playing.on("shape",()=>this.pace.ask());new ResizeObserver(
+()=>this.pace.ask()).observe(this.element);watch(this.element,()=>this.pace.ask())}renew(){const{data}=this.answers;if(this.shown===data.pivot_map)return;this.shown=
+data.pivot_map;this.element.replaceChildren();this.map=data.pivot_map?new PivotMap(data,this.element):null;if(this.map)this.listen();this.pace.ask()}build(){if(!this.
+map)return;this.map.build(this.answers.shown);this.handles=[0,1].map(k=>s("g",{class:`bs-pivot bs-map-pivot bm-side${k}`},s("circle",{class:"bs-pivot-ring",r:8})));
+this.map.svg.append(...this.handles);this.drawHandles()}drawHandles(){if(!this.handles||!this.map?.view)return;const{view}=this.map;this.handles.forEach((element,k)=>{
+const pivot=this.hand.pivot(k,"F");put(element,"display",pivot?"inline":"none");if(!pivot)return;put(element,"transform",`translate(${px(view.X(pivot.at[0]))} ${px(
+view.Y(pivot.at[1]))})`);element.dataset.mapPivot=pivot.id})}nearest([x,y]){const{view}=this.map;const away=[0,1].map(k2=>{const pivot=this.hand.pivot(k2,"F");return pivot?
+Math.hypot(view.X(pivot.at[0])-view.X(x),view.Y(pivot.at[1])-view.Y(y)):Infinity});const k=away[1]<away[0]?1:0;return{k,away:away[k]}}listen(){const{hand}=this,
+{svg}=this.map;const at=event=>{const box=svg.getBoundingClientRect(),{low,high}=this.answers.data.pivot_map;const u=(event.clientX-box.left)/box.width,v=1-(event.
+clientY-box.top)/box.height;return[low[0]+u*(high[0]-low[0]),low[1]+v*(high[1]-low[1])]};let pointer=null,start=null;const end=event=>{if(event.pointerId!==pointer)
+return;pointer=null;hand.drop()};svg.addEventListener("pointerdown",event=>{if(event.button!==0)return;const point2=at(event),{k,away}=this.nearest(point2);if(!Number.
 isFinite(away)||!hand.take(k,"F"))return;event.preventDefault();pointer=event.pointerId;start={near:away<=GRASP,X:event.clientX,Y:event.clientY};svg.setPointerCapture(
 pointer);this.playing.player.play(false);if(!start.near)hand.put(point2)});svg.addEventListener("pointermove",event=>{if(event.pointerId!==pointer)return;if(start.
 near&&Math.hypot(event.clientX-start.X,event.clientY-start.Y)<STILL)return;start.near=false;hand.put(at(event))});svg.addEventListener("pointerup",end);svg.addEventListener(
 "pointercancel",end);svg.addEventListener("keydown",event=>{if(event.key==="Escape"&&hand.pivots)hand.release();if(event.key!=="Enter"||!this.map.cursor)return;
-const point2=this.map.placeAt(this.map.cursor),{k}=this.nearest(point2);if(!hand.take(k,"F"))return;event.preventDefault();hand.put(point2);hand.drop()})}};var ARROWS4={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var PivotSurface=class{constructor(store,answers,playing,scene){Object.assign(this,
-{store,answers,playing,scene,pivots:null,held:null});this.handles=s("g",{class:"bs-pivots"});scene.layer("pivots").append(this.handles);this.parts=[0,1].map(k=>[
-"F","M"].map(plane=>this.handle(k,plane)));this.story=h("p",{class:"bm-story"});this.readout=h("output",{class:"bs-placed-readout","aria-live":"polite"});this.letGo=
-h("button",{type:"button",class:"bs-small",hidden:true,onclick:()=>this.release()},"Let go of the pivots");this.curves=new FamilyCurves(store,answers,playing,scene);
-this.map=new PivotMapPanel(answers,playing,this);this.element=h("div",{class:"bs-surface"},this.story,h("div",{class:"bs-tool"},this.curves.label),this.curves.legend,
-this.map.element,this.readout,h("div",{class:"bs-tool"},this.letGo));answers.on("answers",()=>this.renew());answers.on("poses",()=>{this.explain();if(this.pivots)
-store.place(this.pivots)});answers.on("placed",()=>this.tell());playing.on("shape",()=>this.show());playing.on("place",()=>this.move());scene.on("view",()=>this.
-show());store.on("state document",()=>this.element.classList.toggle("bs-stale",answers.isOld));this.renew()}get dyads(){if(this.store.document.poses.some(isPoint))
-return[];const placed=this.store.placed?.dyads;if(this.pivots&&placed?.length)return placed;return this.answers.shown?.led??[]}pivot(k,plane){const dyad=this.dyads[k];
-if(!dyad)return null;const wanted=this.pivots?.[k];const at=wanted?.plane===plane?wanted.at:plane==="F"?dyad.fixed_pivot:dyad.moving_pivot;return at?{plane,at,id:dyad.
-id}:null}handle(k,plane){const name=plane==="F"?"fixed":"moving";const element=s("g",{class:`bs-pivot bs-pivot-${name} bm-side${k}`,"data-plane":plane,tabindex:0,
-role:"button"},s("circle",{class:"bs-hold",r:13}),s("circle",{class:"bs-pivot-ring",r:8}));let before;this.scene.drag?.(element,{start:()=>{before=this.pivots;this.
-playing.player.play(false);this.place=this.playing.here?.place??null;return this.take(k,plane)},move:({x,y})=>this.put(plane==="F"?[x,y]:back(this.place,[x,y])),
-end:()=>this.drop(),cancel:()=>{this.drop();if(before)this.ask(before);else this.release()}});element.addEventListener("keydown",event=>this.key(event,k,plane));
-this.handles.append(element);return element}key(event,k,plane){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS4[event.key];if(event.key==="Escape"&&this.
-pivots){this.release()}else if(arrow2){const{at}=this.pivot(k,plane),step=(this.scene.step??this.answers.data.scene/100)*(event.shiftKey?10:event.altKey?.1:1);if(!this.
-take(k,plane))return;this.put(at.map((value,axis)=>value+step*arrow2[axis]),step);this.drop()}else{return}event.preventDefault()}take(k,plane){const start=this.
-pivot(k,plane);if(!start||plane==="M"&&!this.playing.here)return false;const other=this.pivots?.[1-k]??this.pivot(1-k,"F")??this.pivot(1-k,"M");const next=[];next[k]=
-{plane,at:start.at};if(other)next[1-k]={plane:other.plane,at:other.at};this.pivots=next;this.held={k,plane};this.keepHeight();return true}keepHeight(){const{element}=this.
-playing;element.style.minHeight=`${element.offsetHeight}px`}put(point2,step=0){const{k,plane}=this.held,digits=decimalsOf(this.answers.data);let at=this.curves.
-onto(plane,point2);if(!at)at=point2.map(value=>step?Number(value.toFixed(digits)):this.scene.rounded(value));this.ask(this.pivots.map((each,n)=>n===k?{plane,at}:
-each))}drop(){this.held=null}ask(pivots){this.pivots=pivots;this.store.place(pivots.map(({plane,at})=>({plane,at})));this.show();this.tell()}release(){this.pivots=
-null;this.held=null;this.playing.element.style.minHeight="";this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.before??this.answers.linkages[0]?.
-id??null);this.tell();this.show()}renew(){const{data}=this.answers;if(!this.pivots&&this.store.chosen!==PLACED)this.before=this.store.chosen;this.curves.renew();
-this.map.renew();this.explain();this.show()}explain(){const count=this.answers.data.poses.length;const text=count===4&&this.curves.family?"Four poses leave a cu\
-rve of dyads. Drag a pivot in the drawing: it slides along its curve.":count===3?"Three poses leave every pivot free. Drag a fixed pivot anywhere in F, or a mov\
-ing pivot anywhere on the body.":count===2?"Two poses leave much open. Drag a pivot: its best dyad follows.":"Drag a pivot in the drawing or on the map: the bes\
-t dyad there is shown with what it costs.";say(this.story,text)}show(){const{view}=this.scene,place=this.playing.here?.place,there=this.answers.shown&&!this.answers.
-shown.gone;this.parts.forEach((planes,k)=>{planes.forEach((element,n)=>{const plane="FM"[n],pivot=there||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&
+const point2=this.map.placeAt(this.map.cursor),{k}=this.nearest(point2);if(!hand.take(k,"F"))return;event.preventDefault();hand.put(point2);hand.drop()})}};var ARROWS4={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var PivotSurface=class{held;constructor(store,answers,playing,scene){this.store=store;
+this.answers=answers;this.playing=playing;this.scene=scene;this.pivots=null;this.held=null;this.handles=s("g",{class:"bs-pivots"});scene.layer("pivots").append(
+this.handles);this.parts=[0,1].map(k=>["F","M"].map(plane=>this.handle(k,plane)));this.story=h("p",{class:"bm-story"});this.readout=h("output",{class:"bs-placed\
+-readout","aria-live":"polite"});this.letGo=h("button",{type:"button",class:"bs-small",hidden:true,onclick:()=>this.release()},"Let go of the pivots");this.curves=
+new FamilyCurves(store,answers,playing,scene);this.map=new PivotMapPanel(answers,playing,this);this.element=h("div",{class:"bs-surface"},this.story,h("div",{class:"\
+bs-tool"},this.curves.label),this.curves.legend,this.map.element,this.readout,h("div",{class:"bs-tool"},this.letGo));answers.on("answers",()=>this.renew());answers.
+on("poses",()=>{this.explain();if(this.pivots)store.place(this.pivots)});answers.on("placed",()=>this.tell());playing.on("shape",()=>this.show());playing.on("pl\
+ace",()=>this.move());scene.on("view",()=>this.show());store.on("state document",()=>this.element.classList.toggle("bs-stale",answers.isOld));this.renew()}get dyads(){
+if(this.store.document.poses.some(isPoint))return[];const placed=this.store.placed?.dyads;if(this.pivots&&placed?.length)return placed;return this.answers.shown?.
+led??[]}pivot(k,plane){const dyad=this.dyads[k];if(!dyad)return null;const wanted=this.pivots?.[k];const at=wanted?.plane===plane?wanted.at:plane==="F"?dyad.fixed_pivot:
+dyad.moving_pivot;return at?{plane,at,id:dyad.id}:null}handle(k,plane){const name=plane==="F"?"fixed":"moving";const element=s("g",{class:`bs-pivot bs-pivot-${name}\
+ bm-side${k}`,"data-plane":plane,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:13}),s("circle",{class:"bs-pivot-ring",r:8}));let before;this.scene.drag?.(
+element,{start:()=>{before=this.pivots;this.playing.player.play(false);this.place=this.playing.here?.place??null;return this.take(k,plane)},move:({x,y})=>this.put(
+plane==="F"?[x,y]:back(this.place,[x,y])),end:()=>this.drop(),cancel:()=>{this.drop();if(before)this.ask(before);else this.release()}});element.addEventListener(
+"keydown",event=>this.key(event,k,plane));this.handles.append(element);return element}key(event,k,plane){if(event.ctrlKey||event.metaKey)return;const arrow2=ARROWS4[event.
+key];if(event.key==="Escape"&&this.pivots){this.release()}else if(arrow2){const{at}=this.pivot(k,plane),step=(this.scene.step??this.answers.data.scene/100)*(event.
+shiftKey?10:event.altKey?.1:1);if(!this.take(k,plane))return;this.put(at.map((value,axis)=>value+step*arrow2[axis]),step);this.drop()}else{return}event.preventDefault()}take(k,plane){
+const start=this.pivot(k,plane);if(!start||plane==="M"&&!this.playing.here)return false;const other=this.pivots?.[1-k]??this.pivot(1-k,"F")??this.pivot(1-k,"M");
+const next=[];next[k]={plane,at:start.at};if(other)next[1-k]={plane:other.plane,at:other.at};this.pivots=next;this.held={k,plane};this.keepHeight();return true}keepHeight(){
+const{element}=this.playing;element.style.minHeight=`${element.offsetHeight}px`}put(point2,step=0){const{k,plane}=this.held,digits=decimalsOf(this.answers.data);
+let at=this.curves.onto(plane,point2);if(!at)at=point2.map(value=>step?Number(value.toFixed(digits)):this.scene.rounded(value));this.ask(this.pivots.map((each,n)=>n===
+k?{plane,at}:each))}drop(){this.held=null}ask(pivots){this.pivots=pivots;this.store.place(pivots.map(({plane,at})=>({plane,at})));this.show();this.tell()}release(){
+this.pivots=null;this.held=null;this.playing.element.style.minHeight="";this.store.place([]);if(this.store.chosen===PLACED)this.store.choose(this.before??this.answers.
+linkages[0]?.id??null);this.tell();this.show()}renew(){const{data}=this.answers;if(!this.pivots&&this.store.chosen!==PLACED)this.before=this.store.chosen;this.curves.
+renew();this.map.renew();this.explain();this.show()}explain(){const count=this.answers.data.poses.length;const text=count===4&&this.curves.family?"Four poses le\
+ave a curve of dyads. Drag a pivot in the drawing: it slides along its curve.":count===3?"Three poses leave every pivot free. Drag a fixed pivot anywhere in F, \
+or a moving pivot anywhere on the body.":count===2?"Two poses leave much open. Drag a pivot: its best dyad follows.":"Drag a pivot in the drawing or on the map:\
+ the best dyad there is shown with what it costs.";say(this.story,text)}show(){const{view}=this.scene,place=this.playing.here?.place,there=this.answers.shown&&!this.
+answers.shown.gone;this.parts.forEach((planes,k)=>{planes.forEach((element,n)=>{const plane="FM"[n],pivot=there||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&
 (plane==="F"||place);put(element,"display",seen2?"inline":"none");if(!seen2)return;put(element,"data-pivot",pivot.id);element.classList.toggle("bs-put",this.pivots?.[k]?.
 plane===plane);if(plane==="F")put(element,"transform",`translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`)})});this.name();this.move();this.map.drawHandles()}move(){
 const{view}=this.scene,place=this.playing.here?.place;if(!place)return;this.parts.forEach(([,element],k)=>{const pivot=element.getAttribute("display")==="none"?
@@ -1218,64 +1244,67 @@ toUpperCase()}${message.slice(1)}.`)].join(" ");const both=linkage.usable?`usabl
 join(" ")} Together a ${linkage.type}: ${both}.`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
 span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
-ways.map(one));give(this.element,"hidden",!linkage.ways.length)}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var STEPS=360;var Player=class{constructor(data,show,rebuild){
-this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.whole=false;this.stretch={low:0,high:1};this.playing=false;this.
-remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){return nounOf(this.data)}controls(){const button2=(name,text,label,onclick)=>h(
-"button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));
-this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","aria-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",
-{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"tr\
-ue"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("output",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.
-addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.
-shiftKey?10*step:step)});this.steps=[button2("bm-back","","",()=>this.toPose(-1)),button2("bm-next","","",()=>this.toPose(1))];this.wholeLabel=h("label",{class:"\
-bm-whole"},this.box,this.boxName);this.nameStops();return h("div",{class:"bm-controls"},h("div",{class:"bm-track"},this.slider,this.stops),h("div",{class:"bm-ro\
-w"},this.button,this.steps,this.wholeLabel),this.readout)}nameStops(){const{stop}=this,title=stop[0].toUpperCase()+stop.slice(1);[[`◀ ${title}`,`Previous ${stop}`],
-[`${title} ▶`,`Next ${stop}`]].forEach(([text,label],k)=>{say(this.steps[k],text);put(this.steps[k],"aria-label",label);give(this.steps[k],"title",label)});give(
-this.wholeLabel,"title",`Play all that the driver reaches, not only from the first ${stop} to the last`)}load(linkage){this.linkage=linkage;const counts=linkage.
-ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){
-return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path:path2,
-slider}=this;if(!path2)this.play(false);this.nameStops();for(const each of[slider,this.button])give(each,"disabled",!path2);const last=path2?path2.x.length-1:1;
-const frames=path2?this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-
-low>LEAST_STRETCH;this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);say(this.boxName,path2?.round?"Whole turn":"Whol\
-e branch");this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,
-{low,high}=this.stretch;stops.replaceChildren();if(!path2)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-
-2*inset);const known=this.stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.
-data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({x,text:shortened(poseName2(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=
-0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.label})),width,rows.length>MANY_POSES2?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s(
-"g",{"data-pose":k+1},s("title",{},calledOf(pose)),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].
-at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"\
-middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;
-if(on===this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(
-on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)
-return;let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=
-requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.
-goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,
-high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=
-0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.
-u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*
-Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.
-high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.
-atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.
-play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.
-linkage,this.path,u,this.data.chart.length)}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.
-a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)
-[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2}=this;if(!path2){for(const part of this.parts)part.textContent="";return}const place=this.
-placeAt(this.u);const drive=linear(path2.drive,this.u),transmission=place.transmission??linear(path2.transmission,this.u);const near2=this.atPose=this.nearest(place);
-if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,"value",this.u);this.tell(place,drive,transmission,
-near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.
-unit?` ${data.unit}`:""}`:`${fixed(drive,1)}°`}tell(place,drive,transmission,near2){const{data,linkage}=this;const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(
-data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(
-Math.hypot(place.x-pose.x,place.y-pose.y))}${unit2} from ${calledOf(pose)}`;const missed2=()=>`at ${calledOf(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(
-row.said.position,row.said.turned,unit2)}`;const said=!pose?"between the poses":at?missed2():away();const texts=[`driver ${driver}`,`body (${fixed(place.x,digits)}\
-, ${fixed(place.y,digits)})${unit2}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`,`transmission ${transmission===null?"–":`${fixed(transmission,1)}\
-°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=whole});put(this.
-slider,"aria-valuetext",`driver ${driver}, ${texts[3]}`)}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*
-text.length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/
-2}})}var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?
-"M1 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
-!linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=linkage.
-pose_errors.map(()=>null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,led,piece,
-chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.ways[row.
-way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
+ways.map(one));give(this.element,"hidden",!linkage.ways.length||Boolean(this.data.whole))}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var NO_ERROR2=1e-7;var STEPS=360;
+var Player=class{parts;steps;tick;wholeLabel;constructor(data,show,rebuild){this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=
+1;this.whole=false;this.stretch={low:0,high:1};this.playing=false;this.remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){
+return nounOf(this.data)}controls(){const button2=(name,text,label,onclick)=>h("button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,
+onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","ari\
+a-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=
+h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"true"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("ou\
+tput",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,
+ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.shiftKey?10*step:step)});this.steps=[button2("bm-back","","",()=>this.toPose(-1)),button2(
+"bm-next","","",()=>this.toPose(1))];this.wholeLabel=h("label",{class:"bm-whole"},this.box,this.boxName);this.nameStops();return h("div",{class:"bm-controls"},h(
+"div",{class:"bm-track"},this.slider,this.stops),h("div",{class:"bm-row"},this.button,this.steps,this.wholeLabel),this.readout)}nameStops(){const{stop}=this,title=stop[0].
+toUpperCase()+stop.slice(1);[[`◀ ${title}`,`Previous ${stop}`],[`${title} ▶`,`Next ${stop}`]].forEach(([text,label],k)=>{say(this.steps[k],text);put(this.steps[k],
+"aria-label",label);give(this.steps[k],"title",label)});give(this.wholeLabel,"title",`Play all that the driver reaches, not only from the first ${stop} to the l\
+ast`)}load(linkage){this.linkage=linkage;const counts=linkage.ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){
+this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.
+way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path:path2,slider}=this;if(!path2)this.play(false);this.nameStops();for(const each of[slider,
+this.button])give(each,"disabled",!path2);const last=path2?path2.x.length-1:1;const frames=path2?this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.
+reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};
+give(this.box,"disabled",!apart);say(this.boxName,path2?.round?"Whole turn":"Whole branch");this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){
+this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,{low,high}=this.stretch;stops.replaceChildren();if(!path2)return;const width=Math.max(
+60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.
+sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({x,text:shortened(poseName2(
+pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.label})),width,rows.length>MANY_POSES2?
+1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-pose":k+1},s("title",{},calledOf(pose)),...parts);rows.
+forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,
+text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*
+deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===this.playing&&this.isDressed)return;this.isDressed=true;
+this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":
+"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;let before=null;const run=now=>{if(!this.playing)return;
+if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){
+if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.
+high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:
+TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*
+step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){
+if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.
+path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,
+k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??
+all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}
+this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.length)}nearest(place){let near2=0,least2=Infinity;this.
+data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.
+length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2}=this;if(!path2){for(const part of this.
+parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path2.drive,this.u),transmission=linear(path2.transmission,this.u);const near2=this.
+atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,"value",this.u);this.tell(
+place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;return linkage.led[0].kind==="PR"?`${fixed(
+drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${linkage.crank??""}${fixed(drive,1)}°`}tell(place,drive,transmission,near2){const{data,linkage}=this;
+const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.pose_errors[near2];const at=row?.
+at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit2} from ${calledOf(pose)}`;const missed2=()=>`\
+at ${calledOf(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit2)}`;const said=!pose?"between the poses":pose.called?
+`${at?"at":"near"} ${pose.called}`:at?missed2():away();const known=this.path.told?.map(each=>this.toldOf(each))??[`driver ${driver}`,`body (${fixed(place.x,digits)}\
+, ${fixed(place.y,digits)})${unit2}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`];const texts=[...known,`transmission ${transmission===null?"–":`${fixed(
+transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=
+whole});put(this.slider,"aria-valuetext",`${texts[0]}, ${texts[3]}`)}toldOf({name,digits,values,panel:panel2}){const error=panel2===void 0?null:valueAt(this.linkage.
+panels[panel2],smooth(this.path.drive,this.u));const off=error===null?"":`, off by ${Math.abs(error)<NO_ERROR2?"0":figure(error)}°`;return`${name} ${fixed(smooth(
+values,this.u),digits)}°${off}`}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,
+left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%
+turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H\
+7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
+!linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=Array(
+linkage.pose_errors.length).fill(null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,
+led,piece,chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.
+ways[row.way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
 way.branches=ways.filter(each=>each.circuit===way.circuit).length;named.set(way.circuit,(named.get(way.circuit)??0)+1);way.branch=named.get(way.circuit)}const pose_errors=linkage.
 pose_errors.map((row,k)=>({...row,way:places[k]?.[0]??null,frame:places[k]?.[1]??null,at:places[k]?ways[places[k][0]]:null,transmission_deg:row.x===null?null:transmissionOf(
 ...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
@@ -1374,8 +1403,8 @@ this.future.push(value);return last.value}redo(value){const next=this.future.pop
 if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
 0}};var REST2=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var FEWEST=2;var QUICK=1.2;var NO_ANSWER={linkages:[],dyads:[],best:[],warnings:[],pivot_map:null,
 family_map:null,outcome:{message:"Two poses or more make a task"}};var PLACED2="placed";var kindOf=({poses,path:path2})=>`${poses.map(({free})=>free?.join("")??
-"-").join()} ${path2?path2.closed:""}`;var Store=class{constructor({connection,document:document2,options={},name="task",settings={},mostFlying=MOST_FLYING}){this.
-connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;this.name=name;this.settings=
+"-").join()} ${path2?path2.closed:""}`;var Store=class{solving;placing;solved;constructor({connection,document:document2,options={},name="task",settings={},mostFlying=MOST_FLYING}){
+this.connection=connection;this.mostFlying=mostFlying;this.renamed=new Map;this.moved=new Map;this.document=document2;this.options=options;this.name=name;this.settings=
 settings;this.history=new History;this.solved=null;this.solvedFor=null;this.followed=null;this.followedFor=null;this.state="resting";this.progress="";this.chosen=
 null;this.pinned=new Set;this.compared=null;this.placed=null;this.whole=null;this.task=0;this.solvedTask=0;this.selection=null;this.messages=[];this.listeners=new Map;
 this.basis=null;this.pending=null;this.flying=new Map;this.placing=null;this.solving=null;connection.on("message",message=>this.take(message));connection.on("op\
@@ -1385,64 +1414,64 @@ this.listeners.set(name,[]);this.listeners.get(name).push(fn)}}emit(...names){co
 record(this.version,gesture);this.document=next;this.changed()}option(name,value){this.history.record(this.version,null);const{[name]:_,...rest}=this.options;this.
 options=value===void 0?rest:{...rest,[name]:value};this.changed()}setting(name,value){this.history.record(this.version,null);this.settings=withKeys(this.settings,
 {[name]:value});this.emit("document")}rename(name){this.history.record(this.version,null);this.name=name;this.emit("document")}replace({document:document2,options={},
-name=this.name,settings=this.settings}){this.history.record(this.version,null);this.tasks=(this.tasks??0)+1;Object.assign(this,{document:document2,options,name,
-settings,selection:null,placed:null,task:this.tasks});this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.undo(this.version))}redo(){this.
-goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.document,options:this.options,
-name:this.name,settings:this.settings,task:this.task}}goTo(version){if(!version)return;const isSame=version.document===this.document&&version.options===this.options;
-Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){if(this.placed?.cognateOf)this.letCognateGo();this.follow();this.emit(
-"document");if(this.isEmpty)this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set([this.chosen,this.
-compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=this.mostFlying)return;if(!this.canFollow){
-this.solveMeanwhile();return}const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,options,shown:shown2});
-if(n!==null)this.flying.set(n,{document:document2,isOld:false})}get canFollow(){return this.whole!==kindOf(this.document)}get slow(){return this.canFollow||this.
-seconds===void 0?null:this.seconds}solveMeanwhile(){if(this.solving||this.state==="offline"||this.isEmpty||this.slow===null||this.slow>QUICK)return;const{document:document2,
-options}=this,n=this.connection.send({do:"solve",document:document2,options});if(n!==null)this.solving={n,document:document2,options}}solveAfterRest(){clearTimeout(
-this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST2/3);else this.
-solve()};this.resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document:document2,options}=this;if(this.solving?.document===document2&&this.
-solving.options===options){this.setState("solving","");return}const n=this.connection.send({do:"solve",document:document2,options});if(n===null)return;this.solving=
-{n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.length?pivots:null;
-if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,placeWanted:pivots}=this;
-const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{n,kind}=message;if(kind===
-"ended")this.say(message.messages.map(each=>({tone:kind,...each})));if(kind==="followed")this.takeFollowed(message);else if(this.flying.has(n))this.followRefused(
-message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.n)this.takeSolving(message)}takeFollowed(frame){
-const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?null:this.basis);this.flying.delete(frame.n);
-if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.solvedFor&&!this.followed;if(from===this.basis&&
-!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,this.solvedFor].includes(this.document))
-this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(this.document))this.follow()}followRefused({
-n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind==="refused"&&!solve)this.say(messages);if(whole)
-this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;if(this.placeWanted&&message.kind==="placed"){
-this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.placeWanted&&this.placeWanted!==pivots)
-this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document,isAnother=this.solvedTask!==this.task;if(message.kind===
-"progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)this.setState("solving",message.kind===
-"progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={...message,document:document2};
-if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){this.forget("There is no answer to this task yet")}if(message.kind===
-"refused"){this.say(message.messages)}else if(!["solved","ended"].includes(message.kind)){const[said]=[message.message].flat();this.say([{tone:message.kind,...typeof said===
-"string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.poses.length<FEWEST}forget(message=NO_ANSWER.outcome.message){
-if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.solved.space,quadrics:[]}};this.install({n:null,result,document:this.
-document,seconds:null});if(this.placed)this.place([])}install({n,result,document:document2,seconds,was}){const told=Object.entries(was??{});this.renamed=new Map(
-told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&!this.followed)for(const{
-id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;this.isAnother=this.solvedTask!==
-this.task;Object.assign(this,{solved:result,solvedFor:document2,solvedTask:this.task,seconds,basis:n,whole:null,pending:null,followed:null,followedFor:null});for(const each of this.
-flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;this.compared=carried(this.compared);this.pinned=new Set([...this.
-pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","messages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){
-this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,messages:[],cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){
-const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)this.chosen=cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=
-this.placing=null;this.setState("resting","");this.basis=null;this.solve()}closed(){clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;
-this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===this.progress)return;this.state=state;this.progress=progress;this.emit(
-"state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dr\
-agging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===
-this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.kind&&selection?.index===this.selection?.index)return;this.selection=
-selection;this.emit("selection")}};var MOST4=40;var Results=class{constructor(store,answers){Object.assign(this,{store,answers,cards:new Map,wanted:{order:"rank",filter:"all",type:""},all:false});
-const choice2=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.map(([value,text])=>h(
-"option",{value},text))));this.types=choice2("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-results-status",role:"sta\
-tus"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("button",{type:"button",class:"\
-bs-small",hidden:true,onclick:()=>this.showAll()});this.element=h("section",{class:"bs-results","aria-label":"Linkages"},h("div",{class:"bs-results-head"},this.
-title,this.status,this.doubt,this.gone,h("div",{class:"bs-choices"},choice2("Show",Object.entries(FILTERS).map(([key,{name}])=>[key,name]),"filter"),choice2("So\
-rt by",Object.entries(ORDERS).map(([key,{name}])=>[key,name]),"order"),this.types)),this.list,this.more);this.pace=new Pace(()=>this.update());this.list.addEventListener(
-"keydown",event=>this.walk(event));answers.on("answers placed",()=>this.arrange());answers.on("moved",()=>this.pace.ask());answers.on("shown",()=>this.update());
-store.on("pinned",()=>this.arrange());store.on("state document",()=>this.tell());this.arrange()}want(key,value){this.wanted[key]=value;this.arrange()}showAll(){
-this.all=true;this.arrange()}arrange(){const{answers,store,wanted}=this;this.buildTypes();const every=arranged(answers.linkages,{...wanted,pinned:store.pinned});
-const shown2=this.all?every:every.slice(0,MOST4);const list=answers.placed?[answers.placed,...shown2]:shown2;const cards=new Map;for(const linkage of list)cards.
-set(linkage,this.cards.get(linkage)??this.card());for(const[linkage,card]of this.cards)if(!cards.has(linkage))card.element.remove();this.cards=cards;let before=null;
+name=this.name,settings=this.settings}){this.history.record(this.version,null);this.tasks=(this.tasks??0)+1;this.document=document2;this.options=options;this.name=
+name;this.settings=settings;this.selection=null;this.placed=null;this.task=this.tasks;this.changed();this.emit("selection","placed")}undo(){this.goTo(this.history.
+undo(this.version))}redo(){this.goTo(this.history.redo(this.version))}abandon(gesture){this.goTo(this.history.abandon(gesture))}get version(){return{document:this.
+document,options:this.options,name:this.name,settings:this.settings,task:this.task}}goTo(version){if(!version)return;const isSame=version.document===this.document&&
+version.options===this.options;Object.assign(this,version);if(isSame)this.emit("document");else this.changed()}changed(){if(this.placed?.cognateOf)this.letCognateGo();
+this.follow();this.emit("document");if(this.isEmpty)this.forget();if(this.state!=="offline")this.setState("dragging");this.solveAfterRest()}get shown(){return[...new Set(
+[this.chosen,this.compared,...this.pinned])].filter(id=>id&&id!==PLACED2).slice(0,MOST_SHOWN)}follow(){if(!this.solved||this.flying.size>=this.mostFlying)return;
+if(!this.canFollow){this.solveMeanwhile();return}const{document:document2,options,shown:shown2}=this;const n=this.connection.send({do:"follow",document:document2,
+options,shown:shown2});if(n!==null)this.flying.set(n,{document:document2,isOld:false})}get canFollow(){return this.whole!==kindOf(this.document)}get slow(){return this.
+canFollow||this.seconds===void 0?null:this.seconds}solveMeanwhile(){if(this.solving||this.state==="offline"||this.isEmpty||this.slow===null||this.slow>QUICK)return;
+const{document:document2,options}=this,n=this.connection.send({do:"solve",document:document2,options});if(n!==null)this.solving={n,document:document2,options}}solveAfterRest(){
+clearTimeout(this.resting);const since=performance.now();const rest=()=>{if(this.flying.size&&performance.now()-since<MOST_REST)this.resting=setTimeout(rest,REST2/
+3);else this.solve()};this.resting=setTimeout(rest,REST2)}solve(){clearTimeout(this.resting);const{document:document2,options}=this;if(this.solving?.document===
+document2&&this.solving.options===options){this.setState("solving","");return}const n=this.connection.send({do:"solve",document:document2,options});if(n===null)
+return;this.solving={n,document:document2,options};this.setState("solving","")}cancel(){this.connection.send({do:"cancel"})}place(pivots){this.placeWanted=pivots?.
+length?pivots:null;if(!this.placeWanted){this.placed=null;this.emit("placed")}else if(!this.placing){this.sendPlace()}}sendPlace(){const{document:document2,options,
+placeWanted:pivots}=this;const n=this.connection.send({do:"place",document:document2,options,pivots});this.placing=n===null?null:{n,pivots}}take(message){const{
+n,kind}=message;if(kind==="ended")this.say(message.messages.map(each=>({tone:kind,...each})));if(kind==="followed")this.takeFollowed(message);else if(this.flying.
+has(n))this.followRefused(message);else if(n===this.placing?.n)this.takePlaced(message);else if(n===this.solving?.n||kind==="cancelled"&&this.solving&&n>this.solving.
+n)this.takeSolving(message)}takeFollowed(frame){const asked=this.flying.get(frame.n);if(!asked)return;const{document:document2,isOld}=asked,from=frame.from??(isOld?
+null:this.basis);this.flying.delete(frame.n);if(this.pending&&from===this.pending.n)this.install(this.pending);this.goOn(document2);const isThere=document2===this.
+solvedFor&&!this.followed;if(from===this.basis&&!isThere){this.followed=frame;this.followedFor=document2;this.emit("followed")}if(!this.flying.size&&![this.followedFor,
+this.solvedFor].includes(this.document))this.follow()}goOn(document2){const asked=[document2,...[...this.flying.values()].map(each=>each.document)];if(!asked.includes(
+this.document))this.follow()}followRefused({n,kind,messages=[],solve=false,whole=false}){const{document:document2}=this.flying.get(n);this.flying.delete(n);if(kind===
+"refused"&&!solve)this.say(messages);if(whole)this.whole=kindOf(document2);this.goOn(document2)}takePlaced(message){const{pivots}=this.placing;this.placing=null;
+if(this.placeWanted&&message.kind==="placed"){this.placed={...message,pivots};this.emit("placed")}else if(message.kind==="refused"){this.say(message.messages)}if(this.
+placeWanted&&this.placeWanted!==pivots)this.sendPlace()}takeSolving(message){const{document:document2}=this.solving,isNow=document2===this.document,isAnother=this.
+solvedTask!==this.task;if(message.kind==="progress"||message.kind==="waiting"){const before=`waiting for ${message.before} other${message.before===1?"":"s"}`;if(isNow)
+this.setState("solving",message.kind==="progress"?message.text:before);return}if(message.kind==="solving")return;this.solving=null;if(message.kind==="solved"){const answer={
+...message,document:document2};if(isNow||!this.canFollow)this.install(answer);else this.pending=answer}else if(isAnother){this.forget("There is no answer to thi\
+s task yet")}if(message.kind==="refused"){this.say(message.messages)}else if(!["solved","ended"].includes(message.kind)){const[said]=[message.message].flat();this.
+say([{tone:message.kind,...typeof said==="string"?{message:said}:said}])}if(isNow)this.setState("resting","")}get isEmpty(){return this.document.poses.length<FEWEST}forget(message=NO_ANSWER.
+outcome.message){if(!this.solved)return;const result={...this.solved,...NO_ANSWER,outcome:{message},space:{...this.solved.space,quadrics:[]}};this.install({n:null,
+result,document:this.document,seconds:null,was:void 0});if(this.placed)this.place([])}install({n,result,document:document2,seconds,was}){const told=Object.entries(
+was??{});this.renamed=new Map(told.map(([now,{id}])=>[id,now]));this.moved=new Map(told.map(([now,{moved}])=>[now,moved]));if(!told.length&&document2===this.solvedFor&&
+!this.followed)for(const{id}of result.linkages)this.renamed.set(id,id);const carried=id=>id===PLACED2&&this.placed?.linkage?id:this.renamed.get(id)??null;this.isAnother=
+this.solvedTask!==this.task;this.solved=result;this.solvedFor=document2;this.solvedTask=this.task;this.seconds=seconds;this.basis=n;this.whole=null;this.pending=
+null;this.followed=null;this.followedFor=null;for(const each of this.flying.values())each.isOld=true;this.chosen=carried(this.chosen)??result.linkages[0]?.id??null;
+this.compared=carried(this.compared);this.pinned=new Set([...this.pinned].map(carried).filter(Boolean));this.messages=[];this.emit("solved","chosen","pinned","m\
+essages");if(document2!==this.document)this.follow()}takeCognate(linkage,of){this.placeWanted=null;this.placed={linkage,dyads:[],pivots:[],cost:null,messages:[],
+cognateOf:of};this.chosen=PLACED2;this.emit("placed","chosen")}letCognateGo(){const{cognateOf}=this.placed;this.placed=null;if(this.chosen===PLACED2)this.chosen=
+cognateOf;this.emit("placed","chosen")}opened(){this.flying.clear();this.solving=this.placing=null;this.setState("resting","");this.basis=null;this.solve()}closed(){
+clearTimeout(this.resting);this.flying.clear();this.solving=this.placing=null;this.setState("offline","")}setState(state,progress=""){if(state===this.state&&progress===
+this.progress)return;this.state=state;this.progress=progress;this.emit("state")}say(messages){this.messages=messages;this.emit("messages")}choose(id){if(id===this.
+chosen)return;this.chosen=id;this.emit("chosen");if(this.state==="dragging"||this.document!==this.solvedFor)this.follow()}pin(id){if(!this.pinned.delete(id))this.
+pinned.add(id);this.emit("pinned")}compare(id){this.compared=id===this.compared?null:id;this.emit("chosen")}select(selection){if(selection?.kind===this.selection?.
+kind&&selection?.index===this.selection?.index)return;this.selection=selection;this.emit("selection")}};var MOST4=40;var Results=class{constructor(store,answers){this.store=store;this.answers=answers;this.cards=new Map;this.wanted={order:"rank",filter:"all",type:""};
+this.all=false;const choice2=(name,entries,key)=>h("label",{},`${name} `,h("select",{"data-choice":key,onchange:event=>this.want(key,event.target.value)},entries.
+map(([value,text])=>h("option",{value},text))));this.types=choice2("Type",[["","any"]],"type");this.title=h("h2",{},"Linkages");this.status=h("p",{class:"bs-res\
+ults-status",role:"status"});this.doubt=h("p",{class:"bs-doubt"});this.gone=h("p",{class:"bs-gone-note"});this.list=h("div",{class:"bs-cards"});this.more=h("but\
+ton",{type:"button",class:"bs-small",hidden:true,onclick:()=>this.showAll()});this.element=h("section",{class:"bs-results","aria-label":"Linkages"},h("div",{class:"\
+bs-results-head"},this.title,this.status,this.doubt,this.gone,h("div",{class:"bs-choices"},choice2("Show",Object.entries(FILTERS).map(([key,{name}])=>[key,name]),
+"filter"),choice2("Sort by",Object.entries(ORDERS).map(([key,{name}])=>[key,name]),"order"),this.types)),this.list,this.more);this.pace=new Pace(()=>this.update());
+this.list.addEventListener("keydown",event=>this.walk(event));answers.on("answers placed",()=>this.arrange());answers.on("moved",()=>this.pace.ask());answers.on(
+"shown",()=>this.update());store.on("pinned",()=>this.arrange());store.on("state document",()=>this.tell());this.arrange()}want(key,value){this.wanted[key]=value;
+this.arrange()}showAll(){this.all=true;this.arrange()}arrange(){const{answers,store,wanted}=this;this.buildTypes();const every=arranged(answers.linkages,{...wanted,
+pinned:store.pinned});const shown2=this.all?every:every.slice(0,MOST4);const list=answers.placed?[answers.placed,...shown2]:shown2;const cards=new Map;for(const linkage of list)
+cards.set(linkage,this.cards.get(linkage)??this.card());for(const[linkage,card]of this.cards)if(!cards.has(linkage))card.element.remove();this.cards=cards;let before=null;
 for(const card of cards.values()){const next=before?before.nextSibling:this.list.firstChild;if(card.element!==next)this.list.insertBefore(card.element,next);before=
 card.element}give(this.more,"hidden",every.length<=shown2.length);if(!this.more.hidden)say(this.more,`Show all ${every.length}`);this.hidden=answers.linkages.length-
 every.length;this.update()}card(){const{store}=this;return new ResultCard({choose:id=>store.choose(id),pin:id=>store.pin(id),compare:id=>store.compare(id),improve:id=>this.
@@ -1566,8 +1595,8 @@ void main() {
   }
   colour = sum / 4.0;
 }`;function hasGraphics(){const gl=document.createElement("canvas").getContext("webgl2",{failIfMajorPerformanceCaveat:true});const named=gl?.getExtension("WEBGL\
-_debug_renderer_info");const name=named?gl.getParameter(named.UNMASKED_RENDERER_WEBGL):"";return Boolean(gl)&&!/swiftshader|llvmpipe|softpipe|software|basic render/i.
-test(name)}var Shader=class _Shader{static on(canvas,lost){if(!hasGraphics())return null;const gl=canvas.getContext("webgl2",{antialias:false,premultipliedAlpha:true,
+_debug_renderer_info");const name=gl&&named?gl.getParameter(named.UNMASKED_RENDERER_WEBGL):"";return Boolean(gl)&&!/swiftshader|llvmpipe|softpipe|software|basic render/i.
+test(name)}var Shader=class _Shader{pace;static on(canvas,lost){if(!hasGraphics())return null;const gl=canvas.getContext("webgl2",{antialias:false,premultipliedAlpha:true,
 preserveDrawingBuffer:true});if(!gl)return null;const program=gl.createProgram();for(const[kind,source]of[[gl.VERTEX_SHADER,VERTEX],[gl.FRAGMENT_SHADER,FRAGMENT]]){
 const shader=gl.createShader(kind);gl.shaderSource(shader,source);gl.compileShader(shader);gl.attachShader(program,shader)}gl.linkProgram(program);if(!gl.getProgramParameter(
 program,gl.LINK_STATUS)){lost();return null}canvas.addEventListener("webglcontextlost",lost,{once:true});return new _Shader(canvas,gl,program)}constructor(canvas,gl,program){
@@ -1582,31 +1611,31 @@ this.pace*size2.width*size2.height<most);this.once(size2,...fits??ways[ways.leng
 now();this.once(size2,.3,1);gl.finish();return(performance.now()-start)/(.09*size2.width*size2.height)}once(size2,dense,samples){const{gl,canvas,places}=this;const width=Math.
 round(size2.width*dense),height=Math.round(size2.height*dense);if(canvas.width!==width||canvas.height!==height){canvas.width=width;canvas.height=height}gl.viewport(
 0,0,width,height);gl.clear(gl.COLOR_BUFFER_BIT);gl.uniform2f(places.pixel,1/width,1/height);gl.uniform1i(places.samples,samples);gl.drawArrays(gl.TRIANGLES,0,3)}};var FOCAL_LENGTH=2.3;var EYE_DISTANCE=4.6;var START={around:-.62,above:.38,zoom:1};var MANY_POSES3=40;var inside=point2=>point2.every(value=>Math.abs(value)<=1.0001);
-var ImageSpace=class{constructor(data,parent,webgl){this.data=data;this.parent=parent;this.turn={...START};this.canvas=h("canvas",{"aria-hidden":"true"});this.svg=
-s("svg",{"aria-hidden":"true"});this.note=h("p",{class:"bm-readout"});this.box=h("div",{class:"bm-space",role:"img",tabindex:"0","aria-label":"Image space: two \
-surfaces and the curve they meet in. Arrow keys turn it, plus and minus zoom."},this.canvas,this.svg);parent.append(this.box,this.note);this.shader=webgl?Shader.
-on(this.canvas,()=>this.withoutGl()):null;this.explain();this.listen()}explain(){this.canvas.dataset.drawn=this.shader?"webgl":"still";this.note.textContent=this.
-shader?"Drag it, or turn it with the arrow keys; + and − zoom, 0 goes back.":"A still picture, for fast WebGL 2 is missing here; it can be turned all the same\
-, by dragging or with the arrow keys."}withoutGl(){const fresh=this.canvas.cloneNode();this.canvas.replaceWith(fresh);this.canvas=fresh;this.shader=null;this.explain();
-if(this.space)this.draw(false)}listen(){const{box}=this;let grip=null;box.addEventListener("pointerdown",event=>{grip=[event.clientX,event.clientY];box.setPointerCapture(
-event.pointerId)});box.addEventListener("pointermove",event=>{if(!grip)return;this.turn.around-=.008*(event.clientX-grip[0]);this.turn.above+=.008*(event.clientY-
-grip[1]);grip=[event.clientX,event.clientY];this.redraw(true)});for(const end of["pointerup","pointercancel"]){box.addEventListener(end,()=>{if(grip)this.redraw(
-false);grip=null})}box.addEventListener("keydown",event=>{const{turn}=this;const step={ArrowLeft:()=>turn.around+=.1,ArrowRight:()=>turn.around-=.1,ArrowUp:()=>turn.
-above+=.1,ArrowDown:()=>turn.above-=.1,"+":()=>turn.zoom*=1.15,"=":()=>turn.zoom*=1.15,"-":()=>turn.zoom/=1.15,0:()=>Object.assign(turn,START)}[event.key];if(!step||
-event.ctrlKey||event.metaKey||event.altKey)return;event.preventDefault();event.stopPropagation();step();this.redraw(false)})}redraw(turning){this.turn.above=clamp(
-this.turn.above,-1.5,1.5);this.turn.zoom=clamp(this.turn.zoom,.6,4);cancelAnimationFrame(this.waiting);this.waiting=requestAnimationFrame(()=>this.draw(turning))}point(place){
-const{chart}=this.data,{centre,half}=this.space;const x=(place.x-chart.origin[0])/chart.length,y=(place.y-chart.origin[1])/chart.length;const t=Math.tan((place.
-a-chart.angle)/2);return[(x*t-y)/2,(x+y*t)/2,t].map((value,k)=>(value-centre[k])/half[k])}build(linkage,index,quick=false){this.linkage=linkage;this.space=linkage?.
-space??this.data.space;this.poses=this.data.poses.map((pose,k)=>{const at=isPoint2(pose)?linkage?.pose_errors[k]:pose;return at&&at.x!==null?this.point({x:at.x,
-y:at.y,a:radians(at.angle_deg)}):null});this.curves=(linkage?.ways??[]).map((way,k)=>({here:k===index,points:Array.from(way.x,(x,i)=>this.point({x,y:way.y[i],a:way.
-angle[i]}))}));const{centre,half}=this.space;const angleOf=q=>degrees(2*Math.atan(centre[2]+half[2]*q)+this.data.chart.angle);this.marks=angleTicks(angleOf(-1),
-angleOf(1),7);const width=Math.max(240,this.parent.clientWidth);this.width=width;this.height=Math.round(clamp(.8*width,240,520));this.svg.setAttribute("viewBox",
-`0 0 ${width} ${this.height}`);this.box.style.height=`${this.height}px`;this.draw(quick)}camera(){const{around:around3,above,zoom}=this.turn;const ahead=[-Math.
-cos(above)*Math.sin(around3),Math.cos(above)*Math.cos(around3),-Math.sin(above)];const right=[Math.cos(around3),Math.sin(around3),0];const up=cross2(right,ahead);
-const eye=scaled(ahead,-EYE_DISTANCE);const least2=Math.min(this.width,this.height);const focal=least2/2*FOCAL_LENGTH*zoom*1.02;return{ahead,right,up,eye,focal,
-reach:[this.width/2/focal,this.height/2/focal]}}draw(turning){this.view=this.camera();const scene=this.sceneOf(this.view);if(this.shader)this.shader.draw(scene,
-this,turning);else drawStill(this.canvas,scene,this,turning);this.overlay();if(this.place)this.show(this.place)}sceneOf(camera){const style=getComputedStyle(this.
-parent);const paint=["--bm-driver-solid","--bm-follower-solid"].map(name=>rgb(style.getPropertyValue(name)).map(v=>v/255));return{...camera,paint,quadrics:this.
+var ImageSpace=class{waiting;space;marks;view;width;height;constructor(data,parent,webgl){this.data=data;this.parent=parent;this.turn={...START};this.canvas=h("\
+canvas",{"aria-hidden":"true"});this.svg=s("svg",{"aria-hidden":"true"});this.note=h("p",{class:"bm-readout"});this.box=h("div",{class:"bm-space",role:"img",tabindex:"\
+0","aria-label":"Image space: two surfaces and the curve they meet in. Arrow keys turn it, plus and minus zoom."},this.canvas,this.svg);parent.append(this.box,this.
+note);this.shader=webgl?Shader.on(this.canvas,()=>this.withoutGl()):null;this.explain();this.listen()}explain(){this.canvas.dataset.drawn=this.shader?"webgl":"s\
+till";this.note.textContent=this.shader?"Drag it, or turn it with the arrow keys; + and − zoom, 0 goes back.":"A still picture, for fast WebGL 2 is missing he\
+re; it can be turned all the same, by dragging or with the arrow keys."}withoutGl(){const fresh=this.canvas.cloneNode();this.canvas.replaceWith(fresh);this.canvas=
+fresh;this.shader=null;this.explain();if(this.space)this.draw(false)}listen(){const{box}=this;let grip=null;box.addEventListener("pointerdown",event=>{grip=[event.
+clientX,event.clientY];box.setPointerCapture(event.pointerId)});box.addEventListener("pointermove",event=>{if(!grip)return;this.turn.around-=.008*(event.clientX-
+grip[0]);this.turn.above+=.008*(event.clientY-grip[1]);grip=[event.clientX,event.clientY];this.redraw(true)});for(const end of["pointerup","pointercancel"]){box.
+addEventListener(end,()=>{if(grip)this.redraw(false);grip=null})}box.addEventListener("keydown",event=>{const{turn}=this;const step={ArrowLeft:()=>turn.around+=
+.1,ArrowRight:()=>turn.around-=.1,ArrowUp:()=>turn.above+=.1,ArrowDown:()=>turn.above-=.1,"+":()=>turn.zoom*=1.15,"=":()=>turn.zoom*=1.15,"-":()=>turn.zoom/=1.15,
+0:()=>Object.assign(turn,START)}[event.key];if(!step||event.ctrlKey||event.metaKey||event.altKey)return;event.preventDefault();event.stopPropagation();step();this.
+redraw(false)})}redraw(turning){this.turn.above=clamp(this.turn.above,-1.5,1.5);this.turn.zoom=clamp(this.turn.zoom,.6,4);cancelAnimationFrame(this.waiting);this.
+waiting=requestAnimationFrame(()=>this.draw(turning))}point(place){const{chart}=this.data,{centre,half}=this.space;const x=(place.x-chart.origin[0])/chart.length,
+y=(place.y-chart.origin[1])/chart.length;const t=Math.tan((place.a-chart.angle)/2);return[(x*t-y)/2,(x+y*t)/2,t].map((value,k)=>(value-centre[k])/half[k])}build(linkage,index,quick=false){
+this.linkage=linkage;this.space=linkage?.space??this.data.space;this.poses=this.data.poses.map((pose,k)=>{const at=isPoint2(pose)?linkage?.pose_errors[k]:pose;return at&&
+at.x!==null?this.point({x:at.x,y:at.y,a:radians(at.angle_deg)}):null});this.curves=(linkage?.ways??[]).map((way,k)=>({here:k===index,points:Array.from(way.x,(x,i)=>this.
+point({x,y:way.y[i],a:way.angle[i]}))}));const{centre,half}=this.space;const angleOf=q=>degrees(2*Math.atan(centre[2]+half[2]*q)+this.data.chart.angle);this.marks=
+angleTicks(angleOf(-1),angleOf(1),7);const width=Math.max(240,this.parent.clientWidth);this.width=width;this.height=Math.round(clamp(.8*width,240,520));this.svg.
+setAttribute("viewBox",`0 0 ${width} ${this.height}`);this.box.style.height=`${this.height}px`;this.draw(quick)}camera(){const{around:around3,above,zoom}=this.turn;
+const ahead=[-Math.cos(above)*Math.sin(around3),Math.cos(above)*Math.cos(around3),-Math.sin(above)];const right=[Math.cos(around3),Math.sin(around3),0];const up=cross2(
+right,ahead);const eye=scaled(ahead,-EYE_DISTANCE);const least2=Math.min(this.width,this.height);const focal=least2/2*FOCAL_LENGTH*zoom*1.02;return{ahead,right,
+up,eye,focal,reach:[this.width/2/focal,this.height/2/focal]}}draw(turning){this.view=this.camera();const scene=this.sceneOf(this.view);if(this.shader)this.shader.
+draw(scene,this,turning);else drawStill(this.canvas,scene,this,turning);this.overlay();if(this.place)this.show(this.place)}sceneOf(camera){const style=getComputedStyle(
+this.parent);const paint=["--bm-driver-solid","--bm-follower-solid"].map(name=>rgb(style.getPropertyValue(name)).map(v=>v/255));return{...camera,paint,quadrics:this.
 space.quadrics,angles:this.angles()}}angles(){const{centre,half}=this.space,{marks}=this;const step=marks.length>1?radians(marks[1].at-marks[0].at):Math.PI;return[
 centre[2],half[2],this.data.chart.angle,step]}project(point2){const{eye,ahead,right,up,focal}=this.view;const to=[0,1,2].map(k=>point2[k]-eye[k]),depth=dot(to,ahead);
 return[this.width/2+focal*dot(to,right)/depth,this.height/2-focal*dot(to,up)/depth]}sheetsBefore(point2){const to=plus(this.view.eye,scaled(point2,-1)),d=unit(to);
@@ -1640,16 +1669,16 @@ return line(normal,(dyad.line.offset-n[0]*origin[0]-n[1]*origin[1])/length,hand)
 0,0,0,0,0,Math.cos(half)/2,0,0,Math.cos(half)/2,-Math.sin(half)]}const[p1,p2,p3,p4,p5,p6,p7,p8]=coefficients(dyad,chart);return[p1,0,p3/2,p5/2,0,p1,p4/2,p6/2,p3/
 2,p4/2,p2,p7/2,p5/2,p6/2,p7/2,p8]}function quadricOf(dyad,chart,{centre,half}){const c=matrixOf(dyad,chart),to=(r,k)=>r===k?k<3?half[k]:1:k===3?centre[r]:0;const out=new Array(
 16).fill(0);for(let i=0;i<4;i+=1){for(let j=0;j<4;j+=1){for(let r=0;r<4;r+=1)for(let k=0;k<4;k+=1)out[4*i+j]+=to(r,i)*c[4*r+k]*to(k,j)}}const greatest=Math.max(
-...out.map(Math.abs));return out.map(value=>value/greatest)}var CALM=200;var SpacePanel=class{constructor(answers,playing){Object.assign(this,{answers,playing});this.story=h("p",{class:"bm-story"});const fill=h("div",{class:"\
-bm-fill"});this.element=h("div",{},this.story,fill);this.fill=fill;this.space=new ImageSpace(answers.data,fill,true);this.quick=new Pace(()=>this.build(true),()=>isSeen(
-fill));playing.on("shape",()=>this.ask());answers.on("poses placed",()=>this.ask());playing.on("place",({place})=>{if(this.space.view&&!answers.isOld&&isSeen(fill))
-this.space.show(place)});new ResizeObserver(()=>this.ask()).observe(fill);watch(fill,()=>this.ask())}ask(){this.quick.ask();clearTimeout(this.calm);this.calm=setTimeout(
-()=>isSeen(this.fill)&&this.build(false),CALM)}get dyads(){const{linkage}=this.playing,{placed}=this.answers.store;if(!linkage&&placed?.dyads?.length)return placed.
-dyads;return linkage?.led??[]}build(quick){const{answers,playing,space,dyads}=this,{data}=answers,{linkage}=playing;if(!data.poses.length)return;const box=linkage?.
-space??data.space;const quadrics=dyads.map(dyad=>quadricOf(dyad,data.chart,box));if(quadrics.length===1)quadrics.push(quadrics[0]);const shown2={...linkage&&!linkage.
-gone?linkage:{ways:[],led:dyads},space:{...box,quadrics}};const key=dyads.map(dyad=>dyad.id).join();if(key!==this.told){this.told=key;this.story.replaceChildren(
-...spaceStory(data,linkage&&dyads.length===2?{id:linkage.id,led:dyads}:null))}space.build(shown2,playing.player.way,quick);if(playing.path&&playing.here)space.show(
-playing.here.place);else space.hide()}};var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);
+...out.map(Math.abs));return out.map(value=>value/greatest)}var CALM=200;var SpacePanel=class{constructor(answers,playing){this.answers=answers;this.playing=playing;this.story=h("p",{class:"bm-story"});const fill=h("div",
+{class:"bm-fill"});this.element=h("div",{},this.story,fill);this.fill=fill;this.space=new ImageSpace(answers.data,fill,true);this.quick=new Pace(()=>this.build(
+true),()=>isSeen(fill));playing.on("shape",()=>this.ask());answers.on("poses placed",()=>this.ask());playing.on("place",({place})=>{if(this.space.view&&!answers.
+isOld&&isSeen(fill))this.space.show(place)});new ResizeObserver(()=>this.ask()).observe(fill);watch(fill,()=>this.ask())}ask(){this.quick.ask();clearTimeout(this.
+calm);this.calm=setTimeout(()=>isSeen(this.fill)&&this.build(false),CALM)}get dyads(){const{linkage}=this.playing,{placed}=this.answers.store;if(!linkage&&placed?.
+dyads?.length)return placed.dyads;return linkage?.led??[]}build(quick){const{answers,playing,space,dyads}=this,{data}=answers,{linkage}=playing;if(!data.poses.length)
+return;const box=linkage?.space??data.space;const quadrics=dyads.map(dyad=>quadricOf(dyad,data.chart,box));if(quadrics.length===1)quadrics.push(quadrics[0]);const shown2={
+...linkage&&!linkage.gone?linkage:{ways:[],led:dyads},space:{...box,quadrics}};const key=dyads.map(dyad=>dyad.id).join();if(key!==this.told){this.told=key;this.
+story.replaceChildren(...spaceStory(data,linkage&&dyads.length===2?{id:linkage.id,led:dyads}:null))}space.build(shown2,playing.player.way,quick);if(playing.path&&
+playing.here)space.show(playing.here.place);else space.hide()}};var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);
 function addResults(store,scene,{player,results,panels}){const answers=new Answers(store),playing=new Playing(store,answers);const live=new LiveLinkage(answers,
 playing,scene),surface=new PivotSurface(store,answers,playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(answers,playing,
 scene);const cards=new Results(store,answers),charts=new Charts(answers,playing),space=new SpacePanel(answers,playing);const cognates=new CognatePanel(store,answers);
@@ -1660,24 +1689,26 @@ for(const each of ofAngles)give(each,"hidden",document2.poses.some(isPoint));giv
 append(ofCurve,...ofAngles,panel("charts","Errors and transmission",true,charts.element),panel("compare","Compare two linkages",false,compare.element),panel("fa\
 cts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(
 panels,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(prefers-color-scheme: dark)").addEventListener(
-"change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,cards,charts,space,cognates,compare,facts}}var FEW2=40;var PointFields=class{constructor({name,options,step,set}){Object.assign(this,{name,options,step,set,fields:[]});this.shape=h("span",{class:"bs-hint"});
-this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.shape,this.pairs,this.more)}show(shape,points){
-const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];say(this.shape,shape);while(this.fields.length<count)this.fields.push(
-this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==this.pairs.children.length||wanted.some(
-(each,k)=>each!==this.pairs.children[k]))this.pairs.replaceChildren(...wanted);this.fields.forEach(({pair},k)=>pair.forEach((field,i)=>field.show(points[k][i])));
-give(this.more,"hidden",points.length<=FEW2);say(this.more,`and ${points.length-FEW2} more, to drag in the plane`)}make(k){const pair=["x","y"].map((axis,i)=>new NumberField(
-{label:`${axis} of point ${k+1} of ${this.name}`,options:()=>({...this.options(),optional:false}),step:this.step,commit:value=>this.set(points=>points.map((point2,j)=>j===
-k?point2.map((old,m)=>m===i?value:old):point2))}));return{pair,element:h("span",{class:"bs-pair"},pair.map(field=>field.element))}}};var SHAPES=["point","line","segment","box","polygon"];var KINDS2=[["RR","RR: a link"],["PR","PR: a slider"],["RP","RP: a slot"],["PP","PP: a carriage"]];var TYPES=[
+"change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,cards,charts,space,cognates,compare,facts}}var FEW2=40;var PointFields=class{constructor({name,options,step,set}){this.name=name;this.options=options;this.step=step;this.set=set;this.fields=[];this.shape=
+h("span",{class:"bs-hint"});this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.
+shape,this.pairs,this.more)}show(shape,points){const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];say(this.shape,shape);while(this.
+fields.length<count)this.fields.push(this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==
+this.pairs.children.length||wanted.some((each,k)=>each!==this.pairs.children[k]))this.pairs.replaceChildren(...wanted);this.fields.forEach(({pair},k)=>pair.forEach(
+(field,i)=>field.show(points[k][i])));give(this.more,"hidden",points.length<=FEW2);say(this.more,`and ${points.length-FEW2} more, to drag in the plane`)}make(k){
+const pair=["x","y"].map((axis,i)=>new NumberField({label:`${axis} of point ${k+1} of ${this.name}`,options:()=>({...this.options(),optional:false}),step:this.step,
+commit:value=>this.set(points=>points.map((point2,j)=>j===k?point2.map((old,m)=>m===i?value:old):point2))}));return{pair,element:h("span",{class:"bs-pair"},pair.
+map(field=>field.element))}}};var SHAPES=["point","line","segment","box","polygon"];var KINDS2=[["RR","RR: a link"],["PR","PR: a slider"],["RP","RP: a slot"],["PP","PP: a carriage"]];var TYPES=[
 "grashof","non-grashof","crank-rocker","rocker-crank","double-crank","double-rocker","triple-rocker","change-point","slider-crank","inverted slider-crank","doub\
 le slider","Oldham linkage","Rapson slide"];var DRIVERS=[["any","either dyad"],["crank","one that turns fully"],["first","the first of two limits"],["second","t\
 he second of two limits"]];var METHODS=[["auto","chosen by the task"],["complete","complete: every locally best dyad"],["pencil","pencil: the two dyads of the p\
 aper"],["exact","exact: through five poses"]];var PREFERENCES=[["transmission","transmission"],["size","size"],["accuracy","accuracy"]];var NORMS=[["rms","the r\
 oot mean square"],["worst","the worst pose"]];var UNITS2=["","mm","cm","m","in","ft"];var section2=(name,title,open,...content)=>h("details",{class:"bs-section",
-"data-section":name,open},h("summary",{},title),...content);var TaskPanel=class{constructor(store,scene,regions,body,files){Object.assign(this,{store,scene,regions,
-body,files});this.element=h("div",{class:"bs-task"});this.element.append(this.makeLimits(),this.makeRegions(),this.makeBody(),this.makeRequirements(),this.makeOptions());
-store.on("document selection",()=>this.draw());regions.onjudged=()=>this.drawVerdicts();this.draw()}edit(change){this.store.edit(change)}length(label,commit,options={},attributes={}){
-return new NumberField({label,commit,options:()=>({kind:"length",unit:this.store.document.length_unit,optional:true,...options}),step:()=>this.scene.step,attributes})}tools(label,shapes,toolOf,data){
-return h("div",{class:"bs-tools",role:"group","aria-label":label},shapes.map(shape=>this.toolButton(shape,()=>toolOf(shape),{"data-draw":`${data} ${shape}`})))}toolButton(text,toolOf,attributes){
+"data-section":name,open},h("summary",{},title),...content);var TaskPanel=class{madeTables;regionRows;linkWidth;margin;inPlane;bodyNumbers;driver;anyOrder;numbers;lengths;tables;apart;regionList;bodyState;constructor(store,scene,regions,body,files){
+this.store=store;this.scene=scene;this.regions=regions;this.body=body;this.files=files;this.element=h("div",{class:"bs-task"});this.element.append(this.makeLimits(),
+this.makeRegions(),this.makeBody(),this.makeRequirements(),this.makeOptions());store.on("document selection",()=>this.draw());regions.onjudged=()=>this.drawVerdicts();
+this.draw()}edit(change){this.store.edit(change)}length(label,commit,options={},attributes={}){return new NumberField({label,commit,options:()=>({kind:"length",
+unit:this.store.document.length_unit,optional:true,...options}),step:()=>this.scene.step,attributes})}tools(label,shapes,toolOf,data){return h("div",{class:"bs-\
+tools",role:"group","aria-label":label},shapes.map(shape=>this.toolButton(shape,()=>toolOf(shape),{"data-draw":`${data} ${shape}`})))}toolButton(text,toolOf,attributes){
 const made2=button(text,()=>this.scene.use(made2.tool&&made2.tool===this.scene.tool?null:made2.tool=toolOf()),{"aria-pressed":"false",...attributes});this.scene.
 on("tool",tool=>put(made2,"aria-pressed",Boolean(tool)&&tool===made2.tool));return made2}points(name,set){return new PointFields({name,set,options:()=>({kind:"l\
 ength",unit:this.store.document.length_unit}),step:()=>this.scene.step})}makeLimits(){this.apart=tick("another limit for each of the two dyads",on=>this.edit(document2=>splitLimits(

@@ -52,7 +52,7 @@ function figure(value) {
 function ticks(low, high, about) {
   const rough = (high - low) / Math.max(1, about);
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((k) => k * power).find((each) => each >= rough * 0.999);
+  const step = [1, 2, 5, 10].map((k) => k * power).find((each) => each >= rough * 0.999) ?? 10 * power;
   const digits = Math.max(0, -Math.floor(Math.log10(step * 1.0001)));
   const marks = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9; k += 1) {
@@ -117,18 +117,15 @@ var unitOf = (data) => data.unit ? ` (${data.unit})` : "";
 var decimalsOf = (data) => clamp(4 - Math.ceil(Math.log10(data.scene)), 0, 12);
 var poseName = (pose) => pose.label === pose.name ? pose.name : `${pose.label}: ${pose.name}`;
 var isPoint = (pose) => pose.angle_deg === null;
-var nounOf = ({ poses }) => poses.length && poses.every(isPoint) ? "point" : "pose";
+var nounOf = ({ poses, stop = void 0 }) => stop ?? (poses.length && poses.every(isPoint) ? "point" : "pose");
 var isNamed = ({ path, poses }, k) => !path || poses.length <= MOST_NAMES || k === 0 || (k + 1) % NAME_STEP === 0;
-var calledOf = (pose) => `${isPoint(pose) ? "point" : "pose"} ${poseName(pose)}`;
+var calledOf = (pose) => pose.called ?? `${isPoint(pose) ? "point" : "pose"} ${poseName(pose)}`;
 var shortened = (text, most) => text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text;
 function missOf(position, angle, unit2) {
   if (position === "-") return "–";
   const [away, ...share] = position.split(" (");
   const length = [away === "exact" ? away : `${away}${unit2}`, ...share].join(" (");
   return angle === "free" || position === "exact" && angle === "exact" ? length : `${length} and ${angle}`;
-}
-function verdictOf(linkage) {
-  return linkage.usable ? "✓ usable" : "✕ not usable";
 }
 function dyadTable(data) {
   const misses = data.poses.some(isPoint) ? [] : ["rms miss", "worst miss"];
@@ -138,47 +135,11 @@ function dyadTable(data) {
   );
   return longTable(data.dyads_title, heads, rows, { class: "bm-stacks" });
 }
-function linkageTable(data) {
-  const names = ["ground", "driver", "coupler", "follower"];
-  const heads = [
-    "",
-    { name: "verdict", text: true },
-    { name: "type", text: true },
-    { name: "dyads", text: true },
-    { name: "driver", text: true },
-    ...names.map((name) => `${name} link`),
-    "worst miss",
-    ...nounOf(data) === "point" ? [] : ["worst angle"],
-    "least transm.",
-    "extent",
-    "sens.",
-    { name: "why not", text: true }
-  ];
-  const rows = data.linkages.map(
-    (each) => h(
-      "tr",
-      {},
-      cells(
-        [
-          each.id,
-          verdictOf(each),
-          each.type,
-          each.dyads.map((dyad) => dyad.id).join(" "),
-          each.led[0].id,
-          ...names.map((name) => each.said.links?.[name] ?? "–"),
-          each.said.worst,
-          ...nounOf(data) === "point" ? [] : [each.said.angle],
-          each.said.transmission,
-          each.said.quality.extent?.split(" ")[0] ?? "–",
-          each.said.quality.sensitivity ?? "–",
-          each.said.reasons.join("; ") || "–"
-        ],
-        [1, 2, 3, 4, heads.length - 1],
-        heads
-      )
-    )
-  );
-  return longTable(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
+function worded(data, { caption, heads, words = [], rows, ...how }) {
+  const named = heads.map((name, k) => words.includes(k) ? { name, text: true } : name);
+  const lines = (cell) => Array.isArray(cell) ? cell.map((part) => h("span", { class: "bm-line-of" }, part)) : cell;
+  const made = longTable(caption + (how.lengths ? inUnit(data) : ""), named, rows.map((row) => h("tr", {}, cells(row.map(lines), words, named))), { class: how.class });
+  return how.folded ? h("details", { class: "bm-every" }, h("summary", {}, how.folded), made) : made;
 }
 function dimensionRows(linkage) {
   const uncertain = linkage.said.dimensions.some((row) => row.give);
@@ -205,11 +166,12 @@ function dimensionTable(data, linkage) {
     { class: "bm-dimensions" }
   );
 }
+var numbersOf = (data, linkage) => linkage.tables?.map((each) => worded(data, each)) ?? [dimensionTable(data, linkage)];
 function poseTable(data, linkage) {
-  const digits = decimalsOf(data), unit2 = unitOf(data), noun = nounOf(data), turned2 = noun !== "point";
-  const ifTurned = (value) => turned2 ? [value] : [];
+  const digits = decimalsOf(data), unit2 = unitOf(data), noun = nounOf(data), turned = noun !== "point";
+  const ifTurned = (value) => turned ? [value] : [];
   const heads = [noun, `wanted x`, `y${unit2}`, ...ifTurned("angle")];
-  if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", ...ifTurned("turned by"), "transm.", { name: "where", text: true });
+  if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", ...ifTurned("turned by"), ...linkage.columns?.map(([head]) => head) ?? ["transm."], { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
       poseName(pose) + (pose.exact ? " (exact)" : ""),
@@ -225,13 +187,13 @@ function poseTable(data, linkage) {
         row.angle_deg === null ? "–" : `${fixed(row.angle_deg, 2)}°`,
         row.said.position,
         ...ifTurned(row.said.turned),
-        row.said.transmission,
+        ...linkage.columns?.map(([, texts]) => texts[k]) ?? [row.said.transmission],
         row.way === null ? "–" : wayName(linkage.ways[row.way], linkage)
       );
     }
     return h("tr", { "data-pose": k + 1 }, cells(values, [heads.length - 1]));
   });
-  const what = turned2 ? "Poses" : "Points";
+  const what = turned ? "Poses" : "Points";
   return table(linkage ? `${what}, and where ${linkage.id} takes the body` : what, heads, rows, { class: data.poses.some((pose) => pose.label !== pose.name) ? "bm-pose-table bm-named" : "bm-pose-table" });
 }
 function imageTables(data, linkage) {
@@ -254,303 +216,6 @@ function wayName(way, linkage) {
   if (circuits > 1 || way.branches < 2) parts.push(`assembly ${way.circuit}`);
   if (way.branches > 1) parts.push(`branch ${way.branch}`);
   return parts.join(", ");
-}
-
-// src/burmester/web/widget/cards.mjs
-var CardList = class {
-  constructor(cards) {
-    this.cards = cards;
-    this.element = h(
-      "nav",
-      { class: "bm-list", "aria-label": "Linkages, best first" },
-      h("h2", {}, `${cards.length} linkage${cards.length === 1 ? "" : "s"}`),
-      h("div", { class: "bm-choices" }, this.cards)
-    );
-    this.element.addEventListener("keydown", (event) => {
-      const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
-      const at = this.cards.indexOf(document.activeElement);
-      if (!step || at < 0) return;
-      event.preventDefault();
-      this.cards[clamp(at + step, 0, this.cards.length - 1)].focus();
-    });
-  }
-  mark(index) {
-    this.cards.forEach((each, k) => each.setAttribute("aria-pressed", String(k === index)));
-  }
-};
-var Cards = class extends CardList {
-  constructor(data, linkages, choose) {
-    const unit2 = data.unit ? ` ${data.unit}` : "";
-    super(linkages.map((each, k) => fourBarCard(each, unit2, () => choose(k))));
-  }
-};
-function card(linkage, onclick, facts, ...below) {
-  return h(
-    "button",
-    { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
-    h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
-    h("span", { class: "bm-verdict" }, verdictOf(linkage)),
-    h("dl", {}, facts),
-    below
-  );
-}
-var fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-var transmissionFact = (text) => fact("transmission", text === "–" ? text : text === "0°" ? "down to 0°" : `${text} or more`);
-var linksFact = (lengths) => fact("links", lengths.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links");
-function fourBarCard(linkage, unit2, onclick) {
-  const { said } = linkage;
-  const links = said.links ? Object.values(said.links) : [];
-  const whole = (text) => h("span", { class: "bm-whole-word" }, text);
-  return card(
-    linkage,
-    onclick,
-    [
-      fact("worst miss", missOf(said.worst, said.angle, unit2).split(" and ").map((part, k) => [k ? ", " : "", whole(part)])),
-      transmissionFact(said.transmission === "-" ? "–" : said.transmission),
-      said.quality.extent ? fact("extent, sensitivity", [whole(said.quality.extent), ", ", whole(said.quality.sensitivity)], "bm-detail") : null,
-      fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? linksFact(links) : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail")
-    ],
-    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
-    said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null
-  );
-}
-
-// src/burmester/web/widget/header.mjs
-var OPEN = /^R(303|31)/;
-function header(data, good, kind = "linkage report") {
-  const { outcome, warnings } = data, open = OPEN.test(outcome.code);
-  const [best, ...more] = good ? data.best : [];
-  const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
-  const said = (text) => text && data.best.some((sentence) => sentence.slice(1).startsWith(text.slice(1)));
-  const told = [notes({ why: said(outcome.why) ? null : outcome.why, help: said(outcome.help) ? null : outcome.help }), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
-  const count = warnings.length ? `, and ${warnings.length} warning${warnings.length === 1 ? "" : "s"}` : "";
-  return h(
-    "header",
-    { class: "bm-head" },
-    h("p", { class: "bm-overline" }, `burmester · ${kind}`),
-    data.title ? h("h1", {}, data.title) : null,
-    h(
-      "p",
-      { class: `bm-outcome ${good ? "bm-good" : open ? "bm-open" : "bm-bad"}` },
-      h("span", { class: "bm-sign", "aria-hidden": "true" }, good ? "✓" : open ? "i" : "✕"),
-      h("span", {}, best ?? found)
-    ),
-    (best ? more : data.best).map((sentence) => h("p", { class: "bm-best" }, sentence)),
-    best ? h("details", { class: "bm-about" }, h("summary", {}, `How it was found${count}`), h("p", { class: "bm-found" }, found), told) : told
-  );
-}
-var warning = (each) => h(
-  "li",
-  {},
-  h("p", {}, h("b", {}, "! Warning "), h("span", { class: "bm-code" }, each.code), ` ${each.message}.`),
-  notes(each)
-);
-var notes = ({ why, help }) => [
-  why ? h("p", { class: "bm-why" }, h("b", {}, "Why: "), why, ".") : null,
-  help ? h("p", { class: "bm-why" }, h("b", {}, "What helps: "), help, ".") : null
-];
-
-// src/burmester/web/widget/error_curves.mjs
-var LEFT = 62;
-var RIGHT = 14;
-var TOP = 22;
-var BOTTOM = 44;
-var HEIGHTS = [110, 130, 84];
-var GAP = 30;
-var INSET = 8;
-var ROUNDING = 1e-7;
-var HEADROOM = 1.15;
-var MOST_DOTS = 40;
-var SAMPLES = 241;
-var SPARE = 0.01;
-var USUAL_LIMIT = 30;
-var ErrorCurves = class {
-  constructor(task, generator, parent, go) {
-    this.task = task;
-    this.generator = generator;
-    this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": `${generator.id}: output, structural error and transmission angle over the input` });
-    parent.append(this.svg);
-    const scrub = (event) => {
-      const box = this.svg.getBoundingClientRect(), { low, high } = generator.range;
-      const share = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
-      go(low + clamp(share, 0, 1) * (high - low));
-    };
-    this.svg.addEventListener("pointerdown", (event) => {
-      this.svg.setPointerCapture(event.pointerId);
-      scrub(event);
-    });
-    this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && scrub(event));
-  }
-  build() {
-    const { svg, generator } = this, { low, high } = generator.range;
-    svg.replaceChildren();
-    const width = this.width = Math.max(260, this.parent.clientWidth);
-    const height = TOP + HEIGHTS.reduce((a, b) => a + b) + 2 * GAP + BOTTOM;
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.setAttribute("height", height);
-    this.X = (input) => LEFT + INSET + (input - low) / (high - low) * (width - LEFT - RIGHT - 2 * INSET);
-    this.across = angleTicks(low, high, Math.max(3, width / 90));
-    const { curve, pair_at } = generator;
-    const pairs = pair_at.length <= MOST_DOTS ? pair_at : [];
-    const inputs = Array.from({ length: SAMPLES }, (_, k) => low + k / (SAMPLES - 1) * (high - low));
-    const along = inputs.map(generator.at);
-    this.Yout = this.output(0, curve, inputs, along.map((each) => each.output), pairs);
-    this.Yerr = this.error(1, curve, pairs);
-    this.Ytra = this.transmission(2, inputs, along.map((each) => each.transmission));
-    const base = TOP + HEIGHTS.reduce((a, b) => a + b) + 2 * GAP;
-    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, "input (°)"));
-    this.marks = [1, 2, 3].map(() => s("circle", { r: 4.5 }));
-    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${TOP}V${base}` }), ...this.marks);
-    svg.append(this.cursor);
-  }
-  /** An empty panel with its title; its top and its base. */
-  panel(k, title, labelled = false) {
-    const { svg, width } = this;
-    const y0 = TOP + HEIGHTS.slice(0, k).reduce((a, b) => a + b, 0) + k * GAP, base = y0 + HEIGHTS[k];
-    svg.append(
-      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
-      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title)
-    );
-    let last = -99;
-    for (const { at, text } of this.across) {
-      const x = px(this.X(at));
-      svg.append(s("path", { class: "bm-rule", d: `M${x} ${y0}V${base}` }));
-      if (labelled && x - last > 34) {
-        svg.append(s("text", { class: "bm-tick", x, y: base + 15, "text-anchor": "middle" }, text));
-        last = x;
-      }
-    }
-    return [y0, base];
-  }
-  rule(y, text) {
-    this.svg.append(
-      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
-      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text)
-    );
-  }
-  /** A line over inputs, broken where a value is null. */
-  line(inputs, values, Y, name) {
-    let path = "", pen = "M";
-    values.forEach((value, k) => {
-      if (value === null) return pen = "M";
-      path += `${pen}${px(this.X(inputs[k]))} ${px(Y(value))}`;
-      return pen = "L";
-    });
-    this.svg.append(s("path", { class: name, d: path }));
-  }
-  dots(pairs, Y, value, unit2) {
-    for (const pair of pairs) {
-      if (value(pair) === null) continue;
-      const dot3 = s("circle", { class: "bm-dot", cx: px(this.X(pair.input)), cy: px(Y(value(pair))), r: 3.5 });
-      dot3.append(s("title", {}, `pair ${pair.pair}: ${figure(value(pair))}${unit2}`));
-      this.svg.append(dot3);
-    }
-  }
-  output(k, curve, inputs, made, pairs) {
-    const [y0, base] = this.panel(k, `output (°)${pairs.length ? ": wanted as dots, made as a line" : ""}`);
-    const every = [...curve.wanted, ...made.filter((each) => each !== null)];
-    const low = Math.min(...every), high = Math.max(...every), room = 0.08 * (high - low);
-    const Y = (v) => base - (v - low + room) / (high - low + 2 * room) * (base - y0);
-    for (const { at, text } of ticks(low, high, 4)) this.rule(Y(at), text);
-    this.line(inputs, made, Y, "bm-line");
-    this.dots(pairs, Y, (pair) => pair.wanted, "°");
-    return Y;
-  }
-  error(k, curve, pairs) {
-    const [y0, base] = this.panel(k, `structural error of the output (°)${curve.whole ? "" : ", at the pairs"}`);
-    const known = curve.error.filter((each) => each !== null);
-    const greatest = known.reduce((a, b) => Math.max(a, Math.abs(b)), 0), middle = (y0 + base) / 2;
-    const visible = greatest > ROUNDING;
-    const Y = (v) => middle - (visible ? v / (HEADROOM * greatest) : 0) * ((base - y0) / 2);
-    this.svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(middle)}H${this.width - RIGHT}` }));
-    if (!visible) {
-      const text = known.length ? "exact, up to rounding" : "it cannot be assembled";
-      this.svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: middle - 12 }, text));
-    } else {
-      for (const { at, text } of ticks(-greatest, greatest, 4)) this.rule(Y(at), text);
-    }
-    if (curve.whole) this.line(curve.input, curve.error, Y, "bm-line");
-    else
-      for (const pair of pairs) {
-        if (pair.error !== null) this.svg.append(s("path", { class: "bm-stem", d: `M${px(this.X(pair.input))} ${middle}V${px(Y(pair.error))}` }));
-      }
-    this.dots(pairs, Y, (pair) => pair.error, "°");
-    return Y;
-  }
-  transmission(k, inputs, values) {
-    const [y0, base] = this.panel(k, "transmission angle (°)", true);
-    const Y = (v) => base - v / 90 * (base - y0);
-    for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
-    const asked = this.task.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
-    this.svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${this.width - RIGHT}` }));
-    this.line(inputs, values, Y, "bm-line");
-    return Y;
-  }
-  show(input, transmission) {
-    if (!this.cursor) return;
-    const { low, high } = this.generator.range, spare = SPARE * (high - low);
-    const within = input >= low - spare && input <= high + spare, { output } = this.generator.at(input);
-    this.cursor.setAttribute("visibility", within ? "visible" : "hidden");
-    this.cursor.setAttribute("transform", `translate(${px(this.X(input))} 0)`);
-    const wanted = this.generator.wantedAt(input);
-    const missed = wanted === null || output === null ? null : output - wanted;
-    const places = [output === null ? null : this.Yout(output), missed === null ? null : this.Yerr(missed), transmission === null ? null : this.Ytra(transmission)];
-    places.forEach((y, k) => {
-      this.marks[k].setAttribute("visibility", y === null || !within ? "hidden" : "inherit");
-      if (y !== null) this.marks[k].setAttribute("cy", px(y));
-    });
-  }
-};
-
-// src/burmester/web/widget/function_tables.mjs
-function generatorCard(generator, onclick) {
-  const { said, defects, shortcomings } = generator;
-  return card(
-    generator,
-    onclick,
-    [fact("greatest error", said.max_error), transmissionFact(said.transmission), linksFact(said.links.map(([, value]) => value))],
-    defects.length || shortcomings.length ? h("span", { class: "bm-reason" }, `It ${[...defects, ...shortcomings].join("; ")}`) : null
-  );
-}
-function generatorTable(data) {
-  const heads = [
-    "",
-    { name: "verdict", text: true },
-    { name: "type", text: true },
-    ...["ground", "input", "coupler", "output"].map((name) => `${name} link`),
-    "greatest error",
-    "of the range",
-    "rms error",
-    "least transm.",
-    { name: "why not", text: true }
-  ];
-  const rows = data.generators.map((each) => {
-    const { said } = each;
-    const values = [
-      each.id,
-      verdictOf(each),
-      each.type,
-      ...said.links.map(([, value]) => value),
-      said.max_error,
-      said.percent,
-      said.rms_error,
-      said.transmission,
-      each.defects.join("; ") || "–"
-    ];
-    return h("tr", {}, cells(values, [1, 2, 11], heads));
-  });
-  return table("All linkages, best first", heads, rows, { class: "bm-stacks" });
-}
-function pairTable(data, generator) {
-  const heads = ["pair", "input", "output wanted", "output made", "error"];
-  const rows = generator.pairs.map((pair, k) => h("tr", { "data-pair": k + 1 }, cells([String(k + 1), ...pair])));
-  return table(`Pairs of angles, and what ${generator.id} makes of them`, heads, rows, { class: "bm-pair-table" });
-}
-function generatorFacts(generator) {
-  const rows = [...generator.said.links, ...generator.said.placed, ...generator.said.figures];
-  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
 
 // src/burmester/web/widget/kinematics.mjs
@@ -582,8 +247,8 @@ function constraint(dyad, place) {
   let nx, ny, residual;
   if (dyad.kind === "RR") {
     const ax = x - dyad.fixed_pivot[0], ay = y - dyad.fixed_pivot[1];
-    const size2 = Math.hypot(ax, ay) || 1;
-    [nx, ny, residual] = [ax / size2, ay / size2, size2 - dyad.radius];
+    const size = Math.hypot(ax, ay) || 1;
+    [nx, ny, residual] = [ax / size, ay / size, size - dyad.radius];
   } else {
     [nx, ny] = normalOf(dyad);
     residual = nx * x + ny * y - dyad.line.offset;
@@ -622,6 +287,7 @@ function catmullRom(values, i, share, round) {
   return q + share / 2 * (r - p + share * (2 * p - 5 * q + 4 * r - t + share * (3 * (q - r) + t - p)));
 }
 function placeAt(linkage, way, u, length) {
+  if (way.joints) return placeOfJoints(linkage, way, u);
   const stop = linkage.pose_errors.find((row) => row.at === way && Math.abs(row.frame - u) < 1e-6);
   if (stop) return { x: stop.x, y: stop.y, a: radians(stop.angle_deg) };
   const i = clamp(Math.floor(u), 0, way.x.length - 2), share = u - i;
@@ -632,11 +298,31 @@ function placeAt(linkage, way, u, length) {
   };
   return project(linkage.led, place, length);
 }
+function placeOfJoints({ ground }, way, u) {
+  const at = (values) => smooth(values, u), joints = { ...ground };
+  for (const [name, [x, y]] of Object.entries(way.joints)) joints[name] = [at(x), at(y)];
+  return { x: at(way.x), y: at(way.y), a: at(way.angle), joints };
+}
+function smooth(values, u) {
+  const count = Math.min(6, values.length), first = clamp(Math.floor(u) - 2, 0, values.length - count);
+  let sum = 0;
+  for (let j = 0; j < count; j += 1) {
+    let weight = 1;
+    for (let k = 0; k < count; k += 1) if (k !== j) weight *= (u - first - k) / (j - k);
+    sum += weight * values[first + j];
+  }
+  return sum;
+}
 function linear(values, u) {
   const i = clamp(Math.floor(u), 0, values.length - 2), share = u - i;
   if (values[i] === null || values[i + 1] === null) return null;
   const value = values[i] + share * (values[i + 1] - values[i]);
   return Number.isNaN(value) ? null : value;
+}
+function valueAt({ x, y, stems }, at) {
+  const here = x.findIndex((each) => Math.abs(each - at) < 1e-6);
+  if (here >= 0) return y[here];
+  return stems || !(at > x[0] && at < x[x.length - 1]) ? null : linear(y, frameAt(x, at));
 }
 function frameAt(values, wanted) {
   let low = 0, high = values.length - 1;
@@ -651,346 +337,10 @@ function frameAt(values, wanted) {
   return low + (step > 0 ? (wanted - values[low]) / step : 0);
 }
 
-// src/burmester/web/widget/player.mjs
-var TURN_SECONDS = 7;
-var LEAST_STRETCH = 1e-6;
-var NAME_ROWS = 5;
-var NUMBER_ROWS = 2;
-var MANY_POSES = 100;
-var ROW = 13;
-var LONGEST_TICK = 18;
-var STEPS = 360;
-var Player = class {
-  constructor(data, show, rebuild) {
-    this.data = data;
-    this.draw = { show, rebuild };
-    this.linkage = null;
-    this.way = 0;
-    this.u = 0;
-    this.heading = 1;
-    this.whole = false;
-    this.stretch = { low: 0, high: 1 };
-    this.playing = false;
-    this.remaining = null;
-    this.element = this.controls();
-  }
-  /** The way as frames; undefined where the linkage has none. */
-  get path() {
-    return this.linkage?.ways[this.way];
-  }
-  /** What a place to stop at is called. */
-  get stop() {
-    return nounOf(this.data);
-  }
-  controls() {
-    const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
-    this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
-    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
-    this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
-    this.boxName = h("span", {}, "Whole branch");
-    this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
-    this.parts = ["", "", "", ""].map((text) => h("span", {}, text));
-    this.readout = h("output", { class: "bm-now" }, this.parts.flatMap((part, k) => k ? [" ", part] : [part]));
-    this.slider.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      this.step(event.shiftKey ? 10 * step : step);
-    });
-    this.steps = [button("bm-back", "", "", () => this.toPose(-1)), button("bm-next", "", "", () => this.toPose(1))];
-    this.wholeLabel = h("label", { class: "bm-whole" }, this.box, this.boxName);
-    this.nameStops();
-    return h(
-      "div",
-      { class: "bm-controls" },
-      h("div", { class: "bm-track" }, this.slider, this.stops),
-      h(
-        "div",
-        { class: "bm-row" },
-        this.button,
-        this.steps,
-        this.wholeLabel
-      ),
-      this.readout
-    );
-  }
-  /** What the buttons call the places to stop at. */
-  nameStops() {
-    const { stop } = this, title = stop[0].toUpperCase() + stop.slice(1);
-    [[`◀ ${title}`, `Previous ${stop}`], [`${title} ▶`, `Next ${stop}`]].forEach(([text, label], k) => {
-      say(this.steps[k], text);
-      put(this.steps[k], "aria-label", label);
-      give(this.steps[k], "title", label);
-    });
-    give(this.wholeLabel, "title", `Play all that the driver reaches, not only from the first ${stop} to the last`);
-  }
-  /** Another linkage, on the way with most poses, at the first of them. */
-  load(linkage) {
-    this.linkage = linkage;
-    const counts = linkage.ways.map((way) => way.poses.length);
-    this.take(Math.max(0, counts.indexOf(Math.max(...counts))));
-  }
-  /** Another way, at its first pose. */
-  take(index) {
-    this.way = index;
-    this.u = this.firstStop();
-    this.draw.rebuild();
-  }
-  /** Poses on this way, in their order: the rows of their errors, with k, the pose's index. */
-  get stopsOnWay() {
-    return this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
-  }
-  firstStop() {
-    return this.stopsOnWay[0]?.frame ?? 0;
-  }
-  /** The slider and what it runs over, for the way as it is now. */
-  rebuild() {
-    const { path, slider } = this;
-    if (!path) this.play(false);
-    this.nameStops();
-    for (const each of [slider, this.button]) give(each, "disabled", !path);
-    const last = path ? path.x.length - 1 : 1;
-    const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
-    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
-    const apart = high - low > LEAST_STRETCH;
-    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
-    give(this.box, "disabled", !apart);
-    say(this.boxName, path?.round ? "Whole turn" : "Whole branch");
-    this.heading = 1;
-    this.u = clamp(this.u, this.stretch.low, this.stretch.high);
-  }
-  /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
-  playWhole(on) {
-    this.whole = on;
-    this.draw.rebuild();
-  }
-  /** Marks under the slider where the poses are, with as many of their names as there is room for. */
-  drawStops() {
-    const { stops, path } = this, { low, high } = this.stretch;
-    stops.replaceChildren();
-    if (!path) return;
-    const width = Math.max(60, this.slider.clientWidth), inset = 9;
-    const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
-    const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
-    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
-    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
-    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES ? 1 : NUMBER_ROWS);
-    const deepest = Math.max(0, ...texts.map(({ at }) => at));
-    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, calledOf(pose)), ...parts);
-    rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
-    rows.forEach(({ k, pose }, i) => {
-      const { at, middle, text } = texts[i];
-      if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
-    });
-    put(stops, "viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
-    put(stops, "height", 16 + ROW * deepest);
-  }
-  play(on) {
-    if (on && !this.path) return;
-    this.remaining = null;
-    if (on === this.playing && this.isDressed) return;
-    this.isDressed = true;
-    this.playing = on;
-    put(this.readout, "aria-live", on ? "off" : "polite");
-    this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
-    put(this.button, "aria-label", on ? "Pause" : "Play");
-    this.button.title = on ? "Pause (space)" : "Play (space)";
-    cancelAnimationFrame(this.tick);
-    if (!on) return;
-    let before = null;
-    const run = (now) => {
-      if (!this.playing) return;
-      if (before !== null) this.advance(Math.min(0.1, (now - before) / 1e3));
-      before = now;
-      if (this.playing) this.tick = requestAnimationFrame(run);
-    };
-    this.tick = requestAnimationFrame(run);
-  }
-  /** Play once there and back, or once round; then rest until someone asks. */
-  playOnce() {
-    if (!this.path) return;
-    const { low, high } = this.stretch;
-    this.play(true);
-    this.remaining = (this.goesRound ? 1 : 2) * (high - low);
-  }
-  /** Whether what is played ends where it begins. */
-  get goesRound() {
-    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
-  }
-  advance(seconds) {
-    const { low, high } = this.stretch;
-    const step = seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
-    if (this.remaining !== null) {
-      this.remaining -= step;
-      if (this.remaining <= 0) {
-        this.play(false);
-        this.u = this.firstStop();
-        this.show();
-        return;
-      }
-    }
-    this.u += this.heading * step;
-    if (this.goesRound) this.u = around(this.u, high);
-    else if (this.u >= high || this.u <= low) {
-      this.heading = this.u >= high ? -1 : 1;
-      this.u = clamp(this.u, low, high);
-    }
-    this.show();
-  }
-  step(steps) {
-    if (!this.path) return;
-    const { low, high } = this.stretch;
-    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
-    this.go(this.goesRound ? around(u, high) : u);
-  }
-  go(u) {
-    if (!this.path) return;
-    this.play(false);
-    this.u = clamp(u, this.stretch.low, this.stretch.high);
-    this.show();
-  }
-  /** The next pose (sense 1) or the one before (-1) that the linkage reaches, on whichever way. */
-  toPose(sense) {
-    const all = this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way !== null);
-    if (!all.length) return;
-    const here = this.atPose ?? (sense > 0 ? -1 : this.data.poses.length);
-    const next = sense > 0 ? all.find((row) => row.k > here) ?? all[0] : [...all].reverse().find((row) => row.k < here) ?? all[all.length - 1];
-    this.play(false);
-    if (next.way !== this.way) {
-      this.way = next.way;
-      this.u = next.frame;
-      this.draw.rebuild();
-    }
-    this.go(next.frame);
-    this.atPose = next.k;
-  }
-  /** The place of the body at a frame of the way. */
-  placeAt(u) {
-    return placeAt(this.linkage, this.path, u, this.data.chart.length);
-  }
-  /** The pose nearest to a place, the angle weighed as the errors weigh it. */
-  nearest(place) {
-    let near2 = 0, least = Infinity;
-    this.data.poses.forEach((pose, k) => {
-      const turn = pose.angle_deg === null ? 0 : place.a - radians(pose.angle_deg);
-      const away = Math.hypot(place.x - pose.x, place.y - pose.y, this.data.chart.length * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI))));
-      if (away < least) [near2, least] = [k, away];
-    });
-    return near2;
-  }
-  /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
-  show(told = true) {
-    const { path } = this;
-    if (!path) {
-      for (const part of this.parts) part.textContent = "";
-      return;
-    }
-    const place = this.placeAt(this.u);
-    const drive = linear(path.drive, this.u), transmission = place.transmission ?? linear(path.transmission, this.u);
-    const near2 = this.atPose = this.nearest(place);
-    if (told) {
-      give(this.slider, "min", this.stretch.low);
-      give(this.slider, "max", this.stretch.high);
-      give(this.slider, "value", this.u);
-      this.tell(place, drive, transmission, near2);
-    }
-    this.draw.show(place, drive, transmission, near2);
-  }
-  /** Where the driver is: an angle, or a place on its line. */
-  driverText(drive) {
-    const { data, linkage } = this;
-    return linkage.led[0].kind === "PR" ? `${fixed(drive, decimalsOf(data))}${data.unit ? ` ${data.unit}` : ""}` : `${fixed(drive, 1)}°`;
-  }
-  /** The readout: driver, body, transmission angle, and the nearest pose. */
-  tell(place, drive, transmission, near2) {
-    const { data, linkage } = this;
-    const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data), driver = this.driverText(drive);
-    const pose = data.poses[near2], row = linkage.pose_errors[near2];
-    const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
-    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from ${calledOf(pose)}`;
-    const missed = () => `at ${calledOf(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
-    const said = !pose ? "between the poses" : at ? missed() : away();
-    const texts = [
-      `driver ${driver}`,
-      `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
-      `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
-      said
-    ];
-    texts.forEach((text, k) => {
-      const whole = k + 1 < texts.length ? `${text} ·` : text;
-      if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
-    });
-    put(this.slider, "aria-valuetext", `driver ${driver}, ${texts[3]}`);
-  }
-};
-function laidOut(texts, width, count) {
-  const ends = Array(count).fill(-99);
-  return texts.map(({ x, text }) => {
-    const size2 = 6.4 * text.length, left = clamp(x - size2 / 2, 0, Math.max(0, width - size2));
-    const at = ends.findIndex((end) => left > end + 4);
-    if (at >= 0) ends[at] = left + size2;
-    return { text, at, middle: left + size2 / 2 };
-  });
-}
-var around = (u, turn) => (u % turn + turn) % turn;
-function icon(pause) {
-  return s(
-    "svg",
-    { width: 12, height: 12, viewBox: "0 0 12 12", "aria-hidden": "true" },
-    s("path", { d: pause ? "M1 0h3.5v12H1zM7.5 0H11v12H7.5z" : "M1 0l11 6l-11 6z" })
-  );
-}
-
-// src/burmester/web/widget/generator_player.mjs
-var near = (angle, other) => angle - 360 * Math.round((angle - other) / 360);
-var GeneratorPlayer = class extends Player {
-  get stop() {
-    return "place";
-  }
-  constructor(data, show, rebuild, generator) {
-    super(data, show, rebuild);
-    this.generator = generator;
-  }
-  /** The input at a drive, in degrees. */
-  inputOf(drive) {
-    const { low, high } = this.generator.range;
-    return near(drive - this.generator.input_phase, (low + high) / 2);
-  }
-  /** The drive at an input that is played. */
-  driveOf(input) {
-    const low = linear(this.path.drive, this.stretch.low);
-    return low + input - this.inputOf(low);
-  }
-  /** The input where the linkage is; at a stop exactly its own. */
-  inputAt(drive) {
-    const stop = this.linkage.pose_errors.findIndex((row) => row.at === this.path && Math.abs(row.frame - this.u) < 1e-6);
-    return stop < 0 ? this.inputOf(drive) : this.data.poses[stop].input_deg;
-  }
-  tell(place, drive, transmission, stop) {
-    const { generator } = this, input = this.inputAt(drive);
-    const wanted = generator.wantedAt(input), { output } = generator.at(input);
-    const pose = this.data.poses[stop], row = this.linkage.pose_errors[stop];
-    const here = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
-    const texts = [
-      `input ${fixed(input, 2)}°`,
-      `output ${fixed(output, 3)}°${wanted === null || output === null ? "" : `, off by ${size(output - wanted)}`}`,
-      `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
-      here ? `at ${stopName(pose)}` : `near ${stopName(pose)}`
-    ];
-    texts.forEach((text, k) => {
-      const whole = k + 1 < texts.length ? `${text} ·` : text;
-      if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
-    });
-    put(this.slider, "aria-valuetext", texts.slice(0, 2).join(", "));
-  }
-};
-var stopName = (pose) => /^\d+$/.test(pose.name) ? `pair ${poseName(pose)}` : poseName(pose);
-var size = (error) => Math.abs(error) < 1e-7 ? "0°" : `${figure(error)}°`;
-
 // src/burmester/web/widget/travel.mjs
 var LONGEST_STEP = 0.015;
 var MOST_BETWEEN = 40;
-var placesOf = (data, linkage, way, stretch) => placesAlong(data, stretch, (u) => Number.isInteger(u) ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
+var placesOf = (data, linkage, way, stretch) => placesAlong(data, stretch, (u) => Number.isInteger(u) && !way.joints ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
 function placesAlong(data, { low, high }, at) {
   const places = [at(low)];
   let before = low;
@@ -1037,6 +387,7 @@ function pivotsAt(linkage, places) {
     const own = dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
     for (const point of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point) });
   }
+  for (const { joints } of places) for (const at of Object.values(joints ?? {})) found.push({ fixed: false, at });
   return found;
 }
 function boundsOf(data, linkage, places, far) {
@@ -1118,538 +469,7 @@ function hull(points) {
   return corners.length ? corners : sorted.slice(0, 1);
 }
 
-// src/burmester/web/widget/labels.mjs
-var Labels = class {
-  constructor(view) {
-    this.view = view;
-    this.taken = [];
-  }
-  block(x, y, width, height) {
-    this.taken.push([x - width / 2, y - height / 2, x + width / 2, y + height / 2]);
-  }
-  put(x, y, text, distance, attributes) {
-    const width = 7.2 * text.length + 4, height = 14;
-    let best = null;
-    for (let ring = 0; ring < 3; ring += 1) {
-      for (let k = 0; k < 16; k += 1) {
-        const angle = Math.PI / 8 * k + Math.PI / 4;
-        const away = distance + 9 * ring;
-        const cx = x + (away + width / 2 - 6) * Math.cos(angle);
-        const cy = y - away * Math.sin(angle);
-        const box = [cx - width / 2, cy - height / 2, cx + width / 2, cy + height / 2];
-        let cost = 0.02 * k + 6 * ring;
-        for (const other of this.taken) {
-          const across = Math.min(box[2], other[2]) - Math.max(box[0], other[0]);
-          const down = Math.min(box[3], other[3]) - Math.max(box[1], other[1]);
-          if (across > 0 && down > 0) cost += across * down;
-        }
-        if (box[0] < 2 || box[2] > this.view.width - 2) cost += 500;
-        if (box[1] < 2 || box[3] > this.view.height - 2) cost += 500;
-        if (!best || cost < best.cost) best = { cost, cx, cy, box };
-      }
-    }
-    this.taken.push(best.box);
-    return s(
-      "text",
-      { x: px(best.cx), y: px(best.cy + 4), "text-anchor": "middle", ...attributes },
-      text
-    );
-  }
-};
-
-// src/burmester/web/widget/outlines.mjs
-var HATCH = 9;
-var PALEST = 0.45;
-var LONGEST_NAME = 28;
-var LEAST_LINKAGE = 110;
-var MOST_PLACES = 400;
-var patterns = 0;
-var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
-var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
-var placesAtPoses = (data, linkage) => data.poses.flatMap((pose, k) => {
-  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
-  return isPoint(at) ? [] : [{ x: at.x, y: at.y, a: radians(at.angle_deg), k }];
-});
-function ghosts(data, linkage, view) {
-  const group = s("g", { class: "bm-ghosts" });
-  if (!data.body) return group;
-  const last = Math.max(1, data.poses.length - 1);
-  for (const { x, y, a, k } of placesAtPoses(data, linkage)) {
-    const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
-    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
-  }
-  return group;
-}
-function keepOut(data, view) {
-  const group = s("g", { class: "bm-keep-out" });
-  if (!data.keep_out.length) return group;
-  const id = `bm-hatch-${patterns += 1}`;
-  group.append(
-    s(
-      "defs",
-      {},
-      s(
-        "pattern",
-        { id, width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
-        s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` })
-      )
-    )
-  );
-  for (const region of data.keep_out) {
-    const d = closed(region.outline, view, [view.left, view.top]);
-    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
-  }
-  return group;
-}
-function keepOutNames(data, view, labels) {
-  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
-    const text = shortened(name, LONGEST_NAME);
-    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
-    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
-  });
-}
-function bodyCorners(data, linkage, places) {
-  if (!data.body) return [];
-  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
-  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
-}
-var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
-var including = (box, points) => points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
-function widened(box, data, linkage, places, width, all) {
-  const withBody = including(box, bodyCorners(data, linkage, places));
-  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
-  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
-  if (all || !linkage || sizeOf(whole) <= most) return whole;
-  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
-  return whole.map((each, k) => k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach));
-}
-
-// src/burmester/web/widget/mechanism.mjs
-var BODY_AXIS = AXIS + 10;
-var LETTER = 14;
-var TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
-var BLOCK_IN_SLOT = [18, 10];
-var SPARE2 = 5;
-var ARROW = 24;
-function mechanism(data, linkage, view, places) {
-  const drawn = new Mechanism(linkage);
-  drawn.shape(data, linkage, view, places);
-  return drawn;
-}
-var Mechanism = class {
-  constructor({ led }) {
-    this.kinds = kindsOf(led);
-    this.outline = s("path", { class: "bm-body-outline" });
-    this.links = s("g");
-    this.blocks = s("g");
-    this.pins = s("g");
-    this.coupler = s("g", { class: "bm-coupler" });
-    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
-    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
-    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
-    this.coupler.append(...this.plates);
-    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
-    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
-    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
-    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.letter);
-  }
-  /** Whether it can be given the dimensions of a linkage. */
-  fits({ led }) {
-    return kindsOf(led) === this.kinds;
-  }
-  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
-  shape(data, linkage, view, places) {
-    this.view = view;
-    this.led = linkage.led;
-    this.hasBody = Boolean(data.body);
-    if (this.hasBody) {
-      put(this.outline, "d", bodyOutline(data, view));
-      if (!this.outline.parentNode) this.group.prepend(this.outline);
-    } else {
-      this.outline.remove();
-    }
-    const corners = [[0, 0]];
-    linkage.led.forEach((dyad, side) => {
-      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
-      const more = this.parts[side].shape(dyad, view, places);
-      if (more) corners.push(more);
-    });
-    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-    for (const plate of this.plates) put(plate, "d", d);
-    this.shapeArrow();
-  }
-  show(place) {
-    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
-    put(this.coupler, "transform", at);
-    if (this.hasBody) put(this.outline, "transform", at);
-    for (const part of this.parts) part.show(place);
-    const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
-    put(this.letter, "transform", `translate(${px(view.X(x))} ${px(view.Y(y) + 4)})`);
-    const [driver] = this.led;
-    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
-  }
-  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
-  shapeArrow() {
-    const { arrow, view } = this, [driver] = this.led;
-    if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
-    if (!driver.fixed_pivot) return;
-    const [x, y] = driver.fixed_pivot;
-    put(arrow, "d", TURNING_ARROW);
-    put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
-  }
-};
-var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
-var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
-function onRail(dyad, place, view) {
-  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
-  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
-}
-var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
-function setPin(pin, [x, y], dyad) {
-  put(pin, "cx", px(x));
-  put(pin, "cy", px(y));
-  put(pin, "data-dyad", dyad.id);
-}
-var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
-var Bar = class {
-  constructor({ links, pins }, side) {
-    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
-    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
-    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
-    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
-    links.append(this.bar);
-    pins.append(this.ground);
-  }
-  shape(dyad, view) {
-    this.dyad = dyad;
-    this.view = view;
-    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
-    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
-    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
-  }
-  show(place) {
-    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
-    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
-  }
-};
-var BlockOnRail = class {
-  constructor({ blocks }, side) {
-    this.block = block(side, ...BLOCK);
-    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
-    blocks.append(this.block);
-  }
-  shape(dyad, view) {
-    this.dyad = dyad;
-    this.view = view;
-    put(this.block, "data-dyad", dyad.id);
-    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
-  }
-  show(place) {
-    put(this.block, "transform", onRail(this.dyad, place, this.view));
-  }
-};
-var Slot = class {
-  constructor({ blocks, pins, coupler }, side) {
-    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
-    this.strokes.push(s("path", { class: "bm-slot" }));
-    this.block = block(side, ...BLOCK_IN_SLOT);
-    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
-    coupler.append(...this.strokes);
-    blocks.append(this.block);
-    pins.append(this.ground);
-  }
-  /** Returns the middle of the slot, for the body's plate. */
-  shape(dyad, view, places) {
-    this.dyad = dyad;
-    this.view = view;
-    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE2) / view.scale;
-    const seen = (along) => inBody(pointOnLine(dyad, along), view);
-    const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
-    for (const stroke of this.strokes) put(stroke, "d", d);
-    for (const part of [this.strokes[3], this.block]) put(part, "data-dyad", dyad.id);
-    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
-    return seen((low + high) / 2);
-  }
-  show(place) {
-    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
-    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
-  }
-};
-var Nothing = class {
-  shape() {
-  }
-  show() {
-  }
-};
-var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing };
-
-// src/burmester/web/widget/rail.mjs
-var LONGEST = 4e3;
-function railOf(dyad, places, view) {
-  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
-  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
-  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
-  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
-  const turned2 = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
-  const drawn = Math.min(half, LONGEST);
-  let hatch = "";
-  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
-  return { x, y, half, drawn, turned: turned2, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
-}
-
-// src/burmester/web/widget/plane.mjs
-var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
-function factorFor(data, linkage) {
-  const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
-  if (!(worst > 1e-9 * data.scene)) return 0;
-  const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
-  return fits.length ? fits[fits.length - 1] : 1;
-}
-var standing = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
-function hasFarPivots(data, linkage, places) {
-  const isFar = farFrom(data);
-  return pivotsAt(linkage, places).some(({ at }) => isFar(at));
-}
-var Plane = class {
-  constructor(data, parent) {
-    this.data = data;
-    this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
-    this.parent = parent;
-    parent.append(this.svg);
-  }
-  /** Draw what stands still.
-   *
-   * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
-   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
-   */
-  build(linkage, way, stretch, { factor, fill, far }) {
-    const { data, svg } = this, path = linkage?.ways[way];
-    this.linkage = linkage;
-    this.way = way;
-    this.places = path ? this.placesOf(path, stretch) : [];
-    const bare = this.bounds(far);
-    const width = Math.max(260, this.parent.clientWidth);
-    const box = widened(bare, data, linkage, this.places, width, far);
-    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
-    const shape = (box[3] - box[1]) / (box[2] - box[0]);
-    const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
-    const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
-    const view = viewOf(box, width, height, width < 500 ? 34 : 42);
-    this.view = view;
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.setAttribute("height", height);
-    svg.dataset.scale = view.scale;
-    svg.dataset.left = view.left;
-    svg.dataset.top = view.top;
-    svg.replaceChildren();
-    svg.append(this.grid(), keepOut(data, view), this.ghosts());
-    svg.append(...[this.wantedPath(), linkage ? this.paths() : null].filter(Boolean));
-    const labels = new Labels(view);
-    this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
-    if (linkage) svg.append(this.ground(labels));
-    for (const pose of data.poses) {
-      const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
-      const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
-      labels.block(x, y, 12, 12);
-      if (isPoint(pose)) continue;
-      for (const share of [0.35, 0.65, 1]) {
-        labels.block(x + share * c, y - share * d, 6, 6);
-        labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
-      }
-    }
-    svg.append(this.poses(linkage, factor, labels));
-    this.moving = path ? this.mechanism() : null;
-    if (this.moving) svg.append(this.moving.group);
-    if (linkage && !far) this.farPivots(labels);
-    svg.append(this.names);
-  }
-  /** The places of the body along a stretch of a way. */
-  placesOf(way, stretch) {
-    return placesOf(this.data, this.linkage, way, stretch);
-  }
-  /** The box that the picture has to hold, but for outlines. */
-  bounds(far) {
-    return boundsOf(this.data, this.linkage, this.places, far);
-  }
-  /** The body at every pose. */
-  ghosts() {
-    return ghosts(this.data, this.linkage, this.view);
-  }
-  /** The moving parts. */
-  mechanism() {
-    return mechanism(this.data, this.linkage, this.view, this.places);
-  }
-  grid() {
-    const { view } = this, group = s("g", { class: "bm-grid", "aria-hidden": "true" });
-    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
-    const across = ticks(-view.left / view.scale, (view.width - view.left) / view.scale, view.width / 110);
-    const up = ticks((view.top - view.height) / view.scale, view.top / view.scale, view.height / 80);
-    for (const { at, text } of across) {
-      const x = px(view.X(at));
-      group.append(s("path", { d: `M${x} 0V${view.height}` }));
-      if (x > 46 && x < view.width - (unit2 ? 54 : 30)) {
-        group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
-      }
-    }
-    for (const { at, text } of up) {
-      const y = px(view.Y(at));
-      group.append(s("path", { d: `M0 ${y}H${view.width}` }));
-      if (y > 26 && y < view.height - 24) group.append(s("text", { x: 6, y: y - 4 }, text));
-    }
-    group.append(
-      s("text", { x: 6, y: 14 }, `y${unit2}`),
-      s("text", { x: view.width - 6, y: view.height - 6, "text-anchor": "end" }, `x${unit2}`)
-    );
-    return group;
-  }
-  /** Paths of the body's origin and of its pivots: full along the stretch that is shown. */
-  paths() {
-    const { view, linkage, places } = this, group = s("g", { class: "bm-paths" });
-    linkage.ways.forEach((way, k) => {
-      const same = way.circuit === linkage.ways[this.way]?.circuit;
-      const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
-      const whole = this.placesOf(way, { low: 0, high: way.x.length - 1 });
-      const d2 = polyline(whole.map(({ x, y }) => [x, y]), view);
-      group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
-    });
-    for (const { side, points } of this.pivotPaths()) {
-      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: polyline(points, view) }));
-    }
-    const d = polyline(places.map(({ x, y }) => [x, y]), view);
-    group.append(s("path", { class: "bm-curve bm-here", d }));
-    return group;
-  }
-  /** The paths of the body's pivots: those on links and in slots. */
-  pivotPaths() {
-    const drawn = [...this.linkage.led.entries()].filter(([, dyad]) => dyad.moving_pivot && dyad.kind !== "PR");
-    return drawn.map(([side, dyad]) => ({ side, points: this.places.map((place) => act(place, dyad.moving_pivot)) }));
-  }
-  /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
-  ground(labels) {
-    const group = s("g", { class: "bm-grounds" });
-    this.linkage.led.forEach((dyad, side) => {
-      if (dyad.kind === "PR") this.rail(group, labels, dyad, side);
-      else if (dyad.fixed_pivot) this.fixedPivot(group, labels, dyad, side);
-    });
-    return group;
-  }
-  /** A rail as long as the travel of its block. */
-  rail(group, labels, dyad, side) {
-    if (!this.places.length) return;
-    const { x, y, drawn, turned: turned2, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
-    group.append(
-      s(
-        "g",
-        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned2) },
-        s("path", { class: "bm-ground", d: paths[0] }),
-        s("path", { class: "bm-ground bm-thin", d: paths[1] })
-      )
-    );
-    for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
-    this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
-  }
-  fixedPivot(group, labels, dyad, side) {
-    const x = this.view.X(dyad.fixed_pivot[0]), y = this.view.Y(dyad.fixed_pivot[1]);
-    labels.block(x, y + 10, 32, 34);
-    if (!side) labels.block(x, y, 40, 40);
-    const at = foot();
-    at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
-    group.append(at);
-    this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
-  }
-  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
-  farPivots(labels) {
-    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
-    this.linkage.led.forEach((dyad, side) => {
-      const at = standing(dyad, this.places);
-      if (!at || !isFar(at)) return;
-      const [x, y] = [view.X(at[0]), view.Y(at[1])];
-      const cx = view.width / 2, cy = view.height / 2, size2 = Math.hypot(x - cx, y - cy);
-      const u = (x - cx) / size2, v = (y - cy) / size2;
-      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
-      const ex = cx + reach * u, ey = cy + reach * v;
-      const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
-      labels.block(ex, ey, 20, 20);
-      this.names.append(
-        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
-        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
-      );
-    });
-  }
-  /** The path that is to be traced, straight from point to point. */
-  wantedPath() {
-    const { data, view } = this;
-    if (!data.path) return null;
-    const points = data.poses.map(({ x, y }) => [x, y]);
-    return s("path", { class: "bm-wanted-path", d: `${polyline(points, view)}${data.path.closed ? "Z" : ""}` });
-  }
-  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged.
-   *
-   * At a point there are no axes: how the body turns there is not asked for.
-   */
-  poses(linkage, factor, labels) {
-    const { data, view } = this, group = s("g", { class: "bm-poses" });
-    const small = data.poses.length > 24 ? 0.6 : 1;
-    const arrows = this.errors(linkage, factor, labels);
-    const names = s("g", { class: "bm-pose-names" });
-    data.poses.forEach((pose, k) => {
-      const x = view.X(pose.x), y = view.Y(pose.y);
-      group.append(
-        s(
-          "g",
-          { class: "bm-wanted", transform: transform(x, y, isPoint(pose) ? 0 : radians(pose.angle_deg)), "data-pose": k + 1 },
-          isPoint(pose) ? null : s("path", { d: axes(AXIS * small) }),
-          s("circle", { r: 4.5 * small })
-        )
-      );
-      if (data.poses.length <= 60 && isNamed(data, k)) names.append(labels.put(x, y, pose.label, 13, {}));
-      const row = linkage?.pose_errors[k];
-      if (!row || row.x === null) return;
-      const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
-      group.append(
-        s(
-          "g",
-          { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
-          isPoint(pose) ? null : s("path", { d: axes(0.72 * AXIS * small) }),
-          s("circle", { r: 2.2 * small })
-        )
-      );
-    });
-    group.append(arrows, names);
-    return group;
-  }
-  errors(linkage, factor, labels) {
-    const { data, view } = this, arrows = s("g", { class: "bm-errors" });
-    if (!linkage || !factor) return arrows;
-    linkage.pose_errors.forEach((row, k) => {
-      if (row.x === null) return;
-      const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
-      const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
-      const size2 = Math.hypot(dx, dy);
-      if (size2 < 1.5) return;
-      const head = Math.min(7, 0.5 * size2), ux = dx / size2, uy = dy / size2;
-      const tip = `${px(x + dx)} ${px(y + dy)}`;
-      const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
-      arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
-      for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
-    });
-    return arrows;
-  }
-  show(place) {
-    this.moving?.show(place);
-  }
-};
-
 // src/burmester/web/widget/words.mjs
-function storyOf(linkage) {
-  const { said } = linkage;
-  const met = `${linkage.usable ? "Usable" : "Not usable"}: it ${said.met}`;
-  if (!linkage.ways.length) return `${met}. It cannot be shown moving: ${said.reasons.join("; ") || "its motion is not known"}.`;
-  if (linkage.type === "change-point") {
-    return `${met}, driven by ${linkage.led[0].id}. At a change point, where all links lie in one line, it may go on either way.`;
-  }
-  return linkage.usable ? `${met}, driven by ${linkage.led[0].id}.` : `Not usable: it ${said.in_short}.`;
-}
 function wayStory(way, poses) {
   const noun = nounOf({ poses }), names = poses.map((pose) => pose.label);
   const all = way.poses.length === names.length;
@@ -1658,20 +478,7 @@ function wayStory(way, poses) {
   const ends = way.round ? "turns round" : dead === 2 ? "between two dead points" : dead ? "up to a dead point" : "open";
   return `${here}; ${ends}`;
 }
-function factsOf(data, linkage) {
-  const { said } = linkage, unit2 = data.unit ? ` ${data.unit}` : "";
-  const rows = [
-    ["verdict", verdictOf(linkage)],
-    ...Object.entries(said.links ?? {}).map(([name, value]) => [`${name} link`, `${value}${unit2}`]),
-    ["worst miss", missOf(said.worst, said.angle, unit2)],
-    ["rms miss", missOf(said.rms, said.rms_angle, unit2)],
-    ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
-    ...Object.entries(said.quality),
-    ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
-    ...said.freedom ? [["pivots", said.freedom.replace("pivots ", "")]] : []
-  ];
-  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
-}
+var factsOf = ({ said }) => h("dl", { class: "bm-facts" }, said.facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 function spaceStory(data, linkage) {
   const some = data.poses.some(isPoint), every = nounOf(data) === "point";
   const taken = some && linkage ? `the places that ${linkage.id} takes at ${every ? "the" : "its"} points` : "";
@@ -1681,12 +488,17 @@ function spaceStory(data, linkage) {
   const surface = (side) => h("b", { class: `bm-side${side}` }, linkage.led[side].id);
   return [plain, " The surfaces are all places that dyad ", surface(0), " (driver) and dyad ", surface(1), " (follower) allow; where they meet, the line, the coupler moves."];
 }
+function loopKey({ loops = [] }) {
+  const one = (text, k) => h("li", {}, s("svg", { width: 34, height: 12, viewBox: "0 -6 34 12", "aria-hidden": "true", class: "bm-key" }, s("path", { class: `bm-line bm-loop${k}`, d: "M0 0H32" })), text);
+  return loops.length ? h("ul", { class: "bm-keys" }, loops.map(one)) : null;
+}
 function keyOf(data, hasLinkages) {
   const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
-  const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
+  const link = (kind) => s("g", { class: `bm-link bm-${kind}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
   const posed = data.poses.some((pose) => !isPoint(pose)) || !data.poses.length, some = data.poses.some(isPoint);
   const frame = (name, axis, r, text) => posed ? [one(s("g", { class: name }, s("path", { d: axes(axis) }), s("circle", { r })), text)] : [];
   const dot3 = (name, r, text) => some ? [one(s("g", { class: name }, s("circle", { cx: 11, cy: -3, r })), text)] : [];
+  if (data.stop) return h("ul", { class: "bm-keys" }, data.keys.map(([kind, text]) => one(link(kind), text)));
   const items = [...frame("bm-wanted", 22, 4, "wanted pose"), ...dot3("bm-wanted", 4, "wanted point")];
   if (data.path) items.push(one(s("path", { class: "bm-wanted-path", d: "M-2 2C6 -16 18 -10 28 -4" }), "wanted path"));
   if (hasLinkages) {
@@ -1694,8 +506,7 @@ function keyOf(data, hasLinkages) {
       ...frame("bm-achieved", 17, 2.2, "achieved pose"),
       ...dot3("bm-achieved", 2.2, "achieved point"),
       one(s("g", { class: "bm-errors" }, s("path", { d: "M0 0L22 -6L15 -7.5M22 -6L17 -0.8" })), "error, enlarged"),
-      one(link(0), "driver (filled)"),
-      one(link(1), "follower (hollow)"),
+      ...data.keys.map(([kind, text]) => one(link(kind), text)),
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M")
     );
   }
@@ -1721,9 +532,45 @@ var Assemblies = class {
       h("span", {}, h("b", {}, wayName(way, linkage).replace("assembly ", "")), ` ${wayStory(way, this.data.poses)}`)
     );
     this.element.replaceChildren(h("legend", {}, "Assembly"), ...linkage.ways.map(one));
-    give(this.element, "hidden", !linkage.ways.length);
+    give(this.element, "hidden", !linkage.ways.length || Boolean(this.data.whole));
   }
 };
+
+// src/burmester/web/widget/cards.mjs
+var Cards = class {
+  constructor(linkages, choose) {
+    const cards = this.cards = linkages.map((each, k) => cardOf(each, () => choose(k)));
+    this.element = h(
+      "nav",
+      { class: "bm-list", "aria-label": "Linkages, best first" },
+      h("h2", {}, `${cards.length} linkage${cards.length === 1 ? "" : "s"}`),
+      h("div", { class: "bm-choices" }, this.cards)
+    );
+    this.element.addEventListener("keydown", (event) => {
+      const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
+      const at = this.cards.indexOf(document.activeElement);
+      if (!step || at < 0) return;
+      event.preventDefault();
+      this.cards[clamp(at + step, 0, this.cards.length - 1)].focus();
+    });
+  }
+  mark(index) {
+    this.cards.forEach((each, k) => each.setAttribute("aria-pressed", String(k === index)));
+  }
+};
+var SIGNS = { "bm-detail bm-links": " " };
+function cardOf({ id, type, usable, card: { verdict, facts, quiet, reason } }, onclick) {
+  const parts = (text, kind) => Array.isArray(text) ? text.map((each, k) => [k ? SIGNS[kind] ?? ", " : "", h("span", { class: "bm-whole-word" }, each)]) : text;
+  return h(
+    "button",
+    { type: "button", class: `bm-choice ${usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": id, onclick },
+    h("span", { class: "bm-choice-head" }, h("b", {}, id), " ", h("span", { class: "bm-type" }, type)),
+    h("span", { class: "bm-verdict" }, verdict),
+    h("dl", {}, facts.map(([name, text, kind = null]) => [h("dt", { class: kind }, name), h("dd", { class: kind }, parts(text, kind))])),
+    quiet ? h("span", { class: "bm-quiet" }, quiet) : null,
+    reason ? h("span", { class: "bm-reason" }, reason) : null
+  );
+}
 
 // src/burmester/web/widget/family_pairs.mjs
 var CLASSES = 7;
@@ -1737,7 +584,7 @@ var FamilyPairs = class {
     this.columns = this.isCurve ? this.map.fixed.length : this.map.columns;
     this.rows = this.isCurve ? this.columns : this.map.rows;
     this.starts = [];
-    (this.map.loops ?? []).reduce((start, size2) => (this.starts.push(start), start + size2), 0);
+    (this.map.loops ?? []).reduce((start, size) => (this.starts.push(start), start + size), 0);
   }
   /** The letter of a loop, where there are several. */
   letter(loop) {
@@ -1767,8 +614,8 @@ var FamilyPairs = class {
   }
   /** The name of a place along the curve: its share of its loop, after the loop's letter. */
   placeName(k) {
-    const loop = this.starts.findLastIndex((start) => start <= k), size2 = this.map.loops[loop];
-    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size2).toFixed(2)}`;
+    const loop = this.starts.findLastIndex((start) => start <= k), size = this.map.loops[loop];
+    return `${this.letter(loop)}${((k - this.starts[loop] + 0.5) / size).toFixed(2)}`;
   }
   /** The cell of a fixed pivot in the plane of three poses. */
   cellOf(pivot) {
@@ -1805,13 +652,54 @@ function dyadOfThree(poses, pivot) {
     return [Math.cos(turn) * x - Math.sin(turn) * y, Math.sin(turn) * x + Math.cos(turn) * y];
   });
   const u = [b[0] - a[0], b[1] - a[1]], v = [c[0] - a[0], c[1] - a[1]];
-  const cross3 = 2 * (u[0] * v[1] - u[1] * v[0]), uu = u[0] ** 2 + u[1] ** 2, vv = v[0] ** 2 + v[1] ** 2;
-  const arm = [(uu * v[1] - vv * u[1]) / cross3, (vv * u[0] - uu * v[0]) / cross3];
+  const cross2 = 2 * (u[0] * v[1] - u[1] * v[0]), uu = u[0] ** 2 + u[1] ** 2, vv = v[0] ** 2 + v[1] ** 2;
+  const arm = [(uu * v[1] - vv * u[1]) / cross2, (vv * u[0] - uu * v[0]) / cross2];
   return { fixed: pivot, moving: [a[0] + arm[0], a[1] + arm[1]], length: Math.hypot(...arm) };
 }
 
+// src/burmester/web/widget/labels.mjs
+var Labels = class {
+  constructor(view) {
+    this.view = view;
+    this.taken = [];
+  }
+  block(x, y, width, height) {
+    this.taken.push([x - width / 2, y - height / 2, x + width / 2, y + height / 2]);
+  }
+  put(x, y, text, distance, attributes) {
+    const width = 7.2 * text.length + 4, height = 14;
+    let best = { cost: Infinity, cx: 0, cy: 0, box: [0, 0, 0, 0] };
+    for (let ring = 0; ring < 3; ring += 1) {
+      for (let k = 0; k < 16; k += 1) {
+        const angle = Math.PI / 8 * k + Math.PI / 4;
+        const away = distance + 9 * ring;
+        const cx = x + (away + width / 2 - 6) * Math.cos(angle);
+        const cy = y - away * Math.sin(angle);
+        const box = [cx - width / 2, cy - height / 2, cx + width / 2, cy + height / 2];
+        let cost = 0.02 * k + 6 * ring;
+        for (const other of this.taken) {
+          const across = Math.min(box[2], other[2]) - Math.max(box[0], other[0]);
+          const down = Math.min(box[3], other[3]) - Math.max(box[1], other[1]);
+          if (across > 0 && down > 0) cost += across * down;
+        }
+        if (box[0] < 2 || box[2] > this.view.width - 2) cost += 500;
+        if (box[1] < 2 || box[3] > this.view.height - 2) cost += 500;
+        if (cost < best.cost) best = { cost, cx, cy, box };
+      }
+    }
+    this.taken.push(best.box);
+    return s(
+      "text",
+      { x: px(best.cx), y: px(best.cy + 4), "text-anchor": "middle", ...attributes },
+      text
+    );
+  }
+};
+
 // src/burmester/web/widget/partner_curve.mjs
 var PartnerCurve = class {
+  /** @type {any} */
+  pixel;
   constructor(data, pairs) {
     this.data = data;
     this.map = data.family_map;
@@ -1826,8 +714,8 @@ var PartnerCurve = class {
     const best = map.fixed.map((_, i) => pairs.bestPartner(i));
     const poses = data.poses.map((pose) => [pose.x, pose.y]);
     const middle = [0, 1].map((k) => (Math.min(...poses.map((p) => p[k])) + Math.max(...poses.map((p) => p[k]))) / 2);
-    const near2 = (p) => p.every((v, k) => Math.abs(v - middle[k]) < 3 * data.scene);
-    const held = [...poses, ...map.fixed.filter((p, i) => best[i].kind < OUTSIDE && near2(p)), ...pairs.pinsOf(place)];
+    const near = (p) => p.every((v, k) => Math.abs(v - middle[k]) < 3 * data.scene);
+    const held = [...poses, ...map.fixed.filter((p, i) => best[i].kind < OUTSIDE && near(p)), ...pairs.pinsOf(place)];
     const low = [0, 1].map((k) => Math.min(...held.map((p) => p[k]))), high = [0, 1].map((k) => Math.max(...held.map((p) => p[k])));
     const scale = Math.min(width / (high[0] - low[0] || data.scene), height / (high[1] - low[1] || data.scene)) * 0.8;
     this.pixel = (p) => [width / 2 + (p[0] - (low[0] + high[0]) / 2) * scale, height / 2 - (p[1] - (low[1] + high[1]) / 2) * scale];
@@ -1836,17 +724,17 @@ var PartnerCurve = class {
     const inside2 = ([x, y]) => x > 0 && y > 0 && x < width && y < height;
     const beyond = (p, q) => !inside2(p) && !inside2(q) && (p[0] - width / 2) * (q[0] - width / 2) + (p[1] - height / 2) * (q[1] - height / 2) < 0;
     pairs.starts.forEach((start, loop) => {
-      const size2 = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size2) % size2]);
-      const between2 = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
-      for (let k = 0; k < size2; k += 1) {
-        const piece = [between2(at(k - 1), at(k)), at(k), between2(at(k), at(k + 1))];
+      const size = map.loops[loop], at = (k) => this.pixel(map.fixed[start + (k + size) % size]);
+      const between = (p, q) => [(p[0] + q[0]) / 2, (p[1] + q[1]) / 2];
+      for (let k = 0; k < size; k += 1) {
+        const piece = [between(at(k - 1), at(k)), at(k), between(at(k), at(k + 1))];
         if (beyond(at(k - 1), at(k)) || beyond(at(k), at(k + 1))) continue;
         const d = `M${piece.map((p) => p.map(px).join(" ")).join("L")}`;
         under.append(s("path", { d }));
         curve.append(s("path", { d, stroke: `rgb(${colour(best[start + k]).join()})` }));
       }
       for (const share of SHARES) {
-        const [x, y] = at(Math.min(size2 - 1, Math.round(share * size2)));
+        const [x, y] = at(Math.min(size - 1, Math.round(share * size)));
         if (!inside2([x, y])) continue;
         marks.append(s("circle", { class: "bm-pairs-mark", cx: px(x), cy: px(y), r: 2.2 }));
         marks.append(labels.put(x, y, `${pairs.letter(loop)}${share}`, 12, {}));
@@ -1869,13 +757,27 @@ var MARGIN = { left: 50, right: 8, top: 8, bottom: 26 };
 var LARGEST = 520;
 var BESIDE = 620;
 var FamilyMap = class {
+  /** @type {any} */
+  tints;
+  /** @type {any} */
+  scale;
+  /** @type {any} */
+  curve;
+  /** @type {any} */
+  view;
+  /** @type {any} */
+  place;
+  /** @type {any} */
+  drawn;
   constructor(data, parent) {
     this.data = data;
     this.map = data.family_map;
     this.parent = parent;
     this.pairs = new FamilyPairs(data);
     const { isCurve, columns, rows } = this.pairs;
-    Object.assign(this, { isCurve, columns, rows });
+    this.isCurve = isCurve;
+    this.columns = columns;
+    this.rows = rows;
     this.canvas = h("canvas", { "aria-hidden": "true", width: this.columns, height: this.rows });
     const name = `bm-pairs-${Math.random().toString(36).slice(2)}`;
     const what = this.isCurve ? "pairs of dyads on the curve of four poses" : "the second fixed pivot of three poses";
@@ -1955,7 +857,7 @@ var FamilyMap = class {
     for (let j = -1; j <= this.rows; j += 1) {
       for (let i = -1; i <= this.columns; i += 1) {
         let around2 = 0;
-        for (const dj of [-1, 0, 1]) for (const di of [-1, 0, 1]) around2 += own(i + di, j + dj);
+        for (const dj of [-1, 0, 1]) for (const di of [-1, 0, 1]) around2 += Number(own(i + di, j + dj));
         mask.push(own(i, j) || around2 >= SPECK);
       }
     }
@@ -1988,10 +890,10 @@ var FamilyMap = class {
     const { margin, across, down } = this.view, out = s("g", { class: "bm-pairs-axes" });
     const { pairs } = this, left = margin.left, foot2 = margin.top + down;
     pairs.starts.forEach((start, loop) => {
-      const size2 = this.map.loops[loop], letter = pairs.letter(loop);
-      const shares = size2 / this.columns * across < 150 ? [0, 0.5] : SHARES;
+      const size = this.map.loops[loop], letter = pairs.letter(loop);
+      const shares = size / this.columns * across < 150 ? [0, 0.5] : SHARES;
       for (const share of shares) {
-        const along = (start + share * size2) / this.columns * across, text = `${letter}${share}`;
+        const along = (start + share * size) / this.columns * across, text = `${letter}${share}`;
         out.append(
           s("path", { d: `M${px(left + along)} ${foot2}v4M${left} ${px(foot2 - along)}h-4` }),
           s("text", { x: px(left + along), y: foot2 + 17, "text-anchor": "middle" }, text),
@@ -2102,6 +1004,41 @@ var FamilyMap = class {
 var dot = ([x, y], name, r) => s("circle", { class: name, cx: px(x), cy: px(y), r });
 var capital = (text) => text[0].toUpperCase() + text.slice(1);
 
+// src/burmester/web/widget/header.mjs
+var OPEN = /^R(303|31)/;
+function header(data, good) {
+  const { outcome, warnings } = data, open = OPEN.test(outcome.code);
+  const [best, ...more] = good ? data.best : [];
+  const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
+  const said = (text) => text && data.best.some((sentence) => sentence.slice(1).startsWith(text.slice(1)));
+  const told = [notes({ why: said(outcome.why) ? null : outcome.why, help: said(outcome.help) ? null : outcome.help }), warnings.length ? h("ul", { class: "bm-warnings", "aria-label": "Warnings" }, warnings.map(warning)) : null];
+  const count = warnings.length ? `, and ${warnings.length} warning${warnings.length === 1 ? "" : "s"}` : "";
+  return h(
+    "header",
+    { class: "bm-head" },
+    h("p", { class: "bm-overline" }, `burmester · ${data.kind ?? "linkage report"}`),
+    data.title ? h("h1", {}, data.title) : null,
+    h(
+      "p",
+      { class: `bm-outcome ${good ? "bm-good" : open ? "bm-open" : "bm-bad"}` },
+      h("span", { class: "bm-sign", "aria-hidden": "true" }, good ? "✓" : open ? "i" : "✕"),
+      h("span", {}, best ?? found)
+    ),
+    (best ? more : data.best).map((sentence) => h("p", { class: "bm-best" }, sentence)),
+    best ? h("details", { class: "bm-about" }, h("summary", {}, `How it was found${count}`), h("p", { class: "bm-found" }, found), told) : told
+  );
+}
+var warning = (each) => h(
+  "li",
+  {},
+  h("p", {}, h("b", {}, "! Warning "), h("span", { class: "bm-code" }, each.code), ` ${each.message}.`),
+  notes(each)
+);
+var notes = ({ why, help }) => [
+  why ? h("p", { class: "bm-why" }, h("b", {}, "Why: "), why, ".") : null,
+  help ? h("p", { class: "bm-why" }, h("b", {}, "What helps: "), help, ".") : null
+];
+
 // src/burmester/web/widget/vectors.mjs
 var dot2 = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 var scaled = (a, k) => [a[0] * k, a[1] * k, a[2] * k];
@@ -2124,9 +1061,9 @@ function intersections(c, o, d) {
 // src/burmester/web/widget/ray_casting.mjs
 var WIDTH = 440;
 var TURNING_SHARE = 0.35;
-function drawStill(canvas, scene, size2, turning) {
-  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size2.width);
-  const width = Math.round(size2.width * share), height = Math.round(size2.height * share);
+function drawStill(canvas, scene, size, turning) {
+  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size.width);
+  const width = Math.round(size.width * share), height = Math.round(size.height * share);
   canvas.width = width;
   canvas.height = height;
   if (!scene.quadrics.length) return;
@@ -2145,10 +1082,10 @@ function cast(image, { eye, ahead, right, up, reach, quadrics, paint, angles }) 
       let dx = ahead[0] + u * right[0] + v * up[0];
       let dy = ahead[1] + u * right[1] + v * up[1];
       let dz = ahead[2] + u * right[2] + v * up[2];
-      const size2 = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
-      dx *= size2;
-      dy *= size2;
-      dz *= size2;
+      const size = 1 / Math.sqrt(dx * dx + dy * dy + dz * dz);
+      dx *= size;
+      dy *= size;
+      dz *= size;
       const x1 = (-1 - ex) / dx, x2 = (1 - ex) / dx, y1 = (-1 - ey) / dy, y2 = (1 - ey) / dy;
       const z1 = (-1 - ez) / dz, z2 = (1 - ez) / dz;
       const enter = Math.max(Math.min(x1, x2), Math.min(y1, y2), Math.min(z1, z2));
@@ -2301,10 +1238,12 @@ void main() {
 function hasGraphics() {
   const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
   const named = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
+  const name = gl && named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
   return Boolean(gl) && !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 var Shader = class _Shader {
+  /** @type {any} */
+  pace;
   /** The shader on a canvas, null where it cannot be; `lost` is called when it ceases to be. */
   static on(canvas, lost) {
     if (!hasGraphics()) return null;
@@ -2336,7 +1275,7 @@ var Shader = class _Shader {
     gl.vertexAttribPointer(corner, 2, gl.FLOAT, false, 0, 0);
     this.places = Object.fromEntries(UNIFORMS.map((name) => [name, gl.getUniformLocation(program, name)]));
   }
-  draw(scene, size2, turning) {
+  draw(scene, size, turning) {
     const { gl, places } = this;
     gl.clearColor(0, 0, 0, 0);
     if (!scene.quadrics.length) {
@@ -2348,26 +1287,26 @@ var Shader = class _Shader {
     for (const name of ["eye", "right", "up", "ahead"]) gl.uniform3fv(places[name], scene[name]);
     gl.uniform2fv(places.reach, scene.reach);
     gl.uniform4fv(places.angles, scene.angles);
-    this.pace ??= this.measure(size2);
+    this.pace ??= this.measure(size);
     const full = Math.min(2, window.devicePixelRatio || 1), most = turning ? TURNING_MILLISECONDS : STILL_MILLISECONDS;
     const ways = turning ? [[1, 1], [0.7, 1], [0.45, 1]] : [[full, 4], [1, 4], [full, 1], [1, 1], [0.7, 1]];
-    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size2.width * size2.height < most);
-    this.once(size2, ...fits ?? ways[ways.length - 1]);
+    const fits = ways.find(([dense, samples]) => dense * dense * samples * this.pace * size.width * size.height < most);
+    this.once(size, ...fits ?? ways[ways.length - 1]);
   }
   /** Milliseconds a ray takes: where graphics are slow, the picture gets fewer of them. */
-  measure(size2) {
+  measure(size) {
     const { gl } = this;
-    this.once(size2, 0.12, 1);
+    this.once(size, 0.12, 1);
     gl.finish();
     const start = performance.now();
-    this.once(size2, 0.3, 1);
+    this.once(size, 0.3, 1);
     gl.finish();
-    return (performance.now() - start) / (0.09 * size2.width * size2.height);
+    return (performance.now() - start) / (0.09 * size.width * size.height);
   }
   /** One picture: pixels of the canvas per pixel of the page along a side, rays per pixel. */
-  once(size2, dense, samples) {
+  once(size, dense, samples) {
     const { gl, canvas, places } = this;
-    const width = Math.round(size2.width * dense), height = Math.round(size2.height * dense);
+    const width = Math.round(size.width * dense), height = Math.round(size.height * dense);
     if (canvas.width !== width || canvas.height !== height) {
       canvas.width = width;
       canvas.height = height;
@@ -2384,9 +1323,21 @@ var Shader = class _Shader {
 var FOCAL_LENGTH = 2.3;
 var EYE_DISTANCE = 4.6;
 var START = { around: -0.62, above: 0.38, zoom: 1 };
-var MANY_POSES2 = 40;
+var MANY_POSES = 40;
 var inside = (point) => point.every((value) => Math.abs(value) <= 1.0001);
 var ImageSpace = class {
+  /** @type {any} */
+  waiting;
+  /** @type {any} */
+  space;
+  /** @type {any} */
+  marks;
+  /** @type {any} */
+  view;
+  /** @type {any} */
+  width;
+  /** @type {any} */
+  height;
   constructor(data, parent, webgl) {
     this.data = data;
     this.parent = parent;
@@ -2570,8 +1521,8 @@ var ImageSpace = class {
   axisNames(back2) {
     const name = (point, text) => {
       const [x, y] = this.project(point), [cx, cy] = [x - this.width / 2, y - this.height / 2];
-      const size2 = Math.hypot(cx, cy) || 1;
-      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size2), y: px(y + 14 * cy / size2 + 4), "text-anchor": "middle" }, text);
+      const size = Math.hypot(cx, cy) || 1;
+      return s("text", { class: "bm-axis", x: px(x + 14 * cx / size), y: px(y + 14 * cy / size + 4), "text-anchor": "middle" }, text);
     };
     const base = this.turn.above >= 0 ? -1 : 1;
     return [name([0, -back2[1], base], "Z1"), name([-back2[0], 0, base], "Z2")];
@@ -2619,7 +1570,7 @@ var ImageSpace = class {
     for (const { point, k } of shown) {
       const [x, y] = this.project(point), hidden = this.sheetsBefore(point) > 0;
       svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));
-      if (shown.length <= MANY_POSES2 && isNamed(data, k)) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
+      if (shown.length <= MANY_POSES && isNamed(data, k)) svg.append(labels.put(x, y, data.poses[k].label, 12, { class: "bm-image-name" }));
     }
   }
   /** No place of the body is known. */
@@ -2662,6 +1613,8 @@ function listenToKeys(root, drawing, player, signal) {
 // src/burmester/web/widget/pivot_map.mjs
 var MAX_BANDS = 12;
 var PivotMap = class {
+  /** @type {any} */
+  view;
   constructor(data, parent) {
     this.data = data;
     this.parent = parent;
@@ -2723,11 +1676,11 @@ var PivotMap = class {
     const { canvas } = this, map = this.data.pivot_map;
     const dense = Math.min(2, window.devicePixelRatio || 1);
     const style = getComputedStyle(this.parent);
-    const near2 = rgb(style.getPropertyValue("--bm-map-near"));
+    const near = rgb(style.getPropertyValue("--bm-map-near"));
     const far = rgb(style.getPropertyValue("--bm-map-far"));
     const w = Math.round(width * dense), t = Math.round(height * dense);
-    if (canvas.width === w && this.paintedIn === near2.join()) return;
-    this.paintedIn = near2.join();
+    if (canvas.width === w && this.paintedIn === near.join()) return;
+    this.paintedIn = near.join();
     canvas.width = w;
     canvas.height = t;
     const context = canvas.getContext("2d"), image = context.createImageData(w, t);
@@ -2743,7 +1696,7 @@ var PivotMap = class {
       const edge = k % w && band[k - 1] !== own || k >= w && band[k - w] !== own;
       const share = own < 0 ? 1 : own / Math.max(1, this.count - 1);
       const shade = edge ? 0.84 : 1;
-      for (let c = 0; c < 3; c += 1) image.data[4 * k + c] = shade * (near2[c] + share * (far[c] - near2[c]));
+      for (let c = 0; c < 3; c += 1) image.data[4 * k + c] = shade * (near[c] + share * (far[c] - near[c]));
       image.data[4 * k + 3] = 255;
     }
     context.putImageData(image, 0, 0);
@@ -2837,32 +1790,893 @@ var PivotMap = class {
   }
 };
 
+// src/burmester/web/widget/outlines.mjs
+var HATCH = 9;
+var PALEST = 0.45;
+var LONGEST_NAME = 28;
+var LEAST_LINKAGE = 110;
+var MOST_PLACES = 400;
+var patterns = 0;
+var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
+var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
+var placesAtPoses = (data, linkage) => data.poses.flatMap((pose, k) => {
+  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
+  return isPoint(at) ? [] : [{ x: at.x, y: at.y, a: radians(at.angle_deg), k }];
+});
+function ghosts(data, linkage, view) {
+  const group = s("g", { class: "bm-ghosts" });
+  if (!data.body) {
+    for (const row of linkage?.drawn ? linkage.pose_errors : []) group.append(plate(placeAt(linkage, linkage.ways[row.way], row.frame, data.chart.length), linkage, view));
+    return group;
+  }
+  const last = Math.max(1, data.poses.length - 1);
+  for (const { x, y, a, k } of placesAtPoses(data, linkage)) {
+    const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
+    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
+  }
+  return group;
+}
+var plate = (place, { drawn }, view) => s("path", { class: "bm-ghost", d: `${polyline([...drawn.find(({ kind }) => kind === "carried").joints].map((joint) => place.joints[joint] ?? [place.x, place.y]), view)}Z` });
+function keepOut(data, view) {
+  const group = s("g", { class: "bm-keep-out" });
+  if (!data.keep_out.length) return group;
+  const id = `bm-hatch-${patterns += 1}`;
+  group.append(
+    s(
+      "defs",
+      {},
+      s(
+        "pattern",
+        { id, width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+        s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` })
+      )
+    )
+  );
+  for (const region of data.keep_out) {
+    const d = closed(region.outline, view, [view.left, view.top]);
+    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
+  }
+  return group;
+}
+function keepOutNames(data, view, labels) {
+  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
+    const text = shortened(name, LONGEST_NAME);
+    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
+    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
+  });
+}
+function bodyCorners(data, linkage, places) {
+  if (!data.body) return [];
+  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
+  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
+}
+var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+var including = (box, points) => points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
+function widened(box, data, linkage, places, width, all) {
+  const withBody = including(box, bodyCorners(data, linkage, places));
+  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
+  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
+  if (all || !linkage || sizeOf(whole) <= most) return whole;
+  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
+  return whole.map((each, k) => k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach));
+}
+
+// src/burmester/web/widget/mechanism.mjs
+var BODY_AXIS = AXIS + 10;
+var LETTER = 14;
+var TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
+var BLOCK_IN_SLOT = [18, 10];
+var SPARE = 5;
+var NAME = 15;
+var ARROW = 24;
+function mechanism(data, linkage, view, places) {
+  const drawn = new Mechanism(linkage);
+  drawn.shape(data, linkage, view, places);
+  return drawn;
+}
+var Mechanism = class {
+  constructor({ led, drawn: links = [], ground, names }) {
+    this.kinds = kindsOf(led);
+    this.outline = s("path", { class: "bm-body-outline" });
+    this.links = s("g");
+    this.blocks = s("g");
+    this.pins = s("g");
+    this.coupler = s("g", { class: "bm-coupler" });
+    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
+    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
+    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
+    this.coupler.append(...this.plates);
+    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
+    if (links.length) this.parts.push(...links.map((link) => new JointedLink(this, link)), new Joints(this, ground, names));
+    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
+    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
+    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, links.length ? null : this.letter);
+  }
+  /** Whether it can be given the dimensions of a linkage. */
+  fits({ led }) {
+    return kindsOf(led) === this.kinds;
+  }
+  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
+  shape(data, linkage, view, places) {
+    this.view = view;
+    this.led = linkage.led;
+    this.hasBody = Boolean(data.body);
+    if (this.hasBody) {
+      put(this.outline, "d", bodyOutline(data, view));
+      if (!this.outline.parentNode) this.group.prepend(this.outline);
+    } else {
+      this.outline.remove();
+    }
+    const corners = [[0, 0]];
+    linkage.led.forEach((dyad, side) => {
+      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
+      const more = this.parts[side].shape(dyad, view, places);
+      if (more) corners.push(more);
+    });
+    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
+    for (const plate2 of linkage.drawn ? [] : this.plates) put(plate2, "d", d);
+    for (const part of this.parts.slice(linkage.led.length)) part.shape(view);
+    this.shapeArrow();
+  }
+  show(place) {
+    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
+    put(this.coupler, "transform", at);
+    if (this.hasBody) put(this.outline, "transform", at);
+    for (const part of this.parts) part.show(place);
+    const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
+    put(this.letter, "transform", `translate(${px(view.X(x))} ${px(view.Y(y) + 4)})`);
+    const [driver] = this.led;
+    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
+  }
+  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
+  shapeArrow() {
+    const { arrow, view } = this, [driver] = this.led;
+    if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+    if (!driver.fixed_pivot) return;
+    const [x, y] = driver.fixed_pivot;
+    put(arrow, "d", TURNING_ARROW);
+    put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
+  }
+};
+var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
+var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
+function onRail(dyad, place, view) {
+  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
+  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
+}
+var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
+function setPin(pin, [x, y], dyad) {
+  put(pin, "cx", px(x));
+  put(pin, "cy", px(y));
+  put(pin, "data-dyad", dyad.id);
+}
+var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
+var Bar = class {
+  constructor({ links, pins }, side) {
+    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    links.append(this.bar);
+    pins.append(this.ground);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
+    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
+  }
+};
+var BlockOnRail = class {
+  constructor({ blocks }, side) {
+    this.block = block(side, ...BLOCK);
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    blocks.append(this.block);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    put(this.block, "data-dyad", dyad.id);
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    put(this.block, "transform", onRail(this.dyad, place, this.view));
+  }
+};
+var Slot = class {
+  constructor({ blocks, pins, coupler }, side) {
+    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
+    this.strokes.push(s("path", { class: "bm-slot" }));
+    this.block = block(side, ...BLOCK_IN_SLOT);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
+    coupler.append(...this.strokes);
+    blocks.append(this.block);
+    pins.append(this.ground);
+  }
+  /** Returns the middle of the slot, for the body's plate. */
+  shape(dyad, view, places) {
+    this.dyad = dyad;
+    this.view = view;
+    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / view.scale;
+    const seen = (along) => inBody(pointOnLine(dyad, along), view);
+    const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
+    for (const stroke of this.strokes) put(stroke, "d", d);
+    for (const part of [this.strokes[3], this.block]) put(part, "data-dyad", dyad.id);
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    return seen((low + high) / 2);
+  }
+  show(place) {
+    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
+    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
+  }
+};
+var JointedLink = class {
+  constructor({ links }, { joints, kind }) {
+    this.joints = [...joints];
+    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+    links.append(s("g", { class: `bm-link bm-${kind}${joints.length > 2 ? " bm-ternary" : ""}`, "data-link": joints.replace("M", "") }, this.strokes));
+  }
+  shape(view) {
+    this.view = view;
+  }
+  show(place) {
+    const d = `M${this.joints.map((joint) => inGround(place.joints[joint] ?? [place.x, place.y], this.view).map(px).join(" ")).join("L")}${this.joints.length > 2 ? "Z" : ""}`;
+    for (const stroke of this.strokes) put(stroke, "d", d);
+  }
+};
+var Joints = class {
+  constructor({ pins }, ground, names) {
+    this.pins = [...Object.keys(ground), ...Object.keys(names)].map((joint) => {
+      const pin = s("circle", { class: `bm-pin${joint in ground ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint });
+      return { joint, pin, link: [...names[joint] ?? ""], name: joint in ground ? null : s("text", { class: "bm-name", "text-anchor": "middle" }, joint) };
+    });
+    pins.append(...this.pins.map(({ pin }) => pin), ...this.pins.flatMap(({ name }) => name ?? []));
+  }
+  shape(view) {
+    this.view = view;
+  }
+  show({ joints }) {
+    for (const { joint, pin, link, name } of this.pins) {
+      const [x, y] = inGround(joints[joint], this.view);
+      put(pin, "cx", px(x));
+      put(pin, "cy", px(y));
+      if (!name) continue;
+      const [u, v] = outwards(link.map((each) => inGround(joints[each], this.view)), [x, y]);
+      put(name, "x", px(x + NAME * u));
+      put(name, "y", px(y + NAME * v + 4));
+    }
+  }
+};
+function outwards(corners, [x, y]) {
+  const middle = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
+  const u = x - middle[0], v = y - middle[1], size = Math.hypot(u, v);
+  return size > 1 ? [u / size, v / size] : [0, -1];
+}
+var Nothing = class {
+  shape() {
+  }
+  show() {
+  }
+};
+var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing, crank: Nothing };
+
+// src/burmester/web/widget/rail.mjs
+var LONGEST = 4e3;
+function railOf(dyad, places, view) {
+  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
+  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
+  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
+  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
+  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
+  const drawn = Math.min(half, LONGEST);
+  let hatch = "";
+  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
+}
+
+// src/burmester/web/widget/plane.mjs
+var BESIDE_PIVOT = [16, 28, 40];
+var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
+function factorFor(data, linkage) {
+  const worst = Math.max(0, ...linkage.pose_errors.map((row) => row.position ?? 0));
+  if (!(worst > 1e-9 * data.scene)) return 0;
+  const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
+  return fits.length ? fits[fits.length - 1] : 1;
+}
+var standing = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
+function hasFarPivots(data, linkage, places) {
+  const isFar = farFrom(data);
+  return pivotsAt(linkage, places).some(({ at }) => isFar(at));
+}
+var Plane = class {
+  /** @type {any} */
+  view;
+  /** @type {any} */
+  places;
+  /** @type {any} */
+  linkage;
+  constructor(data, parent) {
+    this.data = data;
+    this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
+    this.parent = parent;
+    parent.append(this.svg);
+  }
+  /** Draw what stands still.
+   *
+   * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
+   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
+   */
+  build(linkage, way, stretch, { factor, fill, far }) {
+    const { data, svg } = this, path = linkage?.ways[way];
+    this.linkage = linkage;
+    this.way = way;
+    this.places = path ? placesOf(data, linkage, path, stretch) : [];
+    const bare = boundsOf(data, linkage, this.places, far);
+    const width = Math.max(260, this.parent.clientWidth);
+    const box = widened(bare, data, linkage, this.places, width, far);
+    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
+    const shape = (box[3] - box[1]) / (box[2] - box[0]);
+    const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
+    const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
+    const view = viewOf(box, width, height, width < 500 ? 34 : 42);
+    this.view = view;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    svg.dataset.scale = view.scale;
+    svg.dataset.left = view.left;
+    svg.dataset.top = view.top;
+    svg.replaceChildren();
+    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
+    svg.append(...[this.wantedPath(), linkage ? this.paths() : null].filter(Boolean));
+    const labels = new Labels(view);
+    this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
+    if (linkage) svg.append(this.ground(labels));
+    for (const pose of data.poses) {
+      const x = view.X(pose.x), y = view.Y(pose.y), angle = radians(pose.angle_deg);
+      const c = AXIS * Math.cos(angle), d = AXIS * Math.sin(angle);
+      labels.block(x, y, 12, 12);
+      if (isPoint(pose)) continue;
+      for (const share of [0.35, 0.65, 1]) {
+        labels.block(x + share * c, y - share * d, 6, 6);
+        labels.block(x - 0.6 * share * d, y - 0.6 * share * c, 6, 6);
+      }
+    }
+    svg.append(this.poses(linkage, factor, labels));
+    this.moving = path ? mechanism(data, linkage, view, this.places) : null;
+    if (this.moving) svg.append(this.moving.group);
+    if (linkage && !far) this.farPivots(labels);
+    svg.append(this.names);
+  }
+  grid() {
+    const { view } = this, group = s("g", { class: "bm-grid", "aria-hidden": "true" });
+    const unit2 = this.data.unit ? ` ${this.data.unit}` : "";
+    const across = ticks(-view.left / view.scale, (view.width - view.left) / view.scale, view.width / 110);
+    const up = ticks((view.top - view.height) / view.scale, view.top / view.scale, view.height / 80);
+    for (const { at, text } of across) {
+      const x = px(view.X(at));
+      group.append(s("path", { d: `M${x} 0V${view.height}` }));
+      if (x > 46 && x < view.width - (unit2 ? 54 : 30)) {
+        group.append(s("text", { x, y: view.height - 6, "text-anchor": "middle" }, text));
+      }
+    }
+    for (const { at, text } of up) {
+      const y = px(view.Y(at));
+      group.append(s("path", { d: `M0 ${y}H${view.width}` }));
+      if (y > 26 && y < view.height - 24) group.append(s("text", { x: 6, y: y - 4 }, text));
+    }
+    group.append(
+      s("text", { x: 6, y: 14 }, `y${unit2}`),
+      s("text", { x: view.width - 6, y: view.height - 6, "text-anchor": "end" }, `x${unit2}`)
+    );
+    return group;
+  }
+  /** Paths of the body's origin and of its pivots: full along the stretch that is shown. */
+  paths() {
+    const { view, linkage, places } = this, group = s("g", { class: "bm-paths" });
+    linkage.ways.forEach((way, k) => {
+      const same = way.circuit === linkage.ways[this.way]?.circuit;
+      const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
+      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
+      const d2 = polyline(whole.map(({ x, y }) => [x, y]), view);
+      group.append(s("path", { class: `bm-curve ${kind}`, d: d2 }));
+    });
+    for (const { side, points } of this.pivotPaths()) {
+      group.append(s("path", { class: `bm-pivot-path bm-side${side}`, d: polyline(points, view) }));
+    }
+    const d = polyline(places.map(({ x, y }) => [x, y]), view);
+    group.append(s("path", { class: "bm-curve bm-here", d }));
+    return group;
+  }
+  /** The paths of the body's pivots: those on links and in slots. */
+  pivotPaths() {
+    const { places, linkage } = this;
+    if (linkage.traced) return [...linkage.traced].map((joint) => ({ side: "-inner", points: places.map((place) => place.joints[joint]) }));
+    const drawn = [...linkage.led.entries()].filter(([, dyad]) => dyad.moving_pivot && dyad.kind !== "PR");
+    return drawn.map(([side, dyad]) => ({ side, points: places.map((place) => act(place, dyad.moving_pivot)) }));
+  }
+  /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
+  ground(labels) {
+    const group = s("g", { class: "bm-grounds" });
+    this.keepCranksFree(labels);
+    this.linkage.led.forEach((dyad, k) => {
+      const side = Math.min(k, 1);
+      if (dyad.kind === "PR") this.rail(group, labels, dyad, side);
+      else if (dyad.fixed_pivot) this.fixedPivot(group, labels, dyad, side);
+    });
+    return group;
+  }
+  /** Where cranks between joints are on their way no name is to stand. */
+  keepCranksFree(labels) {
+    const { view, places, linkage } = this, every = Math.ceil(places.length / 9);
+    const arms = (linkage.drawn ?? []).flatMap(({ joints }) => [...joints].filter((joint) => joint in linkage.ground).flatMap((pivot) => [...joints].map((end) => [pivot, end])));
+    for (const { joints } of places.filter((_, k) => k % every === 0)) {
+      for (const [pivot, end] of arms) {
+        const [[x, y], [u, v]] = [joints[pivot], joints[end]].map((at) => [view.X(at[0]), view.Y(at[1])]), size = Math.hypot(u - x, v - y);
+        if (size) for (const along of BESIDE_PIVOT) labels.block(x + along * (u - x) / size, y + along * (v - y) / size, 12, 12);
+      }
+    }
+  }
+  /** A rail as long as the travel of its block. */
+  rail(group, labels, dyad, side) {
+    if (!this.places.length) return;
+    const { x, y, drawn, turned, paths } = railOf(dyad, this.places, this.view), [nx, ny] = normalOf(dyad);
+    group.append(
+      s(
+        "g",
+        { class: `bm-rail bm-side${side}`, "data-dyad": dyad.id, transform: transform(x, y, turned) },
+        s("path", { class: "bm-ground", d: paths[0] }),
+        s("path", { class: "bm-ground bm-thin", d: paths[1] })
+      )
+    );
+    for (let k = -drawn; k <= drawn; k += 14) labels.block(x - k * ny, y - k * nx, 22, 22);
+    this.names.append(labels.put(x, y, dyad.id, 26, { class: `bm-name bm-side${side}` }));
+  }
+  fixedPivot(group, labels, dyad, side) {
+    const x = this.view.X(dyad.fixed_pivot[0]), y = this.view.Y(dyad.fixed_pivot[1]);
+    labels.block(x, y + 10, 32, 34);
+    if (!side) labels.block(x, y, 40, 40);
+    const at = foot();
+    at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
+    group.append(at);
+    this.names.append(labels.put(x, y + 4, dyad.name ?? dyad.id, 27, { class: `bm-name bm-side${side}` }));
+  }
+  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
+  farPivots(labels) {
+    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
+    this.linkage.led.forEach((dyad, side) => {
+      const at = standing(dyad, this.places);
+      if (!at || !isFar(at)) return;
+      const [x, y] = [view.X(at[0]), view.Y(at[1])];
+      const cx = view.width / 2, cy = view.height / 2, size = Math.hypot(x - cx, y - cy);
+      const u = (x - cx) / size, v = (y - cy) / size;
+      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
+      const ex = cx + reach * u, ey = cy + reach * v;
+      const text = `${dyad.name ?? dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
+      labels.block(ex, ey, 20, 20);
+      this.names.append(
+        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
+        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
+      );
+    });
+  }
+  /** The path that is to be traced, straight from point to point. */
+  wantedPath() {
+    const { data, view } = this;
+    if (!data.path) return null;
+    const points = data.poses.map(({ x, y }) => [x, y]);
+    return s("path", { class: "bm-wanted-path", d: `${polyline(points, view)}${data.path.closed ? "Z" : ""}` });
+  }
+  /** Wanted poses, the places that the linkage takes instead, and the errors between them, enlarged.
+   *
+   * At a point there are no axes: how the body turns there is not asked for.
+   */
+  poses(linkage, factor, labels) {
+    const { data, view } = this, group = s("g", { class: "bm-poses" });
+    const small = data.poses.length > 24 ? 0.6 : 1;
+    const arrows = this.errors(linkage, factor, labels);
+    const names = s("g", { class: "bm-pose-names" });
+    data.poses.forEach((pose, k) => {
+      const x = view.X(pose.x), y = view.Y(pose.y);
+      group.append(
+        s(
+          "g",
+          { class: "bm-wanted", transform: transform(x, y, isPoint(pose) ? 0 : radians(pose.angle_deg)), "data-pose": k + 1 },
+          isPoint(pose) ? null : s("path", { d: axes(AXIS * small) }),
+          s("circle", { r: 4.5 * small })
+        )
+      );
+      if (data.poses.length <= 60 && isNamed(data, k)) names.append(labels.put(x, y, pose.label, 13, {}));
+      const row = linkage?.pose_errors[k];
+      if (!row || row.x === null) return;
+      const elsewhere = row.way === this.way ? "" : " bm-elsewhere";
+      group.append(
+        s(
+          "g",
+          { class: `bm-achieved${elsewhere}`, transform: transform(view.X(row.x), view.Y(row.y), radians(row.angle_deg)) },
+          isPoint(pose) ? null : s("path", { d: axes(0.72 * AXIS * small) }),
+          s("circle", { r: 2.2 * small })
+        )
+      );
+    });
+    group.append(arrows, names);
+    return group;
+  }
+  errors(linkage, factor, labels) {
+    const { data, view } = this, arrows = s("g", { class: "bm-errors" });
+    if (!linkage || !factor) return arrows;
+    linkage.pose_errors.forEach((row, k) => {
+      if (row.x === null) return;
+      const pose = data.poses[k], x = view.X(pose.x), y = view.Y(pose.y);
+      const dx = factor * view.scale * (row.x - pose.x), dy = -factor * view.scale * (row.y - pose.y);
+      const size = Math.hypot(dx, dy);
+      if (size < 1.5) return;
+      const head = Math.min(7, 0.5 * size), ux = dx / size, uy = dy / size;
+      const tip = `${px(x + dx)} ${px(y + dy)}`;
+      const barb = (sign) => `L${px(x + dx - head * (ux - sign * 0.5 * uy))} ${px(y + dy - head * (uy + sign * 0.5 * ux))}`;
+      arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
+      for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
+    });
+    return arrows;
+  }
+  show(place) {
+    this.moving?.show(place);
+  }
+};
+
+// src/burmester/web/widget/player.mjs
+var TURN_SECONDS = 7;
+var LEAST_STRETCH = 1e-6;
+var NAME_ROWS = 5;
+var NUMBER_ROWS = 2;
+var MANY_POSES2 = 100;
+var ROW = 13;
+var LONGEST_TICK = 18;
+var NO_ERROR = 1e-7;
+var STEPS = 360;
+var Player = class {
+  /** @type {any} */
+  parts;
+  /** @type {any} */
+  steps;
+  /** @type {any} */
+  tick;
+  /** @type {any} */
+  wholeLabel;
+  constructor(data, show, rebuild) {
+    this.data = data;
+    this.draw = { show, rebuild };
+    this.linkage = null;
+    this.way = 0;
+    this.u = 0;
+    this.heading = 1;
+    this.whole = false;
+    this.stretch = { low: 0, high: 1 };
+    this.playing = false;
+    this.remaining = null;
+    this.element = this.controls();
+  }
+  /** The way as frames; undefined where the linkage has none. */
+  get path() {
+    return this.linkage?.ways[this.way];
+  }
+  /** What a place to stop at is called. */
+  get stop() {
+    return nounOf(this.data);
+  }
+  controls() {
+    const button = (name, text, label2, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label2, title: label2, onclick }, text);
+    this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
+    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
+    this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
+    this.boxName = h("span", {}, "Whole branch");
+    this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
+    this.parts = ["", "", "", ""].map((text) => h("span", {}, text));
+    this.readout = h("output", { class: "bm-now" }, this.parts.flatMap((part, k) => k ? [" ", part] : [part]));
+    this.slider.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      this.step(event.shiftKey ? 10 * step : step);
+    });
+    this.steps = [button("bm-back", "", "", () => this.toPose(-1)), button("bm-next", "", "", () => this.toPose(1))];
+    this.wholeLabel = h("label", { class: "bm-whole" }, this.box, this.boxName);
+    this.nameStops();
+    return h(
+      "div",
+      { class: "bm-controls" },
+      h("div", { class: "bm-track" }, this.slider, this.stops),
+      h(
+        "div",
+        { class: "bm-row" },
+        this.button,
+        this.steps,
+        this.wholeLabel
+      ),
+      this.readout
+    );
+  }
+  /** What the buttons call the places to stop at. */
+  nameStops() {
+    const { stop } = this, title = stop[0].toUpperCase() + stop.slice(1);
+    [[`◀ ${title}`, `Previous ${stop}`], [`${title} ▶`, `Next ${stop}`]].forEach(([text, label2], k) => {
+      say(this.steps[k], text);
+      put(this.steps[k], "aria-label", label2);
+      give(this.steps[k], "title", label2);
+    });
+    give(this.wholeLabel, "title", `Play all that the driver reaches, not only from the first ${stop} to the last`);
+  }
+  /** Another linkage, on the way with most poses, at the first of them. */
+  load(linkage) {
+    this.linkage = linkage;
+    const counts = linkage.ways.map((way) => way.poses.length);
+    this.take(Math.max(0, counts.indexOf(Math.max(...counts))));
+  }
+  /** Another way, at its first pose. */
+  take(index) {
+    this.way = index;
+    this.u = this.firstStop();
+    this.draw.rebuild();
+  }
+  /** Poses on this way, in their order: the rows of their errors, with k, the pose's index. */
+  get stopsOnWay() {
+    return this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way === this.way);
+  }
+  firstStop() {
+    return this.stopsOnWay[0]?.frame ?? 0;
+  }
+  /** The slider and what it runs over, for the way as it is now. */
+  rebuild() {
+    const { path, slider } = this;
+    if (!path) this.play(false);
+    this.nameStops();
+    for (const each of [slider, this.button]) give(each, "disabled", !path);
+    const last = path ? path.x.length - 1 : 1;
+    const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
+    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
+    const apart = high - low > LEAST_STRETCH;
+    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
+    give(this.box, "disabled", !apart);
+    say(this.boxName, path?.round ? "Whole turn" : "Whole branch");
+    this.heading = 1;
+    this.u = clamp(this.u, this.stretch.low, this.stretch.high);
+  }
+  /** Play all of a way, or only from its first pose to its last; so it stays for other linkages. */
+  playWhole(on) {
+    this.whole = on;
+    this.draw.rebuild();
+  }
+  /** Marks under the slider where the poses are, with as many of their names as there is room for. */
+  drawStops() {
+    const { stops, path } = this, { low, high } = this.stretch;
+    stops.replaceChildren();
+    if (!path) return;
+    const width = Math.max(60, this.slider.clientWidth), inset = 9;
+    const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
+    const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
+    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES2 ? 1 : NUMBER_ROWS);
+    const deepest = Math.max(0, ...texts.map(({ at }) => at));
+    const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, calledOf(pose)), ...parts);
+    rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
+    rows.forEach(({ k, pose }, i) => {
+      const { at, middle, text } = texts[i];
+      if (at >= 0) stops.append(one(k, pose, s("text", { x: px(middle), y: 14 + ROW * at, "text-anchor": "middle" }, text)));
+    });
+    put(stops, "viewBox", `0 0 ${width} ${16 + ROW * deepest}`);
+    put(stops, "height", 16 + ROW * deepest);
+  }
+  play(on) {
+    if (on && !this.path) return;
+    this.remaining = null;
+    if (on === this.playing && this.isDressed) return;
+    this.isDressed = true;
+    this.playing = on;
+    put(this.readout, "aria-live", on ? "off" : "polite");
+    this.button.replaceChildren(icon(on), on ? "Pause" : "Play");
+    put(this.button, "aria-label", on ? "Pause" : "Play");
+    this.button.title = on ? "Pause (space)" : "Play (space)";
+    cancelAnimationFrame(this.tick);
+    if (!on) return;
+    let before = null;
+    const run = (now) => {
+      if (!this.playing) return;
+      if (before !== null) this.advance(Math.min(0.1, (now - before) / 1e3));
+      before = now;
+      if (this.playing) this.tick = requestAnimationFrame(run);
+    };
+    this.tick = requestAnimationFrame(run);
+  }
+  /** Play once there and back, or once round; then rest until someone asks. */
+  playOnce() {
+    if (!this.path) return;
+    const { low, high } = this.stretch;
+    this.play(true);
+    this.remaining = (this.goesRound ? 1 : 2) * (high - low);
+  }
+  /** Whether what is played ends where it begins. */
+  get goesRound() {
+    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
+  }
+  advance(seconds) {
+    const { low, high } = this.stretch;
+    const step = seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
+    if (this.remaining !== null) {
+      this.remaining -= step;
+      if (this.remaining <= 0) {
+        this.play(false);
+        this.u = this.firstStop();
+        this.show();
+        return;
+      }
+    }
+    this.u += this.heading * step;
+    if (this.goesRound) this.u = around(this.u, high);
+    else if (this.u >= high || this.u <= low) {
+      this.heading = this.u >= high ? -1 : 1;
+      this.u = clamp(this.u, low, high);
+    }
+    this.show();
+  }
+  step(steps) {
+    if (!this.path) return;
+    const { low, high } = this.stretch;
+    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
+    this.go(this.goesRound ? around(u, high) : u);
+  }
+  go(u) {
+    if (!this.path) return;
+    this.play(false);
+    this.u = clamp(u, this.stretch.low, this.stretch.high);
+    this.show();
+  }
+  /** The next pose (sense 1) or the one before (-1) that the linkage reaches, on whichever way. */
+  toPose(sense) {
+    const all = this.linkage.pose_errors.map((row, k) => ({ ...row, k })).filter((row) => row.way !== null);
+    if (!all.length) return;
+    const here = this.atPose ?? (sense > 0 ? -1 : this.data.poses.length);
+    const next = sense > 0 ? all.find((row) => row.k > here) ?? all[0] : [...all].reverse().find((row) => row.k < here) ?? all[all.length - 1];
+    this.play(false);
+    if (next.way !== this.way) {
+      this.way = next.way;
+      this.u = next.frame;
+      this.draw.rebuild();
+    }
+    this.go(next.frame);
+    this.atPose = next.k;
+  }
+  /** The place of the body at a frame of the way. */
+  placeAt(u) {
+    return placeAt(this.linkage, this.path, u, this.data.chart.length);
+  }
+  /** The pose nearest to a place, the angle weighed as the errors weigh it. */
+  nearest(place) {
+    let near = 0, least = Infinity;
+    this.data.poses.forEach((pose, k) => {
+      const turn = pose.angle_deg === null ? 0 : place.a - radians(pose.angle_deg);
+      const away = Math.hypot(place.x - pose.x, place.y - pose.y, this.data.chart.length * (turn - 2 * Math.PI * Math.round(turn / (2 * Math.PI))));
+      if (away < least) [near, least] = [k, away];
+    });
+    return near;
+  }
+  /** Draw where it is; told: also with the slider and in words, which may lag behind a hand. */
+  show(told = true) {
+    const { path } = this;
+    if (!path) {
+      for (const part of this.parts) part.textContent = "";
+      return;
+    }
+    const place = this.placeAt(this.u);
+    const drive = linear(path.drive, this.u), transmission = linear(path.transmission, this.u);
+    const near = this.atPose = this.nearest(place);
+    if (told) {
+      give(this.slider, "min", this.stretch.low);
+      give(this.slider, "max", this.stretch.high);
+      give(this.slider, "value", this.u);
+      this.tell(place, drive, transmission, near);
+    }
+    this.draw.show(place, drive, transmission, near);
+  }
+  /** Where the driver is: an angle, or a place on its line. */
+  driverText(drive) {
+    const { data, linkage } = this;
+    return linkage.led[0].kind === "PR" ? `${fixed(drive, decimalsOf(data))}${data.unit ? ` ${data.unit}` : ""}` : `${linkage.crank ?? ""}${fixed(drive, 1)}°`;
+  }
+  /** The readout: driver, body, transmission angle, and the nearest pose. */
+  tell(place, drive, transmission, near) {
+    const { data, linkage } = this;
+    const unit2 = data.unit ? ` ${data.unit}` : "", digits = decimalsOf(data), driver = this.driverText(drive);
+    const pose = data.poses[near], row = linkage.pose_errors[near];
+    const at = row?.at === this.path && Math.abs(row.frame - this.u) < 1e-6;
+    const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from ${calledOf(pose)}`;
+    const missed = () => `at ${calledOf(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
+    const said = !pose ? "between the poses" : pose.called ? `${at ? "at" : "near"} ${pose.called}` : at ? missed() : away();
+    const known = this.path.told?.map((each) => this.toldOf(each)) ?? [
+      `driver ${driver}`,
+      `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`
+    ];
+    const texts = [
+      ...known,
+      `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
+      said
+    ];
+    texts.forEach((text, k) => {
+      const whole = k + 1 < texts.length ? `${text} ·` : text;
+      if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
+    });
+    put(this.slider, "aria-valuetext", `${texts[0]}, ${texts[3]}`);
+  }
+  /** A value along the way, and how far it is off where a panel says so. */
+  toldOf({ name, digits, values, panel }) {
+    const error = panel === void 0 ? null : valueAt(this.linkage.panels[panel], smooth(this.path.drive, this.u));
+    const off = error === null ? "" : `, off by ${Math.abs(error) < NO_ERROR ? "0" : figure(error)}°`;
+    return `${name} ${fixed(smooth(values, this.u), digits)}°${off}`;
+  }
+};
+function laidOut(texts, width, count) {
+  const ends = Array(count).fill(-99);
+  return texts.map(({ x, text }) => {
+    const size = 6.4 * text.length, left = clamp(x - size / 2, 0, Math.max(0, width - size));
+    const at = ends.findIndex((end) => left > end + 4);
+    if (at >= 0) ends[at] = left + size;
+    return { text, at, middle: left + size / 2 };
+  });
+}
+var around = (u, turn) => (u % turn + turn) % turn;
+function icon(pause) {
+  return s(
+    "svg",
+    { width: 12, height: 12, viewBox: "0 0 12 12", "aria-hidden": "true" },
+    s("path", { d: pause ? "M1 0h3.5v12H1zM7.5 0H11v12H7.5z" : "M1 0l11 6l-11 6z" })
+  );
+}
+
 // src/burmester/web/widget/plots.mjs
-var LEFT2 = 62;
-var RIGHT2 = 14;
-var TOP2 = 22;
-var BOTTOM2 = 44;
+var LEFT = 62;
+var RIGHT = 14;
+var TOP = 22;
+var BOTTOM = 44;
 var PANEL = 84;
-var GAP2 = 28;
-var USUAL_LIMIT2 = 40;
+var ONLY = 150;
+var GAP = 28;
 var MANY_POSES3 = 40;
-var HEADROOM2 = 1.32;
-var INSET2 = 8;
+var HEADROOM = 1.32;
+var NO_ERROR2 = 1e-7;
+var TITLE = "Errors and transmission angle";
+var INSET = 8;
 var LONGEST_NAME2 = 16;
 var NAME_WIDTH = 11;
 var Plots = class {
-  static HEIGHT = 3 * PANEL + 2 * GAP2;
-  // pixels: of all panels
-  static TITLE = "Errors and transmission angle";
+  /** @type {any} */
+  top;
+  /** @type {any} */
+  count;
+  /** @type {any} */
+  marks;
+  /** @type {any} */
+  way;
+  /** @type {any} */
+  width;
+  /** @type {any} */
+  X;
+  /** @type {any} */
+  stretch;
+  /** @type {any} */
+  across;
   constructor(data, parent, scrub) {
     this.data = data;
     this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": this.constructor.TITLE });
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": TITLE });
     parent.append(this.svg);
     const go = (event) => {
       if (!this.way) return;
       const box = this.svg.getBoundingClientRect();
-      const at = (event.clientX - box.left - LEFT2 - INSET2) / (this.width - LEFT2 - RIGHT2 - 2 * INSET2);
+      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
       scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
     };
     this.svg.addEventListener("pointerdown", (event) => {
@@ -2874,42 +2688,42 @@ var Plots = class {
   /** Draw the panels of a linkage over a stretch of its way `index`. */
   build(linkage, index, stretch) {
     const { data, svg } = this, way = linkage.ways[index];
+    this.linkage = linkage;
     this.way = way;
     svg.replaceChildren();
     this.cursor = null;
     if (!way) return;
-    svg.setAttribute("aria-label", `${linkage.id}: ${this.constructor.TITLE.toLowerCase()} along the driver`);
+    svg.setAttribute("aria-label", `${linkage.id}: ${TITLE.toLowerCase()} along the driver`);
     const width = this.width = Math.max(260, this.parent.clientWidth);
     const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME2).length));
-    this.top = TOP2 + (upright ? 6.2 * longest + 6 : 0);
-    const height = this.top + this.height + BOTTOM2;
+    this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
+    const count = this.count = linkage.panels ? linkage.panels.length + 1 : way.loops ? 1 : nounOf(data) === "point" ? 2 : 3;
+    const height = this.top + (count > 1 ? count * PANEL + (count - 1) * GAP : ONLY) + BOTTOM;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
     this.stretch = stretch;
     this.low = linear(way.drive, stretch.low);
     this.high = linear(way.drive, stretch.high);
-    this.X = (drive) => LEFT2 + INSET2 + (drive - this.low) / (this.high - this.low) * (width - LEFT2 - RIGHT2 - 2 * INSET2);
+    this.X = (drive) => LEFT + INSET + (drive - this.low) / (this.high - this.low) * (width - LEFT - RIGHT - 2 * INSET);
     this.across = slides ? ticks(this.low, this.high, width / 90) : angleTicks(this.low, this.high, Math.max(3, width / 70));
     const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit2 = data.unit ?? "unit of the poses";
+    this.marks = [];
     const base = this.panels(rows, unit2);
     if (upright) this.uprightNames(rows);
-    const title = slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
-    svg.append(s("text", { class: "bm-title", x: (LEFT2 + width - RIGHT2) / 2, y: height - 6, "text-anchor": "middle" }, title));
+    const title = way.told ? `${way.told[0].name} (°)` : slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
+    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
     this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
-    this.mark = s("circle", { r: 4.5 });
-    this.cursor.append(this.mark);
+    this.cursor.append(...this.marks.map(({ mark }) => mark));
     svg.append(this.cursor);
-  }
-  /** The height of all panels; points alone have no angle errors. */
-  get height() {
-    return this.constructor.HEIGHT - (nounOf(this.data) === "point" ? PANEL + GAP2 : 0);
   }
   /** Draw the panels; returns the base of the last one. */
   panels(rows, unit2) {
+    this.linkage.panels?.forEach((each, k) => this.values(k, each));
+    if (this.linkage.panels || this.count === 1) return this.transmission(this.count - 1, rows);
     this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * this.data.scene);
     if (nounOf(this.data) === "point") return this.transmission(1, rows);
     this.errors(1, "angle error (°)", rows.filter(({ pose }) => !isPoint(pose)), (row) => row.turned_deg, 1e-9);
@@ -2917,17 +2731,17 @@ var Plots = class {
   }
   /** The errors of the poses as stems; below `rounding` they are zero. */
   errors(k, title, rows, value, rounding) {
-    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP2), base = y0 + PANEL;
+    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
     const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
     const visible = greatest > rounding;
-    const high = visible ? HEADROOM2 * greatest : 1;
+    const high = visible ? HEADROOM * greatest : 1;
     const Y = (v) => base - v / high * PANEL;
     this.panel(title, y0, base);
     if (!visible) {
-      svg.append(s("text", { class: "bm-note", x: LEFT2 + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : `no ${nounOf(this.data)} is on this assembly`));
+      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : `no ${nounOf(this.data)} is on this assembly`));
     } else {
       for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
-      svg.append(s("text", { class: "bm-tick", x: LEFT2 - 6, y: base + 4, "text-anchor": "end" }, "0"));
+      svg.append(s("text", { class: "bm-tick", x: LEFT - 6, y: base + 4, "text-anchor": "end" }, "0"));
     }
     const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
     let last = -99;
@@ -2937,30 +2751,57 @@ var Plots = class {
         s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
         s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `${calledOf(row.pose)}: ${figure(value(row))}`))
       );
-      const { label } = row.pose;
-      if (x - last > 6 + 6.5 * label.length && (rows.length <= MANY_POSES3 || greatestThree.has(row))) {
-        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label));
+      const { label: label2 } = row.pose;
+      if (x - last > 6 + 6.5 * label2.length && (rows.length <= MANY_POSES3 || greatestThree.has(row))) {
+        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label2));
         last = x;
       }
     }
   }
   /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
   transmission(k, rows) {
-    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP2), base = y0 + PANEL;
-    const Y = this.Y = (v) => base - v / 90 * PANEL;
+    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + (this.count > 1 ? PANEL : ONLY);
+    const Y = (v) => base - v / 90 * (base - y0);
     this.panel("transmission angle (°)", y0, base, true);
     for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
-    const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT2;
-    svg.append(s("path", { class: "bm-usual", d: `M${LEFT2} ${px(Y(limit))}H${width - RIGHT2}` }));
+    const { deg: limit, said } = this.data.transmission_limit;
+    svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
     const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
-    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT2 - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
-    this.curve(way.transmission, Y, "bm-line");
-    for (const row of rows) {
-      if (row.transmission_deg === null) continue;
-      svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
-    }
+    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, said);
+    (way.loops ?? [way.transmission]).forEach((values, loop) => {
+      this.mark((drive) => linear(values, frameAt(way.drive, drive)), Y);
+      const kind = way.loops ? ` bm-loop${loop}` : "";
+      this.curve(values, Y, `bm-line${kind}`);
+      for (const row of rows) {
+        const value = way.loops ? row.loops[loop] : row.transmission_deg;
+        if (value !== null) svg.append(s("circle", { class: `bm-dot${kind}`, cx: px(X(row.drive)), cy: px(Y(value)), r: 3 }));
+      }
+    });
     svg.append(limitName);
     return base;
+  }
+  /** A dot on the cursor, at a value for the drive. */
+  mark(value, Y) {
+    this.marks.push({ mark: s("circle", { r: 4.5 }), value, Y });
+  }
+  /** A curve of its own over the drive, or stems from zero, with dots. */
+  values(k, curve) {
+    const { title, x, y, dots, stems } = curve, { svg, low, high } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
+    const shown = [...x.keys()].filter((i) => y[i] !== null && x[i] >= low && x[i] <= high).map((i) => [x[i], y[i]]);
+    const all = [...shown, ...dots].map(([, value]) => value), least = Math.min(...all), most = Math.max(...all), room = 0.08 * (most - least);
+    this.panel(title, y0, base);
+    if (!(Math.max(Math.abs(least), Math.abs(most)) > NO_ERROR2)) {
+      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, shown.length ? "exact, up to rounding" : "it cannot be assembled"));
+      return;
+    }
+    const Y = (v) => base - (v - least + room) / (most - least + 2 * room) * PANEL;
+    const at = (point) => `${px(this.X(point[0]))} ${px(Y(point[1]))}`;
+    for (const { at: value, text } of ticks(least, most, 4)) this.rule(Y(value), text);
+    if (least < 0 && most > 0) svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(0))}H${this.width - RIGHT}` }));
+    if (stems) for (const [a, b] of shown) svg.append(s("path", { class: "bm-stem", d: `M${at([a, 0])}L${at([a, b])}` }));
+    else svg.append(s("path", { class: "bm-line", d: `M${shown.map(at).join("L")}` }));
+    for (const [a, b] of dots) svg.append(s("circle", { class: "bm-dot", cx: px(this.X(a)), cy: px(Y(b)), r: 3.5 }, s("title", {}, `${figure(b)}°`)));
+    this.mark((drive) => valueAt(curve, drive), Y);
   }
   /** Values along the way as a line over the drive. */
   curve(values, Y, name) {
@@ -2992,8 +2833,8 @@ var Plots = class {
   panel(title, y0, base, labelled = false) {
     const { svg, width } = this;
     svg.append(
-      s("rect", { class: "bm-panel", x: LEFT2, y: y0, width: width - LEFT2 - RIGHT2, height: base - y0 }),
-      s("text", { class: "bm-title", x: LEFT2, y: y0 - 7 }, title)
+      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
+      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title)
     );
     let last = -99;
     for (const { at, text } of this.across) {
@@ -3007,14 +2848,18 @@ var Plots = class {
   }
   rule(y, text) {
     this.svg.append(
-      s("path", { class: "bm-rule", d: `M${LEFT2} ${px(y)}H${this.width - RIGHT2}` }),
-      s("text", { class: "bm-tick", x: LEFT2 - 6, y: px(y) + 4, "text-anchor": "end" }, text)
+      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
+      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text)
     );
   }
-  show(drive, transmission) {
+  show(drive) {
     if (!this.cursor) return;
     this.cursor.setAttribute("transform", `translate(${px(this.X(drive))} 0)`);
-    if (transmission !== null) this.mark.setAttribute("cy", px(this.Y(transmission)));
+    for (const { mark, value, Y } of this.marks) {
+      const at = value(drive);
+      put(mark, "visibility", at === null ? "hidden" : "inherit");
+      if (at !== null) put(mark, "cy", px(Y(at)));
+    }
   }
 };
 
@@ -3039,16 +2884,61 @@ var REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
 var DARK_SCHEME = "(prefers-color-scheme: dark)";
 var HIGHEST = 0.66;
 var LONGEST_NAME3 = 5;
-var KINDS = " RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of the body.";
 var section = (name, title, ...content) => h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
+function label(poses) {
+  const short = poses.every((pose) => pose.name.length <= LONGEST_NAME3);
+  poses.forEach((pose, k) => pose.label = short ? pose.name : String(k + 1));
+}
 var Report = class {
+  /** @type {any} */
+  player;
+  /** @type {any} */
+  linkage;
+  /** @type {any} */
+  story;
+  /** @type {any} */
+  title;
+  /** @type {any} */
+  far;
+  /** @type {any} */
+  farName;
+  /** @type {any} */
+  farLabel;
+  /** @type {any} */
+  numbers;
+  /** @type {any} */
+  cards;
+  /** @type {any} */
+  poses;
+  /** @type {any} */
+  rows;
+  /** @type {any} */
+  current;
+  /** @type {any} */
+  sizes;
+  /** @type {any} */
+  fitting;
+  /** @type {any} */
+  assemblies;
+  /** @type {any} */
+  plots;
+  /** @type {any} */
+  loops;
+  /** @type {any} */
+  aside;
+  /** @type {any} */
+  plane;
+  /** @type {any} */
+  spaceStory;
+  /** @type {any} */
+  spaceNumbers;
   constructor(data, el, options) {
     this.data = data;
     this.el = el;
     this.options = options;
     this.ended = new AbortController();
-    const short = data.poses.every((pose) => pose.name.length <= LONGEST_NAME3);
-    data.poses.forEach((pose, k) => pose.label = short ? pose.name : String(k + 1));
+    for (const { poses } of [data, ...data.linkages.flatMap(({ picture }) => picture ?? [])]) label(poses);
+    Object.assign(data, data.linkages[0]?.picture);
     this.linkages = data.linkages.map((linkage) => ({
       ...linkage,
       pose_errors: linkage.pose_errors.map((row) => ({ ...row, at: row.way === null ? null : linkage.ways[row.way] }))
@@ -3068,20 +2958,21 @@ var Report = class {
     if (linkages.length) {
       this.player = new Player(data, (...now) => this.show(...now), () => this.rebuild());
       this.assemblies = new Assemblies(data, (index) => this.player.take(index));
-      this.cards = new Cards(data, linkages, (index) => this.choose(index));
+      this.cards = new Cards(linkages, (index) => this.choose(index));
       body.append(this.cards.element);
     }
     body.append(main);
     main.append(this.stage());
     if (linkages.length) main.append(this.numbersAndPlots());
     const family = data.family_map ? this.familyMap() : null;
-    main.append(...this.family?.isCurve ? [family, this.imageSpace()] : [this.imageSpace(), ...family ? [family] : []]);
+    const space = data.space ? this.imageSpace() : null;
+    main.append(...(this.family?.isCurve ? [family, space] : [space, family]).filter(Boolean));
     if (data.pivot_map) main.append(this.pivotMap());
-    this.poses = section("pose-box", nounOf(data) === "point" ? "Point by point" : "Pose by pose");
+    this.poses = section("pose-box", { point: "Point by point", pose: "Pose by pose", place: "Pair by pair" }[nounOf(data)]);
     main.append(this.poses);
-    if (linkages.length) main.append(section("all", "All linkages", linkageTable(data), this.everyDimension()));
+    if (linkages.length) main.append(section("all", "All linkages", worded(data, { ...data.table, class: "bm-linkages bm-stacks" }), this.everyDimension()));
     if (data.dyads.length) main.append(section("dyads", "Dyads", dyadTable(data)));
-    this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes, KINDS));
+    this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes));
   }
   /** The drawing with what moves it. */
   stage() {
@@ -3097,12 +2988,12 @@ var Report = class {
       this.story,
       drawing,
       player ? [player.element, this.assemblies.element] : null,
-      h("div", { class: "bm-under" }, keyOf(data, Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), this.magnification()) : null)
+      h("div", { class: "bm-under" }, keyOf(data, Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), data.stop ? null : this.magnification()) : null)
     );
   }
   /** Whether the picture is to hold far pivots and outlines that leave it; only where there are some. */
   farPivots() {
-    this.far = h("input", { type: "checkbox", onchange: () => this.draw() });
+    this.far = h("input", { type: "checkbox", checked: Boolean(this.data.whole), onchange: () => this.draw() });
     this.farName = h("span", {});
     this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " ", this.farName);
     return this.farLabel;
@@ -3110,7 +3001,7 @@ var Report = class {
   offerAll(linkage) {
     if (!this.farLabel) return;
     const pivots = hasFarPivots(this.data, linkage, this.plane.places);
-    this.farLabel.hidden = !pivots && !this.plane.cut && !this.far.checked;
+    this.farLabel.hidden = !pivots && !this.plane.cut && (this.data.whole || !this.far.checked);
     this.farName.textContent = pivots ? "Whole linkage, with far pivots" : "All of the body and its surroundings";
   }
   magnification() {
@@ -3123,13 +3014,15 @@ var Report = class {
   }
   numbersAndPlots() {
     this.numbers = h("div", { class: "bm-fill" });
+    this.loops = h("div", {});
     const plots = h("div", { class: "bm-fill" });
     this.plots = new Plots(this.data, plots, (u) => this.player.go(u));
+    plots.append(this.loops);
     this.aside = h(
       "div",
       { class: "bm-aside" },
       section("numbers", "Numbers", this.numbers),
-      section("plotted", "Errors and transmission", plots)
+      section("plotted", this.linkages[0].loops ? "Transmission over the driver" : "Errors and transmission", plots)
     );
     return this.aside;
   }
@@ -3158,12 +3051,13 @@ var Report = class {
   }
   /** For print, and for those who read: the dimensions of every linkage. */
   everyDimension() {
-    const parts = this.linkages.map((each) => h("div", { class: "bm-every-one" }, dimensionTable(this.data, each)));
-    return h("details", { class: "bm-every" }, h("summary", {}, "Dimensions of every linkage"), h("div", { class: "bm-every-all" }, parts));
+    const parts = this.linkages.map((each) => h("div", { class: "bm-every-one" }, numbersOf(this.data, each)));
+    return this.linkages[0].tables?.length === 0 ? null : h("details", { class: "bm-every" }, h("summary", {}, "Dimensions of every linkage"), h("div", { class: "bm-every-all" }, parts));
   }
   choose(index) {
     const known = Boolean(this.linkage);
     this.linkage = this.linkages[index];
+    Object.assign(this.data, this.linkage.picture);
     this.cards.mark(index);
     if (this.factor) this.factor.value = String(factorFor(this.data, this.linkage));
     this.player.load(this.linkage);
@@ -3180,14 +3074,18 @@ var Report = class {
     if (linkage) {
       player.rebuild();
       this.title.textContent = `${linkage.id}: ${linkage.type}`;
-      this.story.textContent = storyOf(linkage);
+      this.story.textContent = linkage.said.story;
+      this.loops.replaceChildren(loopKey(linkage) ?? "");
       this.assemblies.build(linkage, player.way);
-      this.numbers.replaceChildren(dimensionTable(data, linkage), factsOf(data, linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
+      this.numbers.replaceChildren(...numbersOf(data, linkage), factsOf(linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
     }
-    this.poses.replaceChildren(this.poses.querySelector("h2"), poseTable(data, linkage));
-    this.rows = [...this.poses.querySelectorAll("tbody tr")];
-    this.spaceStory.replaceChildren(...spaceStory(data, linkage));
-    this.spaceNumbers.replaceChildren(this.spaceNumbers.firstChild, ...imageTables(data, linkage));
+    this.poses.replaceChildren(this.poses.querySelector("h2"), linkage?.stops ? worded(data, linkage.stops) : poseTable(data, linkage));
+    const rows = [...this.poses.querySelectorAll("tbody tr")];
+    this.rows = data.poses.map((pose, k) => rows[pose.row === void 0 ? k : pose.row]);
+    if (this.space) {
+      this.spaceStory.replaceChildren(...spaceStory(data, linkage));
+      this.spaceNumbers.replaceChildren(this.spaceNumbers.firstChild, ...imageTables(data, linkage));
+    }
     this.draw();
   }
   /** Draw what stands still anew, and then what moves. */
@@ -3214,14 +3112,14 @@ var Report = class {
     return Math.min(beside, HIGHEST * window.innerHeight);
   }
   /** What moves, at a place of the body; near: the index of the nearest pose. */
-  show(place, drive, transmission, near2) {
+  show(place, drive, transmission, near) {
     this.plane.show(place);
     this.space?.show(place);
-    this.plots.show(drive, transmission, place);
-    const row = this.rows[near2];
+    this.plots.show(drive);
+    const row = this.rows[near];
     if (row === this.current) return;
     this.current?.classList.remove("bm-current");
-    row.classList.add("bm-current");
+    row?.classList.add("bm-current");
     this.current = row;
   }
   listen() {
@@ -3237,13 +3135,10 @@ var Report = class {
     this.sizes.observe(root);
     unfoldForPrint(root, signal);
     if (!player) return;
-    this.keys(signal);
+    listenToKeys(this.root, this.plane.svg, player, signal);
     window.addEventListener("beforeprint", () => player.play(false), { signal });
     player.play(false);
     if (!window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
-  }
-  keys(signal) {
-    listenToKeys(this.root, this.plane.svg, this.player, signal);
   }
   close() {
     this.ended.abort();
@@ -3254,591 +3149,11 @@ var Report = class {
   }
 };
 
-// src/burmester/web/widget/generator_view.mjs
-var MANY_PAIRS = 30;
-var GeneratorView = class extends Report {
-  constructor(task, generator, el, options) {
-    const { curve } = generator;
-    generator.wantedAt = (input) => wantedAt(curve, input);
-    generator.at = (input) => closed2(generator, input);
-    super({ ...generator.motion, task, generator }, el, options);
-  }
-  frame() {
-    const { data } = this, { generator } = data;
-    this.generator = generator;
-    this.player = new GeneratorPlayer(data, (...now) => this.show(...now), () => this.rebuild(), generator);
-    const stage = this.stage();
-    const numbers = h("div", { class: "bm-fill" }), curves = h("div", { class: "bm-fill" });
-    numbers.append(generatorFacts(generator));
-    this.curves = new ErrorCurves(data.task, generator, curves, (input) => this.goTo(input));
-    this.aside = h("div", { class: "bm-aside" }, section("numbers", "Numbers", numbers));
-    this.root.className = "bm-view";
-    this.root.append(stage, this.aside, section("curves", "Output, error and transmission", curves));
-    const pairs = pairTable(data.task, generator);
-    const many = generator.pairs.length > MANY_PAIRS;
-    this.root.append(
-      section("pair-box", "Pair by pair", many ? h("details", { class: "bm-every" }, h("summary", {}, `${generator.pairs.length} pairs`), pairs) : pairs)
-    );
-    this.rows = data.poses.map((pose) => /^\d+$/.test(pose.name) ? pairs.querySelector(`[data-pair="${pose.name}"]`) : null);
-  }
-  /** The drawing with what moves it. */
-  stage() {
-    const { data, player, generator } = this;
-    const drawing = h("div", { class: "bm-drawing" });
-    this.plane = new Plane(data, drawing);
-    const far = this.farPivots();
-    this.far.checked = true;
-    return h(
-      "section",
-      { class: "bm-card bm-stage", "aria-label": "The linkage moving" },
-      h("h2", { class: "bm-stage-title" }, `${generator.id}: ${generator.type}`),
-      h("p", { class: "bm-story" }, generator.said.story),
-      drawing,
-      player.element,
-      h("div", { class: "bm-under" }, keys(), h("div", { class: "bm-choose" }, far))
-    );
-  }
-  offerAll(linkage) {
-    const far = hasFarPivots(this.data, linkage, this.plane.places);
-    this.farLabel.hidden = !far;
-    this.farName.textContent = "Whole linkage, with far pivots";
-  }
-  choose(index) {
-    this.linkage = this.linkages[index];
-    this.player.load(this.linkage);
-  }
-  rebuild() {
-    this.player.rebuild();
-    this.draw();
-  }
-  draw() {
-    const { linkage, player, generator } = this, { way, stretch } = player;
-    this.plane.build(linkage, way, stretch, { factor: 0, fill: this.room(), far: Boolean(this.far?.checked) });
-    this.offerAll(linkage);
-    this.plane.svg.setAttribute("aria-label", `${generator.id}, a ${generator.type}. Space plays, arrow keys move the input link.`);
-    this.curves.build();
-    player.drawStops();
-    player.show();
-  }
-  goTo(input) {
-    const { player } = this;
-    if (player.path) player.go(frameAt(player.path.drive, player.driveOf(input)));
-  }
-  show(place, drive, transmission, near2) {
-    const { player } = this;
-    this.plane.show(place);
-    this.curves.show(player.inputAt(drive), transmission);
-    const row = this.rows[near2];
-    if (row === this.current) return;
-    this.current?.classList.remove("bm-current");
-    row?.classList.add("bm-current");
-    this.current = row;
-  }
-};
-function closed2({ ground, input_link: a, coupler: r, output_link: b, side, input_phase, output_phase, curve }, input) {
-  const theta = radians(input_phase + input), x = ground - a * Math.cos(theta), y = -a * Math.sin(theta);
-  const size2 = Math.hypot(x, y), opening = Math.acos((r * r - b * b - size2 * size2) / (2 * b * size2));
-  const between2 = degrees(Math.acos((r * r + b * b - size2 * size2) / (2 * r * b)));
-  if (Number.isNaN(opening)) return { output: null, transmission: null };
-  const output = degrees(Math.atan2(y, x) + side * opening) - output_phase;
-  const k = curve.input.reduce((best, each, i) => Math.abs(each - input) < Math.abs(curve.input[best] - input) ? i : best, 0);
-  return { output: output - 360 * Math.round((output - curve.wanted[k]) / 360), transmission: Math.min(between2, 180 - between2) };
-}
-function wantedAt({ input, wanted, whole }, at) {
-  for (let k2 = 0; k2 < input.length; k2 += 1) if (Math.abs(input[k2] - at) < 1e-6) return wanted[k2];
-  if (!whole || at < input[0] || at > input[input.length - 1]) return null;
-  const k = Math.max(1, input.findIndex((each) => each > at));
-  const share = (at - input[k - 1]) / (input[k] - input[k - 1]);
-  return wanted[k - 1] + share * (wanted[k] - wanted[k - 1]);
-}
-function keys() {
-  const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
-  const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
-  return h("ul", { class: "bm-keys" }, one(link(0), "input link (filled)"), one(link(1), "output link (hollow)"));
-}
-
-// src/burmester/web/widget/function_report.mjs
-var FunctionReport = class {
-  constructor(data, el, options) {
-    this.data = data;
-    this.el = el;
-    this.options = options;
-    const root = h("div", { class: "bm" }), body = h("div", { class: "bm-body" });
-    const works = data.generators.some((each) => each.usable);
-    root.append(header(data, works, "function report"), body);
-    el.replaceChildren(root);
-    this.root = root;
-    const main = h("div", { class: "bm-main" });
-    if (data.generators.length) {
-      this.cards = new CardList(data.generators.map((each, k) => generatorCard(each, () => this.choose(k))));
-      this.stand = h("div", { class: "bm-stand" });
-      main.append(this.stand);
-      body.append(this.cards.element);
-    }
-    body.append(main);
-    main.append(h("section", { class: "bm-card bm-all", "aria-label": "All linkages" }, h("h2", {}, "All linkages"), generatorTable(data)));
-    root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes));
-    if (data.generators.length) this.choose(0);
-  }
-  choose(index) {
-    const anew = Boolean(this.view);
-    this.view?.close();
-    this.cards.mark(index);
-    this.view = new GeneratorView(this.data, this.data.generators[index], this.stand, this.options);
-    if (anew && this.stand.getBoundingClientRect().bottom < 0.4 * window.innerHeight) this.stand.scrollIntoView({ block: "start" });
-  }
-  close() {
-    this.view?.close();
-    this.el.replaceChildren();
-  }
-};
-
-// src/burmester/web/widget/six_bar.mjs
-var FRAMES = 360;
-var STEPS2 = 4;
-var LOCKED = 1e-7;
-var plus2 = (p, q) => [p[0] + q[0], p[1] + q[1]];
-var minus = (p, q) => [p[0] - q[0], p[1] - q[1]];
-var times2 = (p, q) => [p[0] * q[0] - p[1] * q[1], p[0] * q[1] + p[1] * q[0]];
-var cross2 = (p, q) => p[0] * q[1] - p[1] * q[0];
-var turned = (angle) => [Math.cos(angle), Math.sin(angle)];
-var NOWHERE = [0, 0];
-var acute = (p, q) => degrees(Math.atan2(Math.abs(cross2(p, q)), Math.abs(p[0] * q[0] + p[1] * q[1])));
-function placed({ ground, links, closures }, angles) {
-  const joints = { ...ground }, at = {}, rates = {}, pins = {};
-  const rateOf = (name, point) => links.map((link, k) => link.name === name ? times2([0, 1], minus(point, pins[name])) : rates[name]?.[k] ?? NOWHERE);
-  links.forEach(({ name, on, pin, joints: own }, k) => {
-    const turn = turned(angles[k]);
-    pins[name] = at[on]?.[pin] ?? ground[pin];
-    at[name] = {};
-    for (const joint of Object.keys(own)) {
-      at[name][joint] = plus2(pins[name], times2(turn, minus(own[joint], own[pin])));
-      joints[joint] ??= at[name][joint];
-    }
-    rates[name] = at[on] ? rateOf(on, pins[name]) : links.map(() => NOWHERE);
-  });
-  const off = [], change = [];
-  for (const [joint, one, other] of closures) {
-    const [p, q] = [one, other].map((name) => at[name][joint]), [a, b] = [rateOf(one, p), rateOf(other, q)];
-    for (const axis of [0, 1]) {
-      off.push(p[axis] - q[axis]);
-      change.push(a.map((rate, k) => rate[axis] - b[k][axis]));
-    }
-  }
-  return { joints, off, change };
-}
-function solved(rows, right) {
-  const size2 = rows.length, all = rows.map((row, k) => [...row, right[k]]), most = Math.max(...rows.flat().map(Math.abs));
-  for (let k = 0; k < size2; k += 1) {
-    const best = all.reduce((i, row, j) => j > k && Math.abs(row[k]) > Math.abs(all[i][k]) ? j : i, k);
-    [all[k], all[best]] = [all[best], all[k]];
-    if (!(Math.abs(all[k][k]) > LOCKED * most)) return null;
-    for (let j = k + 1; j < size2; j += 1) {
-      const share = all[j][k] / all[k][k];
-      for (let i = k; i <= size2; i += 1) all[j][i] -= share * all[k][i];
-    }
-  }
-  const out = Array(size2).fill(0);
-  for (let k = size2 - 1; k >= 0; k -= 1) out[k] = (all[k][size2] - all[k].reduce((sum, each, i) => i > k && i < size2 ? sum + each * out[i] : sum, 0)) / all[k][k];
-  return out;
-}
-function transmitted(legs, joints) {
-  const ways = legs.map(([from, to]) => minus(joints[to], joints[from])), tips = legs.map(([, to]) => joints[to]);
-  if (legs.length === 2) return acute(...ways);
-  return Math.min(
-    ...ways.map((way, k) => {
-      const [i, j] = [0, 1, 2].filter((each) => each !== k);
-      const off = cross2(minus(tips[j], tips[i]), ways[j]), across = cross2(ways[i], ways[j]), from = minus(tips[i], tips[k]);
-      return acute(way, [0, 1].map((axis) => across * from[axis] + off * ways[i][axis]));
-    })
-  );
-}
-function sixBarAt(sixBar, { drive, angles, round }, u) {
-  const { links, driver, carries, legs } = sixBar, last = angles[0].length - 1;
-  const along = u / (drive.length - 1) * last, i = Math.min(last - 1, Math.max(0, Math.floor(along)));
-  const crank = links.findIndex(({ name }) => name === driver), now = angles.map((values) => catmullRom(values, i, along - i, round));
-  now[crank] = angles[crank][0] + radians(linear(drive, u) - drive[0]);
-  let at = placed(sixBar, now);
-  const free = now.map((_, k) => k).filter((k) => k !== crank);
-  for (let step = 0; step < STEPS2; step += 1) {
-    const by = solved(at.change.map((row) => free.map((k) => row[k])), at.off);
-    if (!by) break;
-    free.forEach((k, n) => now[k] -= by[n]);
-    at = placed(sixBar, now);
-  }
-  const body = links.findIndex(({ name }) => name === carries), { pin, joints: own } = links[body];
-  const [x, y] = minus(at.joints[pin], times2(turned(now[body]), own[pin])), loops = legs.map((each) => transmitted(each, at.joints));
-  return { x, y, a: now[body], joints: at.joints, loops, transmission: Math.min(...loops) };
-}
-function wayOf(sixBar) {
-  const [low, high] = sixBar.ends_deg, round = sixBar.turns_fully, frames = FRAMES * Math.max(1, Math.ceil((high - low) / 360 - 1e-9));
-  const share = (k) => round ? k / frames : (1 - Math.cos(Math.PI * k / frames)) / 2;
-  const drive = Array.from({ length: frames + 1 }, (_, k) => low + (high - low) * share(k));
-  const way = { drive, angles: sixBar.links.map(({ name }) => sixBar.angles[name]), round };
-  const places = drive.map((_, k) => sixBarAt(sixBar, way, k));
-  const column = (value) => places.map(value);
-  return {
-    ...way,
-    circuit: 1,
-    branch: 1,
-    branches: 1,
-    dead: [!round, !round],
-    poses: sixBar.drive_deg.map((_, k) => k + 1),
-    x: column((at) => at.x),
-    y: column((at) => at.y),
-    angle: column((at) => at.a),
-    transmission: column((at) => at.transmission),
-    loops: sixBar.legs.map((_, k) => column((at) => at.loops[k]))
-  };
-}
-function moving(sixBar, poses) {
-  const way = wayOf(sixBar), grounded = sixBar.links.filter(({ pin }) => pin in sixBar.ground);
-  const cranks = grounded.map(({ name, pin, joints }) => ({ id: pin + Object.keys(joints).find((joint) => joint !== pin), name, kind: "crank", fixed_pivot: sixBar.ground[pin] }));
-  return {
-    ...sixBar,
-    ways: [way],
-    led: cranks.sort((a, b) => (b.name === sixBar.driver) - (a.name === sixBar.driver)),
-    pose_errors: sixBar.drive_deg.map((drive, k) => {
-      const frame = frameAt(way.drive, drive), at = sixBarAt(sixBar, way, frame);
-      return {
-        x: at.x,
-        y: at.y,
-        angle_deg: degrees(at.a),
-        way: 0,
-        frame,
-        drive_deg: drive,
-        joints: at.joints,
-        loops: at.loops,
-        position: Math.hypot(at.x - poses[k].x, at.y - poses[k].y),
-        transmission_deg: at.transmission,
-        said: { position: sixBar.said.errors?.[k][0] ?? "exact", turned: sixBar.said.errors?.[k][1] ?? "exact" }
-      };
-    })
-  };
-}
-
-// src/burmester/web/widget/six_bar_mechanism.mjs
-var NAME = 15;
-var BODY_AXIS2 = AXIS + 10;
-function kindOf({ name, pin }, { driver, carries, ground }) {
-  if (name === carries) return "bm-carried";
-  return pin in ground ? `bm-side${name === driver ? 0 : 1}` : "bm-inner";
-}
-function namedOn(joint, { links, carries }) {
-  const own = links.filter(({ joints }) => joint in joints), others = own.filter(({ name }) => name !== carries);
-  return others.find(({ joints }) => Object.keys(joints).length > 2) ?? others[0] ?? own[0];
-}
-var SixBarMechanism = class {
-  constructor(data, linkage, view) {
-    this.view = view;
-    const height = ({ name, outline }) => name === linkage.carries ? 2 : outline.length > 2 ? 0 : 1;
-    this.links = [...linkage.links].sort((a, b) => height(a) - height(b)).map((link) => {
-      const strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
-      const group = s("g", { class: `bm-link ${kindOf(link, linkage)}${link.outline.length > 2 ? " bm-ternary" : ""}`, "data-link": link.outline.replace("M", "") }, strokes);
-      return { joints: link.outline, strokes, group };
-    });
-    this.outline = data.body ? s("path", { class: "bm-body-outline", d: bodyOutline(data, view) }) : null;
-    this.frame = s("g", { class: "bm-coupler" }, s("path", { class: "bm-body-frame", d: axes(BODY_AXIS2) }), s("circle", { class: "bm-origin", r: 4 }));
-    this.pins = Object.keys(linkage.pose_errors[0].joints).map((joint) => {
-      const fixed2 = joint in linkage.ground, on = fixed2 ? null : Object.keys(namedOn(joint, linkage).joints);
-      const pin = s("circle", { class: `bm-pin${fixed2 ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint });
-      return { joint, on, pin, name: fixed2 ? null : s("text", { class: "bm-name", "text-anchor": "middle" }, joint) };
-    });
-    const pivot = linkage.led[0].fixed_pivot;
-    this.group = s(
-      "g",
-      { class: "bm-linkage bm-six-bar" },
-      this.outline,
-      s("path", { class: "bm-drive-mark bm-side0", d: TURNING_ARROW, transform: `translate(${px(view.X(pivot[0]))} ${px(view.Y(pivot[1]))}) rotate(-90)` }),
-      this.links.map((each) => each.group),
-      this.frame,
-      this.pins.map((each) => each.pin),
-      this.pins.map((each) => each.name)
-    );
-  }
-  show(place) {
-    const { view } = this, at = {};
-    for (const [joint, [x, y]] of Object.entries({ ...place.joints, M: [place.x, place.y] })) at[joint] = [view.X(x), view.Y(y)];
-    for (const { joints, strokes } of this.links) {
-      const d = `M${[...joints].map((joint) => at[joint].map(px).join(" ")).join("L")}${joints.length > 2 ? "Z" : ""}`;
-      for (const stroke of strokes) put(stroke, "d", d);
-    }
-    const seen = transform(...at.M, place.a);
-    put(this.frame, "transform", seen);
-    if (this.outline) put(this.outline, "transform", seen);
-    for (const { joint, on, pin, name } of this.pins) {
-      const [x, y] = at[joint];
-      put(pin, "cx", px(x));
-      put(pin, "cy", px(y));
-      if (!name) continue;
-      const [u, v] = outwards(on.map((each) => at[each]), at[joint]);
-      put(name, "x", px(x + NAME * u));
-      put(name, "y", px(y + NAME * v + 4));
-    }
-  }
-};
-function outwards(corners, [x, y]) {
-  const middle = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
-  const u = x - middle[0], v = y - middle[1], size2 = Math.hypot(u, v);
-  return size2 > 1 ? [u / size2, v / size2] : [0, -1];
-}
-
-// src/burmester/web/widget/six_bar_plane.mjs
-var BESIDE_PIVOT = [16, 28, 40];
-var SixBarPlane = class extends Plane {
-  build(linkage, way, stretch, how) {
-    super.build(linkage, way, stretch, { ...how, far: true });
-  }
-  placesOf(way, stretch) {
-    return placesAlong(this.data, stretch, (u) => sixBarAt(this.linkage, way, u));
-  }
-  bounds(far) {
-    return including(super.bounds(far), this.places.flatMap((place) => Object.values(place.joints)));
-  }
-  /** The link that is the body. */
-  get body() {
-    return this.linkage.links.find(({ name }) => name === this.linkage.carries);
-  }
-  /** The body at every pose; where it has no outline, its joints and its origin. */
-  ghosts() {
-    const { data, linkage, view } = this;
-    if (data.body || !linkage) return super.ghosts();
-    const plates = linkage.pose_errors.map(({ x, y, joints }) => s("path", { class: "bm-ghost", d: `${polyline([...this.body.outline].map((joint) => joints[joint] ?? [x, y]), view)}Z` }));
-    return s("g", { class: "bm-ghosts" }, plates);
-  }
-  mechanism() {
-    return new SixBarMechanism(this.data, this.linkage, this.view);
-  }
-  /** The paths of the pins that carry the body. */
-  pivotPaths() {
-    return Object.keys(this.body.joints).filter((joint) => !(joint in this.linkage.ground)).map((joint) => ({ side: "-inner", points: this.places.map((place) => place.joints[joint]) }));
-  }
-  ground(labels) {
-    const group = s("g", { class: "bm-grounds" });
-    this.keepCranksFree(labels);
-    this.linkage.led.forEach(({ id, fixed_pivot }, side) => this.fixedPivot(group, labels, { id: id[0], fixed_pivot }, Math.min(side, 1)));
-    return group;
-  }
-  /** Where cranks are on their way no name is to stand. */
-  keepCranksFree(labels) {
-    const { view, places, linkage } = this, every = Math.ceil(places.length / 9);
-    const cranks = linkage.links.filter(({ pin }) => pin in linkage.ground);
-    const arms = cranks.flatMap(({ pin, joints }) => Object.keys(joints).filter((joint) => joint !== pin).map((joint) => pin + joint));
-    for (const { joints } of places.filter((_, k) => k % every === 0)) {
-      for (const [pivot, end] of arms) {
-        const [[x, y], [u, v]] = [joints[pivot], joints[end]].map((at) => [view.X(at[0]), view.Y(at[1])]);
-        const size2 = Math.hypot(u - x, v - y) || 1;
-        for (const along of BESIDE_PIVOT) labels.block(x + along * (u - x) / size2, y + along * (v - y) / size2, 12, 12);
-      }
-    }
-  }
-};
-
-// src/burmester/web/widget/six_bar_player.mjs
-var SixBarPlayer = class extends Player {
-  placeAt(u) {
-    return sixBarAt(this.linkage, this.path, u);
-  }
-  driverText(drive) {
-    return `${this.linkage.crank} ${fixed(drive, 1)}°`;
-  }
-};
-
-// src/burmester/web/widget/six_bar_plots.mjs
-var PANEL2 = 150;
-var SOUND = 30;
-var SixBarPlots = class extends Plots {
-  static HEIGHT = PANEL2;
-  static TITLE = "Transmission angles";
-  panels(rows) {
-    const { svg, way, width, top } = this, base = top + PANEL2;
-    this.Y = (v) => base - v / 90 * PANEL2;
-    this.panel("transmission angle (°)", top, base, true);
-    for (const at of [0, 30, 60, 90]) this.rule(this.Y(at), at);
-    const asked = this.data.asked_transmission_deg, limit = asked ?? SOUND, y = px(this.Y(limit));
-    svg.append(
-      s("path", { class: "bm-usual", d: `M${LEFT2} ${y}H${width - RIGHT2}` }),
-      s("text", { class: "bm-tick bm-halo", x: width - RIGHT2 - 4, y: y + 12, "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "of a sound linkage"}`)
-    );
-    way.loops.forEach((values, k) => {
-      this.curve(values, this.Y, `bm-line bm-loop${k}`);
-      for (const row of rows) svg.append(s("circle", { class: `bm-dot bm-loop${k}`, cx: px(this.X(row.drive)), cy: px(this.Y(row.loops[k])), r: 3 }));
-    });
-    return base;
-  }
-  build(linkage, index, stretch) {
-    super.build(linkage, index, stretch);
-    if (!this.cursor) return;
-    this.others = linkage.legs.slice(1).map(() => s("circle", { r: 4.5 }));
-    this.cursor.append(...this.others);
-  }
-  show(drive, transmission, place) {
-    if (!this.cursor) return;
-    super.show(drive, place.loops[0]);
-    this.others.forEach((mark, k) => mark.setAttribute("cy", px(this.Y(place.loops[k + 1]))));
-  }
-};
-
-// src/burmester/web/widget/six_bar_tables.mjs
-var SixBarCards = class extends CardList {
-  constructor(linkages, choose) {
-    super(linkages.map((each, k) => card2(each, () => choose(k))));
-  }
-};
-var verdictOf2 = (linkage) => !linkage.usable ? "✕ does not work" : linkage.sound ? "✓ works, sound" : "✓ works";
-function card2(linkage, onclick) {
-  const { said } = linkage, [, driver, turn] = said.row, lacks = said.shortcomings.length ? `It ${said.shortcomings.join("; ")}` : null;
-  const fact2 = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-  return h(
-    "button",
-    { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
-    h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
-    h("span", { class: "bm-verdict" }, verdictOf2(linkage)),
-    h(
-      "dl",
-      {},
-      fact2("driver", `${driver}${linkage.turns_fully ? ", turns fully" : `, by ${turn}`}`),
-      fact2("transmission", `${said.transmission} or more`),
-      fact2("extent", said.extent),
-      fact2("link ratio", said.link_ratio, "bm-detail")
-    ),
-    said.why_not || lacks ? h("span", { class: "bm-reason" }, said.why_not ?? lacks) : null
-  );
-}
-function sixBarTable(data) {
-  const heads = ["", { name: "driver", text: true }, ...data.heads.slice(2), { name: "falls short", text: true }];
-  const rows = data.linkages.map(({ said }) => h("tr", {}, cells([...said.row, said.shortcomings.join("; ") || "–"], [1, heads.length - 1], heads)));
-  return table("All six-bars, best first", heads, rows, { class: "bm-linkages bm-stacks" });
-}
-var lines = (parts) => parts.map((part) => h("span", { class: "bm-line-of" }, part));
-function sixBarDimensions(data, { id, said }) {
-  const rows = said.dimensions.map(([link, ...joints]) => h("tr", {}, cells([link, lines(joints.filter(Boolean))])));
-  return table(`Dimensions of ${id}${inUnit(data)}`, [{ name: "link", text: true }, "joints, or length"], rows, { class: "bm-dimensions bm-joints" });
-}
-function sixBarDistances(data, { id, said }) {
-  const caption = `Distances between joints of ${id}${inUnit(data)}`;
-  const rows = said.distances.map((row) => h("tr", {}, cells(row)));
-  return h("details", { class: "bm-every" }, h("summary", {}, "Distances between joints"), table(caption, [{ name: "joints", text: true }, "distance"], rows));
-}
-function sixBarFacts(data, { said }) {
-  const rows = [...data.heads.slice(1).map((head, k) => [head, said.row[k + 1]]), ["at the poses", said.met ?? "exact, up to rounding"]];
-  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
-}
-function sixBarPoses(data, linkage) {
-  const digits = decimalsOf(data), unit2 = data.unit ? ` (${data.unit})` : "";
-  const missed = linkage?.said.errors;
-  const heads = ["pose", "x", `y${unit2}`, "angle", ...missed ? ["off by", "turned by"] : [], ...linkage ? [`driver ${linkage.crank}`, ...loopTips(linkage).map((tip, k) => `${k ? "" : "transm. "}at ${tip}`)] : []];
-  const rows = data.poses.map((pose, k) => {
-    const values = [poseName(pose), fixed(pose.x, digits), fixed(pose.y, digits), `${fixed(pose.angle_deg, 2)}°`];
-    if (missed) values.push(...missed[k]);
-    if (linkage) {
-      const row = linkage.pose_errors[k];
-      values.push(...[row.drive_deg, ...row.loops].map((angle) => `${fixed(angle, 1)}°`));
-    }
-    return h("tr", { "data-pose": k + 1 }, cells(values));
-  });
-  const named = data.poses.some((pose) => pose.label !== pose.name);
-  return table(linkage ? `Poses, and how ${linkage.id} stands there` : "Poses", heads, rows, { class: named ? "bm-pose-table bm-named" : "bm-pose-table" });
-}
-var loopTips = (linkage) => linkage.legs.map((legs) => [...new Set(legs.map(([, tip]) => tip))].join(", "));
-function between(linkages) {
-  const inner = linkages[0].links.filter(({ name, pin }) => !(pin in linkages[0].ground) && name !== linkages[0].carries);
-  const same = linkages.every(({ type, carries }) => type === linkages[0].type && carries === linkages[0].carries);
-  return same ? inner.map(({ name, joints }) => [.../* @__PURE__ */ new Set([name, Object.keys(joints).join("")])].join(" ")).join(" and ") : "links between";
-}
-function sixBarKey(data) {
-  const hasLinkages = data.linkages.length > 0;
-  const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
-  const link = (kind) => s("g", { class: `bm-link ${kind}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
-  const items = [one(s("g", { class: "bm-wanted" }, s("path", { d: axes(22) }), s("circle", { r: 4 })), "wanted pose")];
-  if (hasLinkages) {
-    items.push(
-      one(link("bm-side0"), "driver (filled)"),
-      one(link("bm-side1"), data.linkages[0].led.length > 2 ? "other cranks (hollow)" : "other crank (hollow)"),
-      one(link("bm-inner"), between(data.linkages)),
-      one(link("bm-carried"), "body, with its frame M"),
-      one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M")
-    );
-  }
-  if (data.body || hasLinkages) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
-  return h("ul", { class: "bm-keys" }, items);
-}
-function loopKey(linkage) {
-  const one = (k, text) => h("li", {}, s("svg", { width: 34, height: 12, viewBox: "0 -6 34 12", "aria-hidden": "true", class: "bm-key" }, s("path", { class: `bm-line bm-loop${k}`, d: "M0 0H32" })), text);
-  const tips = loopTips(linkage), of = tips.length > 1 ? ["first loop, ", "second loop, "] : ["the least, "];
-  return h("ul", { class: "bm-keys" }, tips.map((tip, k) => one(k, `${of[k]}at ${tip}`)));
-}
-
-// src/burmester/web/widget/six_bar_report.mjs
-var SixBarReport = class extends Report {
-  constructor(data, el, options) {
-    super({ ...data, linkages: data.six_bars.map((each) => moving(each, data.poses)) }, el, options);
-  }
-  frame() {
-    const { data, linkages } = this, any = linkages.length > 0;
-    const main = h("div", { class: "bm-main" }), body = h("div", { class: "bm-body" });
-    this.root.append(header(data, linkages.some((each) => each.usable)), body);
-    if (any) {
-      this.player = new SixBarPlayer(data, (...now) => this.show(...now), () => this.rebuild());
-      this.cards = new SixBarCards(linkages, (index) => this.choose(index));
-      body.append(this.cards.element);
-    }
-    body.append(main);
-    main.append(this.stage());
-    if (any) main.append(this.numbersAndPlots());
-    this.poses = section("pose-box", "Pose by pose");
-    main.append(this.poses);
-    if (any) main.append(section("all", "All six-bars", sixBarTable(data), this.everyDimension()));
-    this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes));
-  }
-  stage() {
-    const drawing = h("div", { class: "bm-drawing" });
-    this.plane = new SixBarPlane(this.data, drawing);
-    this.title = h("h2", { class: "bm-stage-title" }, "The poses");
-    this.story = h("p", { class: "bm-story" });
-    return h(
-      "section",
-      { class: "bm-card bm-stage", "aria-label": "The linkage moving" },
-      this.title,
-      this.story,
-      drawing,
-      this.player?.element,
-      h("div", { class: "bm-under" }, sixBarKey(this.data))
-    );
-  }
-  numbersAndPlots() {
-    this.numbers = h("div", { class: "bm-fill" });
-    this.loops = h("div", {});
-    const plots = h("div", { class: "bm-fill" });
-    this.plots = new SixBarPlots(this.data, plots, (u) => this.player.go(u));
-    plots.append(this.loops);
-    this.aside = h("div", { class: "bm-aside" }, section("numbers", "Numbers", this.numbers), section("plotted", "Transmission over the driver", plots));
-    return this.aside;
-  }
-  everyDimension() {
-    const parts = this.linkages.map((each) => h("div", { class: "bm-every-one" }, sixBarDimensions(this.data, each)));
-    return h("details", { class: "bm-every" }, h("summary", {}, "Dimensions of every six-bar"), h("div", { class: "bm-every-all" }, parts));
-  }
-  rebuild() {
-    const { linkage, data, player } = this;
-    if (linkage) {
-      player.rebuild();
-      this.title.textContent = `${linkage.id}: ${linkage.type}`;
-      this.story.textContent = linkage.said.story;
-      this.numbers.replaceChildren(sixBarDimensions(data, linkage), sixBarFacts(data, linkage), sixBarDistances(data, linkage));
-      this.loops.replaceChildren(loopKey(linkage));
-    }
-    this.poses.replaceChildren(this.poses.querySelector("h2"), sixBarPoses(data, linkage));
-    this.rows = [...this.poses.querySelectorAll("tbody tr")];
-    this.draw();
-  }
-};
-
 // src/burmester/web/widget/widget.mjs
 var widget = {
   render({ model, el }) {
     const options = { webgl: model.get("webgl") ?? true };
-    const made = (data) => new (data.generators ? FunctionReport : data.six_bars ? SixBarReport : Report)(data, el, options);
+    const made = (data) => new Report(data, el, options);
     let report = made(model.get("data"));
     const anew = () => {
       report.close();

@@ -35,7 +35,7 @@ export function dress(root, texts, signal) {
 function isDark(element) {
   for (let node = element; node; node = node.parentElement ?? node.getRootNode().host) {
     const colour = getComputedStyle(node).backgroundColor; // empty where the element is in no page yet
-    const [r, g, b, a = 1] = colour.startsWith("rgb") ? colour.match(/[\d.]+/g).map(Number) : [0, 0, 0, 0];
+    const [r, g, b, a = 1] = colour.startsWith("rgb") ? (colour.match(/[\d.]+/g) ?? []).map(Number) : [0, 0, 0, 0];
     if (a > 0.5) return 0.299 * r + 0.587 * g + 0.114 * b < 128;
   }
   return matchMedia(DARK_SCHEME).matches;

@@ -21,7 +21,7 @@ export const PLACED = "placed"; // the id of the linkage whose pivots were put d
 const NOTHING = {
   poses: [], body: null, keep_out: [], scene: 1, unit: null, dyads: [], linkages: [], dyads_title: "Dyads",
   chart: { origin: [0, 0], angle: 0, length: 1 }, space: { centre: [0, 0, 0], half: [1, 1, 1], quadrics: [] },
-  pivot_map: null, family_map: null, asked_transmission_deg: null, best: [], warnings: [], footnotes: "",
+  pivot_map: null, family_map: null, transmission_limit: { deg: 40, said: "40°, a usual limit" }, keys: [], table: null, best: [], warnings: [], footnotes: "",
 };
 
 /** Events: "answers" (another set of linkages), "moved" (the same ones elsewhere), "shown" (another one is chosen),
@@ -120,7 +120,7 @@ export class Answers extends Events {
   takePlaced() {
     const placed = this.store.placed?.linkage, { cognateOf } = this.store.placed ?? {}, called = cognateOf ? `Cognate of ${cognateOf}` : "By hand";
     const before = this.placed;
-    this.placed = placed ? Object.assign(before ?? {}, figured(renamed(linked(placed))), { id: PLACED, called, gone: null, followed: false }) : null;
+    this.placed = placed ? Object.assign(before ?? {}, figured(linked(placed)), { id: PLACED, called, gone: null, followed: false }) : null;
     this.emit("placed");
     if (this.store.chosen === PLACED) this.emit(before && placed ? "moved" : "shown");
   }
@@ -134,14 +134,6 @@ export const linked = (linkage) => ({
 
 /** With the figures that cards show and sort by under the names that followed answers have, too. */
 const figured = (linkage) => Object.assign(linkage, { worst: linkage.position_error.max, least: linkage.min_transmission_angle_deg.range });
-
-/** The linkage of two pivots with the names that its dyads have there: P1 and P2, in their order. */
-function renamed(linkage) {
-  const names = new Map(linkage.dyads.map((dyad, k) => [dyad.id, `P${k + 1}`]));
-  const named = (dyad) => ({ ...dyad, id: names.get(dyad.id) ?? dyad.id });
-  const dimensions = linkage.said.dimensions.map((row) => ({ ...row, dyad: names.get(row.dyad) ?? row.dyad }));
-  return { ...linkage, dyads: linkage.dyads.map(named), led: linkage.led.map(named), said: { ...linkage.said, dimensions } };
-}
 
 /** The poses of a document as a report has them, with short labels for drawings. */
 export function posesOf({ poses = [] }) {
@@ -183,7 +175,7 @@ function follow(now, each, data) {
 /** A linkage that was not there before it was followed: the whole road will say more of it. */
 const appeared = (each) => ({
   id: each.id, type: each.type ?? "linkage", rank: Infinity, dyads: each.led, ways: [], pose_errors: [], isNew: true, followed: true,
-  said: { met: "", in_short: each.reason ?? "", reasons: [], quality: {}, dimensions: [], notes: [], links: null, manifolds: [[], []], turns_fully: false, freedom: null, worst: "–", angle: "–", rms: "–", rms_angle: "–", transmission: "-" },
+  said: { met: "", story: "", facts: [], reasons: [], quality: {}, dimensions: [], notes: [], links: null, manifolds: [[], []], worst: "–", rms: "–", transmission: "-" },
   space: null, shortcomings: [], defects: [], unmet: [],
 });
 

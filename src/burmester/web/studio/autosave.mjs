@@ -50,7 +50,7 @@ function tabName() {
 /** What this tab kept before it was loaded again, or null. */
 export function keptHere() {
   try {
-    const kept = JSON.parse(sessionStorage.getItem(KEY));
+    const kept = JSON.parse(sessionStorage.getItem(KEY) ?? "null");
     return Array.isArray(kept?.document?.poses) ? kept : null;
   } catch {
     return null;

@@ -25,6 +25,8 @@ function helpOf(help) {
 }
 
 export class Banners {
+  /** @type {any} */ files;
+
   constructor(store) {
     this.store = store;
     this.shown = new Map(); // by kind: one of each
@@ -36,6 +38,7 @@ export class Banners {
   }
 
   /** Show a banner of a kind in place of the one before; actions: buttons. */
+  /** @param {string} kind @param {any} title @param {any[]} messages @param {{ undo?: boolean, actions?: any[] }} how */
   say(kind, title, messages = [], { undo = false, actions = [] } = {}) {
     const close = button("✕", () => this.close(kind), { "aria-label": "Close", class: "bs-close" });
     const all = [...actions, ...(undo ? [button("Undo", () => (this.close(kind), this.store.undo()))] : [])];

@@ -28,6 +28,7 @@ export function nearestOnCurve(points, loops, wanted, widest) {
 }
 
 /** How far four points are from lying on one circle: a determinant that is zero where they do. */
+/** @param {number[][]} points */
 function circleDeterminant([o, ...others]) {
   const [a, b, c] = others.map(([x, y]) => [x - o[0], y - o[1]]).map(([x, y]) => [x, y, x * x + y * y]);
   return a[2] * (b[0] * c[1] - b[1] * c[0]) - b[2] * (a[0] * c[1] - a[1] * c[0]) + c[2] * (a[0] * b[1] - a[1] * b[0]);
@@ -64,6 +65,7 @@ const worth = (kind) => (kind < OUTSIDE ? "works" : kind === OUTSIDE ? "outside"
  * are left out.  Without a judgement nothing is said of what works.
  * @param {{ loops: object[] }} answer */
 export function curvesOf({ loops }) {
+  /** @type {{ fixed: number[][], moving: number[][], loops: number[], worth: string[] }} */
   const curves = { fixed: [], moving: [], loops: [], worth: [] };
   for (const loop of loops) {
     const kept = loop.fixed.map((_, k) => k).filter((k) => [...loop.fixed[k], ...loop.moving[k]].every(Number.isFinite));

@@ -21,7 +21,7 @@ export function centrodesOf(linkage, way, scene, near) {
     before = far ? null : point.fixed;
     return { point: far ? null : point, cut };
   });
-  const pieces = (key) => points.flatMap(({ point, cut }) => (cut ? [null, point && point[key]] : [point[key]]));
+  const pieces = (key) => points.flatMap(({ point, cut }) => (cut ? [null, point && point[key]] : [point?.[key]]));
   return { fixed: pieces("fixed"), moving: pieces("moving") };
 }
 
@@ -36,7 +36,9 @@ const path = (points, X, Y) => {
 
 export class Centrodes {
   constructor(answers, playing, scene) {
-    Object.assign(this, { answers, playing, scene });
+    this.answers = answers;
+    this.playing = playing;
+    this.scene = scene;
     this.fixed = s("path", { class: "bs-centrode bs-fixed-centrode" });
     this.moving = s("path", { class: "bs-centrode bs-moving-centrode" });
     this.mark = s("g", { class: "bs-instant-centre" }, s("circle", { r: 5 }), s("path", { d: "M-9 0H9M0 -9V9" }));

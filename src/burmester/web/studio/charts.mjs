@@ -14,7 +14,7 @@ export class Charts {
     this.pace = new Pace(() => this.build(), () => isSeen(fill));
     playing.on("shape", () => this.pace.ask());
     playing.on("place", ({ drive, transmission }) => {
-      if (this.isFresh && isSeen(fill)) this.plots.show(drive, transmission);
+      if (this.isFresh && isSeen(fill)) this.plots.show(drive);
     });
     answers.on("poses", () => (this.isFresh = false));
     new ResizeObserver(() => this.pace.ask()).observe(fill);
@@ -31,6 +31,6 @@ export class Charts {
     }
     plots.build(linkage, player.way, player.stretch);
     this.isFresh = true;
-    if (playing.here) plots.show(playing.here.drive, playing.here.transmission);
+    if (playing.here) plots.show(playing.here.drive);
   }
 }

@@ -8,8 +8,13 @@ import { isOfPoints } from "./document.mjs";
 import { Pace, isSeen, watch } from "./pacing.mjs";
 
 export class CognatePanel {
+  /** @type {any} */ known;
+
   constructor(store, answers) {
-    Object.assign(this, { store, answers, known: null, asking: false });
+    this.store = store;
+    this.answers = answers;
+    this.known = null;
+    this.asking = false;
     this.story = h("p", { class: "bm-story" });
     this.cards = h("div", { class: "bs-cognates", role: "group", "aria-label": "The linkages of one curve" });
     this.element = h("div", { class: "bs-cognate-panel" }, this.story, this.cards);

@@ -29,7 +29,9 @@ export function comparison(one, other, data) {
 
 export class Compare {
   constructor(store, answers, playing) {
-    Object.assign(this, { store, answers, playing });
+    this.store = store;
+    this.answers = answers;
+    this.playing = playing;
     this.pictures = [0, 1].map(() => h("div", { class: "bm-drawing" }));
     this.planes = this.pictures.map((parent) => new Plane(answers.data, parent));
     this.names = [0, 1].map(() => h("h3", {}));

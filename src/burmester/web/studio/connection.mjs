@@ -23,6 +23,8 @@ async function messagesOf(response) {
 
 /** The one connection of a page; `decode` reads a binary frame. */
 export class Connection {
+  /** @type {any} */ socket;
+
   /** @param {(frame: ArrayBuffer) => object} decode */
   constructor(decode) {
     this.decode = decode;

@@ -17,7 +17,10 @@ export const curveOf = (way, point) => framesOf(way).map((place) => act(place, p
 
 export class CouplerCurves {
   constructor(answers, playing, scene) {
-    Object.assign(this, { answers, playing, scene, points: [] });
+    this.answers = answers;
+    this.playing = playing;
+    this.scene = scene;
+    this.points = [];
     this.group = s("g", { class: "bs-coupler-curves" });
     this.handles = s("g", { class: "bs-coupler-points" });
     scene.layer("paths").append(this.group);

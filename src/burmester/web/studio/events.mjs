@@ -1,6 +1,8 @@
 // Events of a part: who listens is told by name.
 
 export class Events {
+  /** @type {Map<string, Function[]> | undefined} */ heard;
+
   /** Call `fn` after any of the events whose names stand in `names`, blanks between them. */
   on(names, fn) {
     this.heard ??= new Map();

@@ -17,6 +17,8 @@ const section = (name, title, ...content) => h("details", { class: "bs-section",
 
 /** Options of `burmester export`; one that is left empty is not given. */
 export class ExportSettings {
+  /** @type {any} */ sigma;
+
   constructor(store, scene) {
     this.store = store;
     const set = (name) => (value) => store.setting(name, value);

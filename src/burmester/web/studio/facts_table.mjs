@@ -4,8 +4,8 @@ import { h } from "../widget/dom.mjs";
 import { instantCentre } from "../widget/instantaneous.mjs";
 import { act } from "../widget/kinematics.mjs";
 import { fixed } from "../widget/numbers.mjs";
-import { decimalsOf, dimensionTable, dyadTable, imageTables, inUnit, linkageTable, poseName, poseTable } from "../widget/tables.mjs";
-import { factsOf, storyOf } from "../widget/words.mjs";
+import { decimalsOf, dimensionTable, dyadTable, imageTables, inUnit, poseName, poseTable, worded } from "../widget/tables.mjs";
+import { factsOf } from "../widget/words.mjs";
 import { PLACED, dimensionsOf, leastOf, placeOf, worstOf } from "./answers.mjs";
 import { Pace, isSeen, watch } from "./pacing.mjs";
 
@@ -33,7 +33,10 @@ export function poseFacts(linkage, data, points) {
 
 export class FactsTable {
   constructor(store, answers, playing, curves) {
-    Object.assign(this, { store, answers, playing, curves });
+    this.store = store;
+    this.answers = answers;
+    this.playing = playing;
+    this.curves = curves;
     this.element = h("div", { class: "bs-facts" });
     this.pace = new Pace(() => this.build(), () => isSeen(this.element));
     playing.on("shape", () => this.pace.ask());
@@ -50,7 +53,7 @@ export class FactsTable {
     if (linkage) {
       const name = linkage.id === PLACED ? "Pivots put down by hand" : `${linkage.id}: ${linkage.type}`;
       const live = linkage.followed || playing.isOther;
-      part(name, false, live ? this.followedFacts(linkage) : [h("p", { class: "bm-story" }, storyOf(linkage)), dimensionTable(data, { ...linkage, id: linkage.id === PLACED ? "the linkage by hand" : linkage.id }), factsOf(data, linkage)]);
+      part(name, false, live ? this.followedFacts(linkage) : [h("p", { class: "bm-story" }, linkage.said.story), dimensionTable(data, { ...linkage, id: linkage.id === PLACED ? "the linkage by hand" : linkage.id }), factsOf(linkage)]);
     }
     part("Pose by pose", false, poseTable(data, fits ? linkage : undefined));
     if (fits) {
@@ -78,7 +81,7 @@ export class FactsTable {
   /** All linkages: as the report has them, or what was followed of them. */
   linkages() {
     const { answers } = this, { data } = answers;
-    if (!answers.linkages.some((each) => each.followed)) return linkageTable(data);
+    if (!answers.linkages.some((each) => each.followed)) return worded(data, { ...data.table, class: "bm-linkages bm-stacks" });
     return table("All linkages, followed", ["", "verdict", "type", "worst miss", "least transmission"], answers.linkages.map((each) => [each.id, each.gone ? "gone" : each.usable ? "usable" : "not usable", each.type, worstOf(each, data), leastOf(each)]));
   }
 

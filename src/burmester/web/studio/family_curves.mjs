@@ -10,7 +10,13 @@ const STROKES = ["plain", "fails", "outside", "works"]; // of a curve, from belo
 
 export class FamilyCurves {
   constructor(store, answers, playing, scene) {
-    Object.assign(this, { store, answers, playing, scene, known: null, live: null, asking: false });
+    this.store = store;
+    this.answers = answers;
+    this.playing = playing;
+    this.scene = scene;
+    this.known = null;
+    this.live = null;
+    this.asking = false;
     this.curves = ["F", "M"].map((plane) => s("g", { class: `bs-curve bs-curve-${plane}` }, STROKES.map((name) => s("path", { class: `bs-curve-${name}` }))));
     this.group = s("g", { class: "bs-burmester", visibility: "hidden", "aria-hidden": "true" }, this.curves);
     scene.layer("curves").append(this.group);

@@ -45,7 +45,8 @@ export class NumberField {
     if (this.fault.hidden) this.drafts.delete(this.id);
     else this.drafts.set(this.id, this.input.value);
     const draft = this.drafts.get(id);
-    Object.assign(this, { id, value });
+    this.id = id;
+    this.value = value;
     give(this.input, "value", draft ?? written(value));
     this.say(draft === undefined ? null : quantity(draft, this.options()).fault ?? null);
   }

@@ -56,9 +56,14 @@ export function menu(text, items, attributes = {}) {
 }
 
 export class Files {
+  /** @type {any} */ opened;
+
   /** start: what the server said of templates and exports; banners: where is told what happened. */
   constructor(store, start, banners) {
-    Object.assign(this, { store, start, banners, server: store.connection });
+    this.store = store;
+    this.start = start;
+    this.banners = banners;
+    this.server = store.connection;
     this.chooser = h("input", { type: "file", hidden: true, accept: KINDS, "data-file": "open", onchange: () => this.chosen(this.chooser) });
     this.outlines = h("input", { type: "file", hidden: true, accept: ".svg,.dxf", "data-file": "outline", onchange: () => this.chosen(this.outlines) });
     this.dropping = h("div", { class: "bs-dropping", hidden: true, "aria-hidden": "true" }, h("p", {}, "Drop a task, a table of poses, or the outline of the body"));
@@ -239,16 +244,16 @@ export class Files {
       event.preventDefault();
       show(-Infinity);
       inside = 0;
-      for (const file of event.dataTransfer.files) await this.take(file);
+      for (const file of event.dataTransfer?.files ?? []) await this.take(file);
     });
     document.addEventListener("paste", (event) => {
       const text = event.clipboardData?.getData("text/plain") ?? "", [file] = event.clipboardData?.files ?? [];
-      const typing = event.target.closest?.("input, textarea, select");
+      const typing = event.target instanceof HTMLElement && event.target.closest("input, textarea, select");
       if (file) this.take(file);
       else if (isTable(text)) this.paste(text);
       else return;
       event.preventDefault();
-      if (typing) typing.blur();
+      if (typing) /** @type {HTMLElement} */ (typing).blur();
     });
   }
 }

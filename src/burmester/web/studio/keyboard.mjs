@@ -27,8 +27,11 @@ const TYPED_IN = "button, input, select, textarea, summary, a, [role=button], [r
 
 const written = (element) => element?.matches?.("input:not([type=checkbox]):not([type=radio]):not([type=range]), textarea");
 
+/** @typedef {{ save: Function, chooser: HTMLElement }} Opener */
+
 /** Undo and redo, and save and open where there are files; Escape ends a gesture, then a tool, then a selection.
- * root: where keys are heard, the page or a part of it. */
+ * root: where keys are heard, the page or a part of it.
+ * @param {any} store @param {any} scene @param {Opener | null} files @param {any} root */
 export function listenToKeys(store, scene, files = null, root = document) {
   const acts = (event) => ({ z: () => (event.shiftKey ? store.redo() : store.undo()), y: () => store.redo(), ...(files && { s: () => files.save(), o: () => files.chooser.click() }) });
   root.addEventListener("keydown", (event) => {
@@ -36,7 +39,7 @@ export function listenToKeys(store, scene, files = null, root = document) {
     if (control) {
       const act = acts(event)[key.toLowerCase()];
       // A text that is being typed has the browser's own undo.
-      if (!act || (written(target) && target.dataset.typing === "true" && /^[zy]$/i.test(key))) return;
+      if (!act || (written(target) && /** @type {HTMLElement} */ (target).dataset.typing === "true" && /^[zy]$/i.test(key))) return;
       event.preventDefault();
       act();
     } else if (scene.dragged && key === "Escape") {
@@ -49,14 +52,14 @@ export function listenToKeys(store, scene, files = null, root = document) {
       store.select(null);
     }
   }, true);
-  root.addEventListener("input", ({ target }) => target.dataset && (target.dataset.typing = "true"));
-  for (const name of ["change", "focusout"]) root.addEventListener(name, ({ target }) => target.dataset && delete target.dataset.typing);
+  root.addEventListener("input", ({ target }) => target instanceof HTMLElement && (target.dataset.typing = "true"));
+  for (const name of ["change", "focusout"]) root.addEventListener(name, ({ target }) => target instanceof HTMLElement && delete target.dataset.typing);
 }
 
 /** Space plays and stops wherever it has no other use. */
 export function listenToSpace({ player }, root = document) {
   root.addEventListener("keydown", (event) => {
-    if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || event.target.closest?.(TYPED_IN) || !player.path) return;
+    if (event.key !== " " || event.ctrlKey || event.metaKey || event.altKey || (event.target instanceof Element && event.target.closest(TYPED_IN)) || !player.path) return;
     event.preventDefault();
     player.play(!player.playing);
   });

@@ -19,7 +19,10 @@ const LEAST_ARROW = 1.5; // pixels
 
 export class LiveLinkage {
   constructor(answers, playing, scene) {
-    Object.assign(this, { answers, playing, scene, factor: 0 });
+    this.answers = answers;
+    this.playing = playing;
+    this.scene = scene;
+    this.factor = 0;
     this.beyond = s("path", { class: "bm-curve bm-beyond" });
     this.others = s("path", { class: "bm-curve bm-other" });
     this.here = s("path", { class: "bm-curve bm-here" });

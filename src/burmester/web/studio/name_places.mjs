@@ -37,6 +37,8 @@ export function along(up, width) {
 /** All names of the plane.  `put` moves a name with its point at once; where it stands beside the point is looked
  * at anew when the hand rests, so that no name runs about during a drag. */
 export class NamePlaces {
+  /** @type {any} */ timer;
+
   constructor(scene) {
     this.scene = scene;
     this.names = new Map(); // by their elements
@@ -83,7 +85,7 @@ export class NamePlaces {
       for (const [element, name] of seen) {
         stands.delete(element);
         const others = [...stands.values()];
-        let best = null;
+        let best = { cost: Infinity, at: name.at, box: [0, 0, 0, 0] };
         for (const at of name.places) {
           const box = boxAt(name, at);
           const habit = at[0] === name.at[0] && at[1] === name.at[1] ? HABIT : 0;
@@ -93,7 +95,7 @@ export class NamePlaces {
           for (const other of others) cost += SAME * overlap(box, other);
           const own = awayFrom(box, name);
           if (seen.some(([, other]) => other !== name && awayFrom(box, other) < own + 1)) cost += MISLEADING;
-          if (!best || cost < best.cost) best = { cost, at, box };
+          if (cost < best.cost) best = { cost, at, box };
         }
         name.at = best.at;
         stands.set(element, best.box);

@@ -18,7 +18,7 @@ const HALVINGS = 24; // steps towards a dead point between two frames
 export function drivenByOther(linkage, length) {
   const led = [linkage.led[1], linkage.led[0]];
   if (led[0].kind === "PP" || !linkage.ways.length) return { ...linkage, led, ways: [], pose_errors: linkage.pose_errors.map((row) => ({ ...row, way: null, frame: null, at: null })) };
-  const ways = [], places = linkage.pose_errors.map(() => null);
+  const ways = /** @type {any[]} */ ([]), places = Array(linkage.pose_errors.length).fill(null); // of every pose its way and frame
   for (const chain of chainsOf(linkage.ways)) {
     for (const piece of piecesOf(linkage, led[0], chain, length)) {
       const way = wayOf(linkage, led, piece, chain, length);
@@ -148,7 +148,7 @@ function wayOf(linkage, led, piece, chain, length) {
   if (falls) [drive, places].forEach((each) => each.reverse());
   const turns = slides ? 0 : 2 * Math.PI * Math.round((drive[0] + drive[drive.length - 1]) / (4 * Math.PI));
   return {
-    circuit: chain.circuit, round: piece.round, dead: falls ? [...piece.dead].reverse() : piece.dead, poses: [], falls,
+    circuit: chain.circuit, round: piece.round, dead: falls ? [...piece.dead].reverse() : piece.dead, poses: /** @type {number[]} */ ([]), falls,
     drive: drive.map((value) => (slides ? value : degrees(value - turns))),
     x: places.map(({ x }) => x), y: places.map(({ y }) => y), angle: places.map(({ a }) => a),
     transmission: places.map((place) => transmissionOf(...led, place)),

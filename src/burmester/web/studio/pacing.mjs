@@ -5,6 +5,8 @@ const SHARE = 8; // the pause after work is so many times as long as the work
 
 /** `ask` has `work` done, at once where it rested long enough; asked again meanwhile, it is done once more afterwards. */
 export class Pace {
+  /** @type {any} */ timer;
+
   /** @param {() => void} work @param {() => boolean} [wanted] asked before the work; what is not wanted is not done */
   constructor(work, wanted = () => true) {
     this.work = work;

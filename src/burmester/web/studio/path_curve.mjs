@@ -20,7 +20,8 @@ export function lineOf({ poses, path }, view) {
 
 export class PathCurve {
   constructor(store, scene) {
-    Object.assign(this, { store, scene });
+    this.store = store;
+    this.scene = scene;
     this.line = s("path", { class: "bs-path", "aria-hidden": "true" });
     scene.layer("regions").append(this.line);
     store.on("document", () => this.draw());
@@ -44,7 +45,7 @@ export function resampled(stroke, { meets, apart, smooth = 0 }) {
   const closed = gap < Math.max(meets, SHARE * size) && length > 3 * gap + size;
   const line = closed ? [...stroke, stroke[0]] : stroke, along = [0];
   for (let k = 1; k < line.length; k += 1) along.push(along[k - 1] + Math.hypot(line[k][0] - line[k - 1][0], line[k][1] - line[k - 1][1]));
-  const whole = along.at(-1), count = clamp(Math.round(whole / apart), ...POINTS);
+  const whole = along[along.length - 1], count = clamp(Math.round(whole / apart), ...POINTS);
   const at = (wanted) => {
     const u = closed ? ((wanted % whole) + whole) % whole : clamp(wanted, 0, whole);
     let k = 1;
@@ -63,7 +64,11 @@ export function resampled(stroke, { meets, apart, smooth = 0 }) {
 /** Draw a path: press, move, let go. */
 export class PathTool {
   constructor(store, scene, done) {
-    Object.assign(this, { store, scene, done, name: "path", stroke: null });
+    this.store = store;
+    this.scene = scene;
+    this.done = done;
+    this.name = "path";
+    this.stroke = null;
     this.hint = "Press, draw the curve that a point of the body is to trace, and let go; where the ends meet it closes. Enter puts an oval in the middle, Escape gives up.";
     this.line = s("path", { class: "bs-draft bs-draft-path" });
     scene.layer("tool").append(this.line);

@@ -9,9 +9,15 @@ const GRASP = 26; // pixels: how near a pointer takes hold of a pivot
 const STILL = 3; // pixels: a pointer on a pivot that moves no farther leaves it
 
 export class PivotMapPanel {
+  /** @type {any} */ map;
+
   /** hand: the pivots that can be taken hold of: pivot, take, put, drop and release, as PivotSurface has them. */
   constructor(answers, playing, hand) {
-    Object.assign(this, { answers, playing, hand, map: null, handles: null });
+    this.answers = answers;
+    this.playing = playing;
+    this.hand = hand;
+    this.map = null;
+    this.handles = null;
     this.element = h("div", { class: "bm-fill" });
     this.pace = new Pace(() => this.build(), () => isSeen(this.element));
     playing.on("shape", () => this.pace.ask());
@@ -50,7 +56,8 @@ export class PivotMapPanel {
     });
   }
 
-  /** The fixed pivot nearest to a point: { k, away } in pixels of the map; Infinity where there is none. */
+  /** The fixed pivot nearest to a point: { k, away } in pixels of the map; Infinity where there is none.
+   * @param {number[]} point */
   nearest([x, y]) {
     const { view } = this.map;
     const away = [0, 1].map((k) => {

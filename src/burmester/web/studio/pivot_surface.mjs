@@ -14,8 +14,15 @@ import { PivotMapPanel } from "./pivot_map_panel.mjs";
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class PivotSurface {
+  /** @type {any} */ held;
+
   constructor(store, answers, playing, scene) {
-    Object.assign(this, { store, answers, playing, scene, pivots: null, held: null });
+    this.store = store;
+    this.answers = answers;
+    this.playing = playing;
+    this.scene = scene;
+    this.pivots = null;
+    this.held = null;
     this.handles = s("g", { class: "bs-pivots" });
     scene.layer("pivots").append(this.handles);
     this.parts = [0, 1].map((k) => ["F", "M"].map((plane) => this.handle(k, plane)));

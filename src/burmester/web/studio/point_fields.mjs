@@ -8,7 +8,11 @@ const FEW = 40; // points that have fields
 export class PointFields {
   /** options and step: as a NumberField of a length takes them; set(change): change goes from points to points. */
   constructor({ name, options, step, set }) {
-    Object.assign(this, { name, options, step, set, fields: [] });
+    this.name = name;
+    this.options = options;
+    this.step = step;
+    this.set = set;
+    this.fields = [];
     this.shape = h("span", { class: "bs-hint" });
     this.more = h("p", { class: "bs-hint" });
     this.pairs = h("div", { class: "bs-coordinates" });

@@ -205,7 +205,9 @@ export class PoseHandles {
 /** The tool that adds points, whose angle is free. */
 export class PointTool {
   constructor(store, scene) {
-    Object.assign(this, { store, scene, name: "point" });
+    this.store = store;
+    this.scene = scene;
+    this.name = "point";
     this.hint = "Click where the body's point is to pass; how the body turns there is free. Escape ends.";
   }
 
@@ -225,7 +227,10 @@ export class PointTool {
 /** The tool that adds poses: a click sets one, the second click turns it. */
 export class PoseTool {
   constructor(store, scene) {
-    Object.assign(this, { store, scene, name: "pose", gesture: null });
+    this.store = store;
+    this.scene = scene;
+    this.name = "pose";
+    this.gesture = null;
     this.hint = "Click where the pose is to stand, and click again to turn it. Escape ends.";
   }
 

@@ -13,6 +13,12 @@ const BOUNDS = [["x", "x", "length"], ["y", "y", "length"], ["angle", "angle_deg
 const oneLine = (name) => (name ?? "").replace(/[\r\n\u2028\u2029]+/g, " ");
 
 export class PoseTable {
+  /** @type {any} */ exact;
+  /** @type {any} */ crank;
+  /** @type {any} */ weight;
+  /** @type {any} */ bounds;
+  /** @type {any} */ crankLine;
+
   constructor(store, scene) {
     this.store = store;
     this.scene = scene;

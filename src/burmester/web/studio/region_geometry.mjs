@@ -1,7 +1,11 @@
 // Regions of limits: how far a point is from one, and outlines that meet.
 
+/** @typedef {number[]} Point */
+/** @type {(p: Point, q: Point) => number} */
 const cross = ([a, b], [c, d]) => a * d - b * c;
+/** @type {(p: Point, q: Point) => Point} */
 const minus = ([a, b], [c, d]) => [a - c, b - d];
+/** @type {(p: Point) => number} */
 const size = ([a, b]) => Math.hypot(a, b);
 
 /** How far a point is from a segment. */

@@ -22,13 +22,16 @@ export function limitName(document, { table, key }) {
   return `${PIVOT[key]}${limitsOf(document).length > 1 ? ` of dyad ${table + 1}` : ""}`;
 }
 
-/** A region's shape and points; null where it is a drawing. */
+/** A region's shape and points; null where it is a drawing.
+ * @returns {any} */
 function regionShape(region) {
   if (region.box) return { shape: "box", points: region.box };
   return region.polygon ? { shape: "polygon", points: region.polygon } : null;
 }
 
 export class Regions {
+  /** @type {any} */ onjudged;
+
   constructor(store, scene) {
     this.store = store;
     this.scene = scene;

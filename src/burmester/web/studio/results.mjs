@@ -12,7 +12,11 @@ const MOST = 40; // cards that are there at once, unless all of them are asked f
 
 export class Results {
   constructor(store, answers) {
-    Object.assign(this, { store, answers, cards: new Map(), wanted: { order: "rank", filter: "all", type: "" }, all: false });
+    this.store = store;
+    this.answers = answers;
+    this.cards = new Map();
+    this.wanted = { order: "rank", filter: "all", type: "" };
+    this.all = false;
     const choice = (name, entries, key) =>
       h("label", {}, `${name} `, h("select", { "data-choice": key, onchange: (event) => this.want(key, event.target.value) }, entries.map(([value, text]) => h("option", { value }, text))));
     this.types = choice("Type", [["", "any"]], "type");
@@ -151,7 +155,7 @@ export class Results {
     try {
       said = (await (await connection.post("/improve", { document, options, linkage: id })).json()).better;
     } catch (error) {
-      said = [`That did not work: ${error.message}`];
+      said = [`That did not work: ${/** @type {Error} */ (error).message}`];
     }
     if (document === this.store.document) card()?.tellBetter(said.length ? said.map(nearIt) : ["Nothing better lies near it."]);
   }

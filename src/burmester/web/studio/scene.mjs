@@ -17,6 +17,8 @@ const SPARE = 0.5; // of the size of what is near: so far a picture reaches for 
  * zoomKey: whether the wheel zooms with Ctrl or Cmd only, for it scrolls the page.
  */
 export class Scene {
+  /** @type {any} */ view;
+
   constructor(store, { zoomKey = false } = {}) {
     this.store = store;
     this.zoomKey = zoomKey;
@@ -170,6 +172,7 @@ export class Scene {
   /** Drag an element: start(point, event) may return false; move(point, event); end(point); cancel() at Escape.
    *
    * A press that does not move is a click: click(event), and nothing is dragged.
+   * @param {any} element @param {Record<string, any>} hand
    */
   drag(element, { start = () => true, move, end = () => {}, cancel = () => {}, click = () => {} }) {
     element.addEventListener("pointerdown", (event) => {
@@ -179,6 +182,7 @@ export class Scene {
       element.focus?.({ preventScroll: true });
       const from = this.at(event), ended = new AbortController(), { signal } = ended;
       let begun = false;
+      /** @param {() => void} finish */
       const stop = (finish) => {
         ended.abort();
         this.dragged = this.box = null;
@@ -307,7 +311,10 @@ export const bounds = (points) =>
  */
 export class Kept {
   constructor(group, make, show) {
-    Object.assign(this, { group, make, show, elements: new Map() });
+    this.group = group;
+    this.make = make;
+    this.show = show;
+    this.elements = new Map();
   }
 
   draw(items) {

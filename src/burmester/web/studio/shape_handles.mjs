@@ -36,7 +36,12 @@ function withCorner(shape, points, k, to) {
  */
 export class ShapeHandles {
   constructor(scene, { what, set, remove, select, abandon, className = "" }) {
-    Object.assign(this, { scene, what, set, remove, select, abandon });
+    this.scene = scene;
+    this.what = what;
+    this.set = set;
+    this.remove = remove;
+    this.select = select;
+    this.abandon = abandon;
     this.title = s("title");
     this.area = s("path", { class: "bs-shape-area", tabindex: 0, role: "button" }, this.title);
     this.line = s("path", { class: "bs-shape-line" });

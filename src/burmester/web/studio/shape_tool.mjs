@@ -18,12 +18,19 @@ const MIDDLE = { point: [[0, 0]], segment: [[-1, 0], [1, 0]], line: [[-1, 0], [1
 const SHARE = 0.12; // of the picture: half the size of a shape that is put in its middle
 
 const ordered = ([[a, b], [c, d]]) => [[Math.min(a, c), Math.min(b, d)], [Math.max(a, c), Math.max(b, d)]];
+/** @type {(points: number[][]) => boolean} */
 const isFlat = ([[a, b], [c, d]]) => a === c && b === d;
 
 /** shape: what is drawn; place: of the frame that its points are in, a function; done(points). */
 export class ShapeTool {
   constructor(scene, { shape, place, done, name }) {
-    Object.assign(this, { scene, shape, place, done, name, points: [], next: null });
+    this.scene = scene;
+    this.shape = shape;
+    this.place = place;
+    this.done = done;
+    this.name = name;
+    this.points = [];
+    this.next = null;
     this.hint = HINTS[shape];
     this.path = s("path", { class: "bs-draft" });
     this.dots = s("g");

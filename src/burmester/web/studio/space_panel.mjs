@@ -10,7 +10,8 @@ const CALM = 200; // milliseconds after the last change: then the picture is dra
 
 export class SpacePanel {
   constructor(answers, playing) {
-    Object.assign(this, { answers, playing });
+    this.answers = answers;
+    this.playing = playing;
     this.story = h("p", { class: "bm-story" });
     const fill = h("div", { class: "bm-fill" });
     this.element = h("div", {}, this.story, fill);

@@ -21,6 +21,10 @@ const kindOf = ({ poses, path }) => `${poses.map(({ free }) => free?.join("") ??
 
 /** Events: document, solved, followed, state, chosen, pinned, placed, selection, messages. */
 export class Store {
+  /** @type {any} */ solving;
+  /** @type {any} */ placing;
+  /** @type {any} */ solved;
+
   /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object, mostFlying?: number }} start */
   constructor({ connection, document, options = {}, name = "task", settings = {}, mostFlying = MOST_FLYING }) {
     this.connection = connection;
@@ -116,7 +120,13 @@ export class Store {
   replace({ document, options = {}, name = this.name, settings = this.settings }) {
     this.history.record(this.version, null);
     this.tasks = (this.tasks ?? 0) + 1;
-    Object.assign(this, { document, options, name, settings, selection: null, placed: null, task: this.tasks });
+    this.document = document;
+    this.options = options;
+    this.name = name;
+    this.settings = settings;
+    this.selection = null;
+    this.placed = null;
+    this.task = this.tasks;
     this.changed();
     this.emit("selection", "placed");
   }
@@ -325,7 +335,7 @@ export class Store {
   forget(message = NO_ANSWER.outcome.message) {
     if (!this.solved) return;
     const result = { ...this.solved, ...NO_ANSWER, outcome: { message }, space: { ...this.solved.space, quadrics: [] } };
-    this.install({ n: null, result, document: this.document, seconds: null });
+    this.install({ n: null, result, document: this.document, seconds: null, was: undefined });
     if (this.placed) this.place([]);
   }
 
@@ -338,7 +348,15 @@ export class Store {
     if (!told.length && document === this.solvedFor && !this.followed) for (const { id } of result.linkages) this.renamed.set(id, id);
     const carried = (id) => (id === PLACED && this.placed?.linkage ? id : this.renamed.get(id) ?? null);
     this.isAnother = this.solvedTask !== this.task; // then nothing of the answer before is missing
-    Object.assign(this, { solved: result, solvedFor: document, solvedTask: this.task, seconds, basis: n, whole: null, pending: null, followed: null, followedFor: null });
+    this.solved = result;
+    this.solvedFor = document;
+    this.solvedTask = this.task;
+    this.seconds = seconds;
+    this.basis = n;
+    this.whole = null;
+    this.pending = null;
+    this.followed = null;
+    this.followedFor = null;
     for (const each of this.flying.values()) each.isOld = true; // it may go on from the answer before
     this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
     this.compared = carried(this.compared);

@@ -131,7 +131,7 @@ function listenToTokens(connection, banners) {
 }
 
 async function main() {
-  const root = document.getElementById("studio"), connection = new Connection(decodeFrame);
+  const root = /** @type {HTMLElement} */ (document.getElementById("studio")), connection = new Connection(decodeFrame);
   try {
     await connection.session();
     const start = await connection.get("/start"), kept = keptHere();
@@ -146,7 +146,7 @@ async function main() {
     const [told] = error instanceof Refused && error.status === 401 ? error.messages : [];
     root.replaceChildren(h("p", { class: "bs-failed", role: "alert" }, told
       ? `The studio is not shown here: ${told.message}. What to do: ${told.help}.`
-      : `The page could not start: ${error.message}. Is burmester studio still running? Start it again and open the address that it prints.`));
+      : `The page could not start: ${/** @type {Error} */ (error).message}. Is burmester studio still running? Start it again and open the address that it prints.`));
     if (!(error instanceof Refused)) throw error;
   }
 }

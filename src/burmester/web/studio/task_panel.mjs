@@ -20,8 +20,27 @@ const UNITS = ["", "mm", "cm", "m", "in", "ft"];
 const section = (name, title, open, ...content) => h("details", { class: "bs-section", "data-section": name, open }, h("summary", {}, title), ...content);
 
 export class TaskPanel {
+  /** @type {any} */ madeTables;
+  /** @type {any} */ regionRows;
+  /** @type {any} */ linkWidth;
+  /** @type {any} */ margin;
+  /** @type {any} */ inPlane;
+  /** @type {any} */ bodyNumbers;
+  /** @type {any} */ driver;
+  /** @type {any} */ anyOrder;
+  /** @type {any} */ numbers;
+  /** @type {any} */ lengths;
+  /** @type {any} */ tables;
+  /** @type {any} */ apart;
+  /** @type {any} */ regionList;
+  /** @type {any} */ bodyState;
+
   constructor(store, scene, regions, body, files) {
-    Object.assign(this, { store, scene, regions, body, files });
+    this.store = store;
+    this.scene = scene;
+    this.regions = regions;
+    this.body = body;
+    this.files = files;
     this.element = h("div", { class: "bs-task" });
     this.element.append(this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeRequirements(), this.makeOptions());
     store.on("document selection", () => this.draw());

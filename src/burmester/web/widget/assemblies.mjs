@@ -22,6 +22,6 @@ export class Assemblies {
         h("span", {}, h("b", {}, wayName(way, linkage).replace("assembly ", "")), ` ${wayStory(way, this.data.poses)}`),
       );
     this.element.replaceChildren(h("legend", {}, "Assembly"), ...linkage.ways.map(one));
-    give(this.element, "hidden", !linkage.ways.length);
+    give(this.element, "hidden", !linkage.ways.length || Boolean(this.data.whole)); // where all is shown there is one
   }
 }

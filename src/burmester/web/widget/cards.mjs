@@ -2,12 +2,11 @@
 
 import { h } from "./dom.mjs";
 import { clamp } from "./numbers.mjs";
-import { missOf, verdictOf } from "./tables.mjs";
 
-/** Cards of linkages: `element` holds them, `mark` shows which one is chosen. */
-export class CardList {
-  constructor(cards) {
-    this.cards = cards;
+/** A card for each linkage; `choose` is called with its index: `element` holds them, `mark` shows which one is chosen. */
+export class Cards {
+  constructor(linkages, choose) {
+    const cards = (this.cards = linkages.map((each, k) => cardOf(each, () => choose(k))));
     this.element = h(
       "nav",
       { class: "bm-list", "aria-label": "Linkages, best first" },
@@ -28,50 +27,18 @@ export class CardList {
   }
 }
 
-/** A card for each linkage; `choose` is called with its index. */
-export class Cards extends CardList {
-  constructor(data, linkages, choose) {
-    const unit = data.unit ? ` ${data.unit}` : "";
-    super(linkages.map((each, k) => fourBarCard(each, unit, () => choose(k))));
-  }
-}
+const SIGNS = { "bm-detail bm-links": " " }; // what stands between several texts of a fact; else a comma
 
 /** A card: the linkage with its verdict, facts in rows of a list, and what is said below them. */
-export function card(linkage, onclick, facts, ...below) {
+function cardOf({ id, type, usable, card: { verdict, facts, quiet, reason } }, onclick) {
+  const parts = (text, kind) => (Array.isArray(text) ? text.map((each, k) => [k ? SIGNS[kind] ?? ", " : "", h("span", { class: "bm-whole-word" }, each)]) : text);
   return h(
     "button",
-    { type: "button", class: `bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": linkage.id, onclick },
-    h("span", { class: "bm-choice-head" }, h("b", {}, linkage.id), " ", h("span", { class: "bm-type" }, linkage.type)),
-    h("span", { class: "bm-verdict" }, verdictOf(linkage)),
-    h("dl", {}, facts),
-    below,
-  );
-}
-
-/** A row of the list on a card. */
-export const fact = (name, value, kind = null) => [h("dt", { class: kind }, name), h("dd", { class: kind }, value)];
-
-/** The least transmission angle on a card. */
-export const transmissionFact = (text) => fact("transmission", text === "–" ? text : text === "0°" ? "down to 0°" : `${text} or more`);
-
-/** The lengths of links on a card. */
-export const linksFact = (lengths) => fact("links", lengths.map((each, k) => [k ? " " : "", h("span", {}, each)]), "bm-detail bm-links");
-
-function fourBarCard(linkage, unit, onclick) {
-  const { said } = linkage;
-  const links = said.links ? Object.values(said.links) : [];
-  const whole = (text) => h("span", { class: "bm-whole-word" }, text);
-  return card(
-    linkage,
-    onclick,
-    [
-      fact("worst miss", missOf(said.worst, said.angle, unit).split(" and ").map((part, k) => [k ? ", " : "", whole(part)])),
-      transmissionFact(said.transmission === "-" ? "–" : said.transmission),
-      said.quality.extent ? fact("extent, sensitivity", [whole(said.quality.extent), ", ", whole(said.quality.sensitivity)], "bm-detail") : null,
-      fact("driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`),
-      links.length ? linksFact(links) : fact("dyads", linkage.dyads.map((dyad) => `${dyad.id} (${dyad.kind})`).join(" · "), "bm-detail"),
-    ],
-    said.freedom ? h("span", { class: "bm-quiet" }, said.freedom) : null,
-    said.reasons.length ? h("span", { class: "bm-reason" }, said.reasons.join("; ")) : null,
+    { type: "button", class: `bm-choice ${usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": id, onclick },
+    h("span", { class: "bm-choice-head" }, h("b", {}, id), " ", h("span", { class: "bm-type" }, type)),
+    h("span", { class: "bm-verdict" }, verdict),
+    h("dl", {}, facts.map(([name, text, kind = null]) => [h("dt", { class: kind }, name), h("dd", { class: kind }, parts(text, kind))])),
+    quiet ? h("span", { class: "bm-quiet" }, quiet) : null,
+    reason ? h("span", { class: "bm-reason" }, reason) : null,
   );
 }

@@ -28,6 +28,7 @@ export function pivotsAt(linkage, places) {
       : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
     for (const point of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point) });
   }
+  for (const { joints } of places) for (const at of Object.values(joints ?? {})) found.push({ fixed: false, at });
   return found;
 }
 

@@ -16,13 +16,22 @@ const LARGEST = 520; // pixels: the side of the square
 const BESIDE = 620; // pixels; a narrower panel has the two pictures under each other
 
 export class FamilyMap {
+  /** @type {any} */ tints;
+  /** @type {any} */ scale;
+  /** @type {any} */ curve;
+  /** @type {any} */ view;
+  /** @type {any} */ place;
+  /** @type {any} */ drawn;
+
   constructor(data, parent) {
     this.data = data;
     this.map = data.family_map;
     this.parent = parent;
     this.pairs = new FamilyPairs(data);
     const { isCurve, columns, rows } = this.pairs;
-    Object.assign(this, { isCurve, columns, rows });
+    this.isCurve = isCurve;
+    this.columns = columns;
+    this.rows = rows;
     this.canvas = h("canvas", { "aria-hidden": "true", width: this.columns, height: this.rows });
     const name = `bm-pairs-${Math.random().toString(36).slice(2)}`; // a page may hold several reports
     const what = this.isCurve ? "pairs of dyads on the curve of four poses" : "the second fixed pivot of three poses";
@@ -103,7 +112,7 @@ export class FamilyMap {
     for (let j = -1; j <= this.rows; j += 1) {
       for (let i = -1; i <= this.columns; i += 1) {
         let around = 0;
-        for (const dj of [-1, 0, 1]) for (const di of [-1, 0, 1]) around += own(i + di, j + dj);
+        for (const dj of [-1, 0, 1]) for (const di of [-1, 0, 1]) around += Number(own(i + di, j + dj));
         mask.push(own(i, j) || around >= SPECK);
       }
     }

@@ -4,11 +4,11 @@ import { h } from "./dom.mjs";
 
 const OPEN = /^R(303|31)/; // outcomes of tasks that have no one answer: nothing went wrong
 
-/** The header of a report; good: whether a linkage is usable; kind: of report.
+/** The header of a report; good: whether a linkage is usable.
  *
  * Where one is, it says which; how it was found, and what to know of that, is there to unfold.
  */
-export function header(data, good, kind = "linkage report") {
+export function header(data, good) {
   const { outcome, warnings } = data, open = OPEN.test(outcome.code);
   const [best, ...more] = good ? data.best : [];
   const found = [`${outcome.message[0].toUpperCase()}${outcome.message.slice(1)}. `, h("span", { class: "bm-code" }, outcome.code)];
@@ -18,7 +18,7 @@ export function header(data, good, kind = "linkage report") {
   return h(
     "header",
     { class: "bm-head" },
-    h("p", { class: "bm-overline" }, `burmester · ${kind}`),
+    h("p", { class: "bm-overline" }, `burmester · ${data.kind ?? "linkage report"}`),
     data.title ? h("h1", {}, data.title) : null,
     h(
       "p",

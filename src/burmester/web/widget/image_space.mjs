@@ -17,6 +17,13 @@ const inside = (point) => point.every((value) => Math.abs(value) <= 1.0001); // 
 
 /** A picture of a box of image space in `parent`, which can be turned. */
 export class ImageSpace {
+  /** @type {any} */ waiting;
+  /** @type {any} */ space;
+  /** @type {any} */ marks;
+  /** @type {any} */ view;
+  /** @type {any} */ width;
+  /** @type {any} */ height;
+
   constructor(data, parent, webgl) {
     this.data = data;
     this.parent = parent;

@@ -5,13 +5,15 @@
 
 import { clamp, radians } from "./numbers.mjs";
 
-/** A point of M, seen in F. */
+/** A point of M, seen in F.
+ * @param {import("./types").Place} place @param {number[]} point */
 export function act(place, [x, y]) {
   const c = Math.cos(place.a), d = Math.sin(place.a);
   return [place.x + c * x - d * y, place.y + d * x + c * y];
 }
 
-/** A point of F, seen in M. */
+/** A point of F, seen in M.
+ * @param {import("./types").Place} place @param {number[]} point */
 export function back(place, [x, y]) {
   const c = Math.cos(place.a), d = Math.sin(place.a);
   return [c * (x - place.x) + d * (y - place.y), -d * (x - place.x) + c * (y - place.y)];
@@ -89,6 +91,7 @@ export function catmullRom(values, i, share, round) {
 
 /** The place of the coupler at frame u of a branch, which may be a fraction; exactly on the linkage. */
 export function placeAt(linkage, way, u, length) {
+  if (way.joints) return placeOfJoints(linkage, way, u);
   const stop = linkage.pose_errors.find((row) => row.at === way && Math.abs(row.frame - u) < 1e-6);
   if (stop) return { x: stop.x, y: stop.y, a: radians(stop.angle_deg) };
   const i = clamp(Math.floor(u), 0, way.x.length - 2), share = u - i;
@@ -100,12 +103,38 @@ export function placeAt(linkage, way, u, length) {
   return project(linkage.led, place, length);
 }
 
+/** The same with all joints, of a branch that has these: a polynomial goes through the six frames around u. */
+function placeOfJoints({ ground }, way, u) {
+  const at = (values) => smooth(values, u), joints = { ...ground };
+  for (const [name, [x, y]] of Object.entries(way.joints)) joints[name] = [at(x), at(y)];
+  return { x: at(way.x), y: at(way.y), a: at(way.angle), joints };
+}
+
+/** A value at frame u of the polynomial through the six frames around it. */
+export function smooth(values, u) {
+  const count = Math.min(6, values.length), first = clamp(Math.floor(u) - 2, 0, values.length - count);
+  let sum = 0;
+  for (let j = 0; j < count; j += 1) {
+    let weight = 1;
+    for (let k = 0; k < count; k += 1) if (k !== j) weight *= (u - first - k) / (j - k);
+    sum += weight * values[first + j];
+  }
+  return sum;
+}
+
 /** A value at frame u, linear between frames; null beside a value that is missing. */
 export function linear(values, u) {
   const i = clamp(Math.floor(u), 0, values.length - 2), share = u - i;
   if (values[i] === null || values[i + 1] === null) return null;
   const value = values[i] + share * (values[i + 1] - values[i]);
   return Number.isNaN(value) ? null : value;
+}
+
+/** The value of a curve { x, y } at a place along x; null beyond its ends, and of single points between them. */
+export function valueAt({ x, y, stems }, at) {
+  const here = x.findIndex((each) => Math.abs(each - at) < 1e-6);
+  if (here >= 0) return y[here];
+  return stems || !(at > x[0] && at < x[x.length - 1]) ? null : linear(y, frameAt(x, at));
 }
 
 /** The frame at which rising values reach `wanted`. */

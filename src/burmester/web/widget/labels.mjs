@@ -16,7 +16,7 @@ export class Labels {
 
   put(x, y, text, distance, attributes) {
     const width = 7.2 * text.length + 4, height = 14;
-    let best = null;
+    let best = { cost: Infinity, cx: 0, cy: 0, box: [0, 0, 0, 0] };
     for (let ring = 0; ring < 3; ring += 1) {
       for (let k = 0; k < 16; k += 1) {
         const angle = (Math.PI / 8) * k + Math.PI / 4;
@@ -32,7 +32,7 @@ export class Labels {
         }
         if (box[0] < 2 || box[2] > this.view.width - 2) cost += 500;
         if (box[1] < 2 || box[3] > this.view.height - 2) cost += 500;
-        if (!best || cost < best.cost) best = { cost, cx, cy, box };
+        if (cost < best.cost) best = { cost, cx, cy, box };
       }
     }
     this.taken.push(best.box);

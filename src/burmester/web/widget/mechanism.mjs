@@ -13,9 +13,10 @@ import { pointOnLine, travelOf } from "./travel.mjs";
 const BODY_AXIS = AXIS + 10; // pixels: the x axis of the body
 export const LETTER = 14; // pixels: how far the letter M stands from the origin of M, along x and against y: names of poses stand elsewhere
 /** A driver that turns, around the origin. */
-export const TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
+const TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
 const BLOCK_IN_SLOT = [18, 10]; // pixels: its length and height
 const SPARE = 5; // pixels: how far a slot goes on beyond its block
+const NAME = 15; // pixels: how far the name of a joint stands from it
 const ARROW = 24; // pixels: how far the arrow of a sliding driver stands from its block
 
 /** The parts of a linkage in a picture; places: all that are shown. */
@@ -27,7 +28,7 @@ export function mechanism(data, linkage, view, places) {
 
 /** The parts of linkages whose dyads are of the same kinds as one: `group` holds them. */
 export class Mechanism {
-  constructor({ led }) {
+  constructor({ led, drawn: links = [], ground, names }) {
     this.kinds = kindsOf(led);
     this.outline = s("path", { class: "bm-body-outline" });
     this.links = s("g");
@@ -39,9 +40,10 @@ export class Mechanism {
     this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
     this.coupler.append(...this.plates);
     this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
+    if (links.length) this.parts.push(...links.map((link) => new JointedLink(this, link)), new Joints(this, ground, names));
     this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
     for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
-    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.letter);
+    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, links.length ? null : this.letter);
   }
 
   /** Whether it can be given the dimensions of a linkage. */
@@ -67,7 +69,8 @@ export class Mechanism {
       if (more) corners.push(more);
     });
     const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-    for (const plate of this.plates) put(plate, "d", d);
+    for (const plate of linkage.drawn ? [] : this.plates) put(plate, "d", d);
+    for (const part of this.parts.slice(linkage.led.length)) part.shape(view);
     this.shapeArrow();
   }
 
@@ -95,7 +98,8 @@ export class Mechanism {
 
 const kindsOf = (led) => led.map((dyad) => dyad.kind).join();
 
-/** A point of M in pixels from its origin. */
+/** A point of M in pixels from its origin.
+ * @param {number[]} point @param {import("./types").View} view */
 const inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
 
 /** The transform of a block on its rail. */
@@ -107,13 +111,16 @@ function onRail(dyad, place, view) {
 const block = (side, width, height) =>
   s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
 
-/** Put a pin at a point given in pixels, with the name of its dyad. */
+/** Put a pin at a point given in pixels, with the name of its dyad.
+ * @param {any} pin @param {number[]} point @param {any} dyad */
 function setPin(pin, [x, y], dyad) {
   put(pin, "cx", px(x));
   put(pin, "cy", px(y));
   put(pin, "data-dyad", dyad.id);
 }
 
+/** A point of F in pixels.
+ * @param {number[]} point @param {import("./types").View} view */
 const inGround = ([x, y], view) => [view.X(x), view.Y(y)];
 
 /** RR: a bar from the fixed pivot to the moving one. */
@@ -192,11 +199,64 @@ class Slot {
   }
 }
 
-/** PP: a body that only translates has no part of its own. */
+/** A link between joints: a bar, or a plate of three and more. */
+class JointedLink {
+  constructor({ links }, { joints, kind }) {
+    this.joints = [...joints];
+    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+    links.append(s("g", { class: `bm-link bm-${kind}${joints.length > 2 ? " bm-ternary" : ""}`, "data-link": joints.replace("M", "") }, this.strokes));
+  }
+
+  shape(view) {
+    this.view = view;
+  }
+
+  show(place) {
+    const d = `M${this.joints.map((joint) => inGround(place.joints[joint] ?? [place.x, place.y], this.view).map(px).join(" ")).join("L")}${this.joints.length > 2 ? "Z" : ""}`;
+    for (const stroke of this.strokes) put(stroke, "d", d);
+  }
+}
+
+/** The pins of joints; the name of one that moves stands beyond the corner of a link. */
+class Joints {
+  constructor({ pins }, ground, names) {
+    this.pins = [...Object.keys(ground), ...Object.keys(names)].map((joint) => {
+      const pin = s("circle", { class: `bm-pin${joint in ground ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint });
+      return { joint, pin, link: [...(names[joint] ?? "")], name: joint in ground ? null : s("text", { class: "bm-name", "text-anchor": "middle" }, joint) };
+    });
+    pins.append(...this.pins.map(({ pin }) => pin), ...this.pins.flatMap(({ name }) => name ?? []));
+  }
+
+  shape(view) {
+    this.view = view;
+  }
+
+  show({ joints }) {
+    for (const { joint, pin, link, name } of this.pins) {
+      const [x, y] = inGround(joints[joint], this.view);
+      put(pin, "cx", px(x));
+      put(pin, "cy", px(y));
+      if (!name) continue;
+      const [u, v] = outwards(link.map((each) => inGround(joints[each], this.view)), [x, y]);
+      put(name, "x", px(x + NAME * u));
+      put(name, "y", px(y + NAME * v + 4));
+    }
+  }
+}
+
+/** The direction from the middle of a plate to one of its corners; upwards where they are one point.
+ * @param {number[][]} corners @param {number[]} corner */
+function outwards(corners, [x, y]) {
+  const middle = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
+  const u = x - middle[0], v = y - middle[1], size = Math.hypot(u, v);
+  return size > 1 ? [u / size, v / size] : [0, -1];
+}
+
+/** PP: a body that only translates has no part of its own; nor has a crank between joints. */
 class Nothing {
   shape() {}
 
   show() {}
 }
 
-const PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing };
+const PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing, crank: Nothing };

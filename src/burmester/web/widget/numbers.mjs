@@ -31,7 +31,7 @@ export const spans = (extent) => `${figure(extent)} span${figure(extent) === "1"
 export function ticks(low, high, about) {
   const rough = (high - low) / Math.max(1, about);
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((k) => k * power).find((each) => each >= rough * 0.999);
+  const step = [1, 2, 5, 10].map((k) => k * power).find((each) => each >= rough * 0.999) ?? 10 * power;
   const digits = Math.max(0, -Math.floor(Math.log10(step * 1.0001)));
   const marks = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9; k += 1) {

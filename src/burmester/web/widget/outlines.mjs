@@ -1,8 +1,8 @@
 // The outline of the body, and the regions that body and links have to keep out of.
 
 import { s } from "./dom.mjs";
-import { transform } from "./drawing.mjs";
-import { act } from "./kinematics.mjs";
+import { polyline, transform } from "./drawing.mjs";
+import { act, placeAt } from "./kinematics.mjs";
 import { px, radians } from "./numbers.mjs";
 import { isPoint, shortened } from "./tables.mjs";
 
@@ -31,7 +31,10 @@ const placesAtPoses = (data, linkage) =>
 /** The body at every pose, the paler the earlier. */
 export function ghosts(data, linkage, view) {
   const group = s("g", { class: "bm-ghosts" });
-  if (!data.body) return group;
+  if (!data.body) {
+    for (const row of linkage?.drawn ? linkage.pose_errors : []) group.append(plate(placeAt(linkage, linkage.ways[row.way], row.frame, data.chart.length), linkage, view));
+    return group;
+  }
   const last = Math.max(1, data.poses.length - 1);
   for (const { x, y, a, k } of placesAtPoses(data, linkage)) {
     const opacity = (PALEST + ((1 - PALEST) * k) / last).toFixed(3);
@@ -39,6 +42,10 @@ export function ghosts(data, linkage, view) {
   }
   return group;
 }
+
+/** The body by its joints, and by its origin where that is a corner. */
+const plate = (place, { drawn }, view) =>
+  s("path", { class: "bm-ghost", d: `${polyline([...drawn.find(({ kind }) => kind === "carried").joints].map((joint) => place.joints[joint] ?? [place.x, place.y]), view)}Z` });
 
 /** The regions to keep out of, hatched, with their names. */
 export function keepOut(data, view) {
@@ -82,7 +89,7 @@ function bodyCorners(data, linkage, places) {
 const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
 
 /** A box, [x low, y low, x high, y high], that holds points, too. */
-export const including = (box, points) =>
+const including = (box, points) =>
   points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
 
 /** The box of the picture that holds the outlines, too: all of them, or as far as the linkage stays large.

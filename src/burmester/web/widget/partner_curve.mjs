@@ -6,6 +6,8 @@ import { Labels } from "./labels.mjs";
 import { px } from "./numbers.mjs";
 
 export class PartnerCurve {
+  /** @type {any} */ pixel;
+
   constructor(data, pairs) {
     this.data = data;
     this.map = data.family_map;

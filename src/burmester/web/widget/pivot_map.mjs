@@ -8,6 +8,8 @@ const MAX_BANDS = 12; // shades between the least and the greatest error
 
 /** A canvas in shades under an SVG element with pivots and poses, a legend and a readout. */
 export class PivotMap {
+  /** @type {any} */ view;
+
   constructor(data, parent) {
     this.data = data;
     this.parent = parent;

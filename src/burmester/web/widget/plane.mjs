@@ -11,6 +11,8 @@ import { decimalsOf, isNamed, isPoint } from "./tables.mjs";
 import { railOf } from "./rail.mjs";
 import { placesOf, pointOnLine, travelOf } from "./travel.mjs";
 
+const BESIDE_PIVOT = [16, 28, 40]; // pixels from a pivot, along its crank
+
 /** Magnifications of the error arrows; 0 draws none. */
 export const FACTORS = [0, 1, 10, 100, 1000, 10000, 100000];
 
@@ -34,6 +36,10 @@ export function hasFarPivots(data, linkage, places) {
 
 /** An SVG element in `parent`: `build` draws a linkage on one of its ways, `show` moves it. */
 export class Plane {
+  /** @type {any} */ view;
+  /** @type {any} */ places;
+  /** @type {any} */ linkage;
+
   constructor(data, parent) {
     this.data = data;
     this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
@@ -50,8 +56,8 @@ export class Plane {
     const { data, svg } = this, path = linkage?.ways[way];
     this.linkage = linkage;
     this.way = way;
-    this.places = path ? this.placesOf(path, stretch) : [];
-    const bare = this.bounds(far);
+    this.places = path ? placesOf(data, linkage, path, stretch) : [];
+    const bare = boundsOf(data, linkage, this.places, far);
     const width = Math.max(260, this.parent.clientWidth);
     const box = widened(bare, data, linkage, this.places, width, far);
     this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
@@ -66,7 +72,7 @@ export class Plane {
     svg.dataset.left = view.left;
     svg.dataset.top = view.top;
     svg.replaceChildren();
-    svg.append(this.grid(), keepOut(data, view), this.ghosts());
+    svg.append(this.grid(), keepOut(data, view), ghosts(data, linkage, view));
     svg.append(...[this.wantedPath(), linkage ? this.paths() : null].filter(Boolean));
     const labels = new Labels(view);
     this.names = s("g", { class: "bm-names" }, keepOutNames(data, view, labels));
@@ -82,30 +88,10 @@ export class Plane {
       }
     }
     svg.append(this.poses(linkage, factor, labels));
-    this.moving = path ? this.mechanism() : null;
+    this.moving = path ? mechanism(data, linkage, view, this.places) : null;
     if (this.moving) svg.append(this.moving.group);
     if (linkage && !far) this.farPivots(labels);
     svg.append(this.names);
-  }
-
-  /** The places of the body along a stretch of a way. */
-  placesOf(way, stretch) {
-    return placesOf(this.data, this.linkage, way, stretch);
-  }
-
-  /** The box that the picture has to hold, but for outlines. */
-  bounds(far) {
-    return boundsOf(this.data, this.linkage, this.places, far);
-  }
-
-  /** The body at every pose. */
-  ghosts() {
-    return ghosts(this.data, this.linkage, this.view);
-  }
-
-  /** The moving parts. */
-  mechanism() {
-    return mechanism(this.data, this.linkage, this.view, this.places);
   }
 
   grid() {
@@ -138,7 +124,7 @@ export class Plane {
     linkage.ways.forEach((way, k) => {
       const same = way.circuit === linkage.ways[this.way]?.circuit;
       const kind = k === this.way ? "bm-beyond" : same ? "bm-same" : "bm-other";
-      const whole = this.placesOf(way, { low: 0, high: way.x.length - 1 });
+      const whole = placesOf(this.data, linkage, way, { low: 0, high: way.x.length - 1 });
       const d = polyline(whole.map(({ x, y }) => [x, y]), view);
       group.append(s("path", { class: `bm-curve ${kind}`, d }));
     });
@@ -152,18 +138,34 @@ export class Plane {
 
   /** The paths of the body's pivots: those on links and in slots. */
   pivotPaths() {
-    const drawn = [...this.linkage.led.entries()].filter(([, dyad]) => dyad.moving_pivot && dyad.kind !== "PR");
-    return drawn.map(([side, dyad]) => ({ side, points: this.places.map((place) => act(place, dyad.moving_pivot)) }));
+    const { places, linkage } = this;
+    if (linkage.traced) return [...linkage.traced].map((joint) => ({ side: "-inner", points: places.map((place) => place.joints[joint]) }));
+    const drawn = [...linkage.led.entries()].filter(([, dyad]) => dyad.moving_pivot && dyad.kind !== "PR");
+    return drawn.map(([side, dyad]) => ({ side, points: places.map((place) => act(place, dyad.moving_pivot)) }));
   }
 
   /** Feet of fixed pivots and rails of sliders, with the names of their dyads. */
   ground(labels) {
     const group = s("g", { class: "bm-grounds" });
-    this.linkage.led.forEach((dyad, side) => {
+    this.keepCranksFree(labels);
+    this.linkage.led.forEach((dyad, k) => {
+      const side = Math.min(k, 1);
       if (dyad.kind === "PR") this.rail(group, labels, dyad, side);
       else if (dyad.fixed_pivot) this.fixedPivot(group, labels, dyad, side);
     });
     return group;
+  }
+
+  /** Where cranks between joints are on their way no name is to stand. */
+  keepCranksFree(labels) {
+    const { view, places, linkage } = this, every = Math.ceil(places.length / 9);
+    const arms = (linkage.drawn ?? []).flatMap(({ joints }) => [...joints].filter((joint) => joint in linkage.ground).flatMap((pivot) => [...joints].map((end) => [pivot, end])));
+    for (const { joints } of places.filter((_, k) => k % every === 0)) {
+      for (const [pivot, end] of arms) {
+        const [[x, y], [u, v]] = [joints[pivot], joints[end]].map((at) => [view.X(at[0]), view.Y(at[1])]), size = Math.hypot(u - x, v - y);
+        if (size) for (const along of BESIDE_PIVOT) labels.block(x + (along * (u - x)) / size, y + (along * (v - y)) / size, 12, 12);
+      }
+    }
   }
 
   /** A rail as long as the travel of its block. */
@@ -189,7 +191,7 @@ export class Plane {
     const at = foot();
     at.setAttribute("transform", `translate(${px(x)} ${px(y)})`);
     group.append(at);
-    this.names.append(labels.put(x, y + 4, dyad.id, 27, { class: `bm-name bm-side${side}` }));
+    this.names.append(labels.put(x, y + 4, dyad.name ?? dyad.id, 27, { class: `bm-name bm-side${side}` }));
   }
 
   /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
@@ -203,7 +205,7 @@ export class Plane {
       const u = (x - cx) / size, v = (y - cy) / size;
       const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
       const ex = cx + reach * u, ey = cy + reach * v;
-      const text = `${dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
+      const text = `${dyad.name ?? dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
       labels.block(ex, ey, 20, 20);
       this.names.append(
         s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),

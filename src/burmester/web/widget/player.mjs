@@ -1,7 +1,7 @@
 // What moves a linkage along one of its ways: playing, the slider, steps from pose to pose.
 
 import { give, h, put, s, say } from "./dom.mjs";
-import { linear, placeAt } from "./kinematics.mjs";
+import { linear, placeAt, smooth, valueAt } from "./kinematics.mjs";
 import { clamp, degrees, figure, fixed, px, radians } from "./numbers.mjs";
 import { calledOf, decimalsOf, missOf, nounOf, poseName, shortened } from "./tables.mjs";
 
@@ -12,6 +12,7 @@ const NUMBER_ROWS = 2; // rows of numbers, where the names have no room
 const MANY_POSES = 100; // above this number there is one row of numbers
 const ROW = 13; // pixels: the distance between two of them
 const LONGEST_TICK = 18; // characters of a pose's name under the slider
+const NO_ERROR = 1e-7; // degrees; an error below is rounding
 const STEPS = 360; // of a key along what is played
 
 /** Where the linkage is, `u` frames along its way, with the elements that show it and change it.
@@ -20,6 +21,11 @@ const STEPS = 360; // of a key along what is played
  * transmission angle there, and the index of the nearest pose; rebuild() draws another way.
  */
 export class Player {
+  /** @type {any} */ parts;
+  /** @type {any} */ steps;
+  /** @type {any} */ tick;
+  /** @type {any} */ wholeLabel;
+
   constructor(data, show, rebuild) {
     this.data = data;
     this.draw = { show, rebuild };
@@ -268,7 +274,7 @@ export class Player {
       return;
     }
     const place = this.placeAt(this.u);
-    const drive = linear(path.drive, this.u), transmission = place.transmission ?? linear(path.transmission, this.u);
+    const drive = linear(path.drive, this.u), transmission = linear(path.transmission, this.u);
     const near = (this.atPose = this.nearest(place));
     if (told) {
       give(this.slider, "min", this.stretch.low);
@@ -282,7 +288,7 @@ export class Player {
   /** Where the driver is: an angle, or a place on its line. */
   driverText(drive) {
     const { data, linkage } = this;
-    return linkage.led[0].kind === "PR" ? `${fixed(drive, decimalsOf(data))}${data.unit ? ` ${data.unit}` : ""}` : `${fixed(drive, 1)}°`;
+    return linkage.led[0].kind === "PR" ? `${fixed(drive, decimalsOf(data))}${data.unit ? ` ${data.unit}` : ""}` : `${linkage.crank ?? ""}${fixed(drive, 1)}°`;
   }
 
   /** The readout: driver, body, transmission angle, and the nearest pose. */
@@ -294,10 +300,13 @@ export class Player {
     // A task may lose poses before it is solved again.
     const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit} from ${calledOf(pose)}`;
     const missed = () => `at ${calledOf(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit)}`;
-    const said = !pose ? "between the poses" : at ? missed() : away();
-    const texts = [
+    const said = !pose ? "between the poses" : pose.called ? `${at ? "at" : "near"} ${pose.called}` : at ? missed() : away();
+    const known = this.path.told?.map((each) => this.toldOf(each)) ?? [
       `driver ${driver}`,
       `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
+    ];
+    const texts = [
+      ...known,
       `transmission ${transmission === null ? "–" : `${fixed(transmission, 1)}°`}`,
       said,
     ];
@@ -305,7 +314,14 @@ export class Player {
       const whole = k + 1 < texts.length ? `${text} ·` : text;
       if (this.parts[k].textContent !== whole) this.parts[k].textContent = whole;
     });
-    put(this.slider, "aria-valuetext", `driver ${driver}, ${texts[3]}`);
+    put(this.slider, "aria-valuetext", `${texts[0]}, ${texts[3]}`);
+  }
+
+  /** A value along the way, and how far it is off where a panel says so. */
+  toldOf({ name, digits, values, panel }) {
+    const error = panel === undefined ? null : valueAt(this.linkage.panels[panel], smooth(this.path.drive, this.u));
+    const off = error === null ? "" : `, off by ${Math.abs(error) < NO_ERROR ? "0" : figure(error)}°`;
+    return `${name} ${fixed(smooth(values, this.u), digits)}°${off}`;
   }
 }
 

@@ -1,29 +1,36 @@
 // Errors at the poses and the transmission angle, over the drive, with one cursor through all.
 
-import { s } from "./dom.mjs";
-import { frameAt, linear } from "./kinematics.mjs";
+import { put, s } from "./dom.mjs";
+import { frameAt, linear, valueAt } from "./kinematics.mjs";
 import { angleTicks, clamp, figure, px, ticks } from "./numbers.mjs";
 import { calledOf, isPoint, nounOf, poseName, shortened } from "./tables.mjs";
 
-export const LEFT = 62, RIGHT = 14; // pixels beside the panels
+const LEFT = 62, RIGHT = 14; // pixels beside the panels
 const TOP = 22, BOTTOM = 44; // pixels over and under them
-const PANEL = 84, GAP = 28; // pixels: height of a panel, distance between two
-const USUAL_LIMIT = 40; // degrees: the transmission angle below which designers hesitate
+const PANEL = 84, ONLY = 150, GAP = 28; // pixels: height of a panel, of one alone, distance between two
 const MANY_POSES = 40; // above this number only the three greatest errors are named
 const HEADROOM = 1.32; // greatest errors: the height of a panel, so that their names stay within
+const NO_ERROR = 1e-7; // degrees; errors below are rounding
+const TITLE = "Errors and transmission angle";
 const INSET = 8; // pixels: from the sides of a panel to the ends of what is shown
 const LONGEST_NAME = 16; // characters of a pose's name beside its stem
 const NAME_WIDTH = 11; // pixels: what an upright name takes of the width
 
 /** An SVG element in `parent`; a pointer on it calls `scrub` with a frame of the way. */
 export class Plots {
-  static HEIGHT = 3 * PANEL + 2 * GAP; // pixels: of all panels
-  static TITLE = "Errors and transmission angle";
+  /** @type {any} */ top;
+  /** @type {any} */ count;
+  /** @type {any} */ marks;
+  /** @type {any} */ way;
+  /** @type {any} */ width;
+  /** @type {any} */ X;
+  /** @type {any} */ stretch;
+  /** @type {any} */ across;
 
   constructor(data, parent, scrub) {
     this.data = data;
     this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": this.constructor.TITLE });
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": TITLE });
     parent.append(this.svg);
     const go = (event) => {
       if (!this.way) return;
@@ -41,18 +48,20 @@ export class Plots {
   /** Draw the panels of a linkage over a stretch of its way `index`. */
   build(linkage, index, stretch) {
     const { data, svg } = this, way = linkage.ways[index];
+    this.linkage = linkage;
     this.way = way;
     svg.replaceChildren();
     this.cursor = null;
     if (!way) return;
-    svg.setAttribute("aria-label", `${linkage.id}: ${this.constructor.TITLE.toLowerCase()} along the driver`);
+    svg.setAttribute("aria-label", `${linkage.id}: ${TITLE.toLowerCase()} along the driver`);
     const width = (this.width = Math.max(260, this.parent.clientWidth));
     // Long names stand upright, in a strip over the first panel.
     const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
-    const height = this.top + this.height + BOTTOM;
+    const count = (this.count = linkage.panels ? linkage.panels.length + 1 : way.loops ? 1 : nounOf(data) === "point" ? 2 : 3);
+    const height = this.top + (count > 1 ? count * PANEL + (count - 1) * GAP : ONLY) + BOTTOM;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     const [driver] = linkage.led, slides = driver.kind === "PR";
@@ -65,23 +74,20 @@ export class Plots {
       : angleTicks(this.low, this.high, Math.max(3, width / 70));
     const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit = data.unit ?? "unit of the poses";
+    this.marks = [];
     const base = this.panels(rows, unit);
     if (upright) this.uprightNames(rows);
-    const title = slides ? `place of ${driver.id} on its line (${unit})` : `driver angle (${driver.id})`;
+    const title = way.told ? `${way.told[0].name} (°)` : slides ? `place of ${driver.id} on its line (${unit})` : `driver angle (${driver.id})`;
     svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
     this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
-    this.mark = s("circle", { r: 4.5 });
-    this.cursor.append(this.mark);
+    this.cursor.append(...this.marks.map(({ mark }) => mark));
     svg.append(this.cursor);
-  }
-
-  /** The height of all panels; points alone have no angle errors. */
-  get height() {
-    return this.constructor.HEIGHT - (nounOf(this.data) === "point" ? PANEL + GAP : 0);
   }
 
   /** Draw the panels; returns the base of the last one. */
   panels(rows, unit) {
+    this.linkage.panels?.forEach((each, k) => this.values(k, each));
+    if (this.linkage.panels || this.count === 1) return this.transmission(this.count - 1, rows);
     this.errors(0, `position error (${unit})`, rows, (row) => row.position, 1e-11 * this.data.scene);
     if (nounOf(this.data) === "point") return this.transmission(1, rows);
     this.errors(1, "angle error (°)", rows.filter(({ pose }) => !isPoint(pose)), (row) => row.turned_deg, 1e-9);
@@ -120,22 +126,51 @@ export class Plots {
 
   /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
   transmission(k, rows) {
-    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
-    const Y = (this.Y = (v) => base - (v / 90) * PANEL);
+    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + (this.count > 1 ? PANEL : ONLY);
+    const Y = (v) => base - (v / 90) * (base - y0);
     this.panel("transmission angle (°)", y0, base, true);
     for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
-    const asked = this.data.asked_transmission_deg, limit = asked ?? USUAL_LIMIT;
+    const { deg: limit, said } = this.data.transmission_limit;
     svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
     // Its name stands on the side of the line where the curve is not.
     const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
-    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, `${figure(limit)}°, ${asked ? "asked" : "a usual limit"}`);
-    this.curve(way.transmission, Y, "bm-line");
-    for (const row of rows) {
-      if (row.transmission_deg === null) continue;
-      svg.append(s("circle", { class: "bm-dot", cx: px(X(row.drive)), cy: px(Y(row.transmission_deg)), r: 3 }));
-    }
+    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, said);
+    (way.loops ?? [way.transmission]).forEach((values, loop) => {
+      this.mark((drive) => linear(values, frameAt(way.drive, drive)), Y);
+      const kind = way.loops ? ` bm-loop${loop}` : "";
+      this.curve(values, Y, `bm-line${kind}`);
+      for (const row of rows) {
+        const value = way.loops ? row.loops[loop] : row.transmission_deg;
+        if (value !== null) svg.append(s("circle", { class: `bm-dot${kind}`, cx: px(X(row.drive)), cy: px(Y(value)), r: 3 }));
+      }
+    });
     svg.append(limitName);
     return base;
+  }
+
+  /** A dot on the cursor, at a value for the drive. */
+  mark(value, Y) {
+    this.marks.push({ mark: s("circle", { r: 4.5 }), value, Y });
+  }
+
+  /** A curve of its own over the drive, or stems from zero, with dots. */
+  values(k, curve) {
+    const { title, x, y, dots, stems } = curve, { svg, low, high } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
+    const shown = [...x.keys()].filter((i) => y[i] !== null && x[i] >= low && x[i] <= high).map((i) => [x[i], y[i]]);
+    const all = [...shown, ...dots].map(([, value]) => value), least = Math.min(...all), most = Math.max(...all), room = 0.08 * (most - least);
+    this.panel(title, y0, base);
+    if (!(Math.max(Math.abs(least), Math.abs(most)) > NO_ERROR)) {
+      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, shown.length ? "exact, up to rounding" : "it cannot be assembled"));
+      return;
+    }
+    const Y = (v) => base - ((v - least + room) / (most - least + 2 * room)) * PANEL;
+    const at = (point) => `${px(this.X(point[0]))} ${px(Y(point[1]))}`;
+    for (const { at: value, text } of ticks(least, most, 4)) this.rule(Y(value), text);
+    if (least < 0 && most > 0) svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(0))}H${this.width - RIGHT}` }));
+    if (stems) for (const [a, b] of shown) svg.append(s("path", { class: "bm-stem", d: `M${at([a, 0])}L${at([a, b])}` }));
+    else svg.append(s("path", { class: "bm-line", d: `M${shown.map(at).join("L")}` }));
+    for (const [a, b] of dots) svg.append(s("circle", { class: "bm-dot", cx: px(this.X(a)), cy: px(Y(b)), r: 3.5 }, s("title", {}, `${figure(b)}°`)));
+    this.mark((drive) => valueAt(curve, drive), Y);
   }
 
   /** Values along the way as a line over the drive. */
@@ -191,9 +226,13 @@ export class Plots {
     );
   }
 
-  show(drive, transmission) {
+  show(drive) {
     if (!this.cursor) return;
     this.cursor.setAttribute("transform", `translate(${px(this.X(drive))} 0)`);
-    if (transmission !== null) this.mark.setAttribute("cy", px(this.Y(transmission)));
+    for (const { mark, value, Y } of this.marks) {
+      const at = value(drive);
+      put(mark, "visibility", at === null ? "hidden" : "inherit");
+      if (at !== null) put(mark, "cy", px(Y(at)));
+    }
   }
 }

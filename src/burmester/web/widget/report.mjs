@@ -12,27 +12,53 @@ import { FACTORS, Plane, factorFor, hasFarPivots } from "./plane.mjs";
 import { Player } from "./player.mjs";
 import { Plots } from "./plots.mjs";
 import { unfoldForPrint } from "./printing.mjs";
-import { dimensionTable, dyadTable, imageTables, linkageTable, nounOf, poseTable } from "./tables.mjs";
-import { factsOf, keyOf, spaceStory, storyOf } from "./words.mjs";
+import { dyadTable, imageTables, nounOf, numbersOf, poseTable, worded } from "./tables.mjs";
+import { factsOf, keyOf, loopKey, spaceStory } from "./words.mjs";
 
 const REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
 const DARK_SCHEME = "(prefers-color-scheme: dark)";
 const HIGHEST = 0.66; // heights of the window: of the drawing, so that what moves it stands on the same screen
 const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room for
-const KINDS = " RR: a link with two pins; PR: a slider on the ground; RP: a pin on the ground in a slot of the body.";
 
-export const section = (name, title, ...content) =>
+const section = (name, title, ...content) =>
   h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
 
+/** Where names are long, drawings have numbers instead, and tables both. */
+function label(poses) {
+  const short = poses.every((pose) => pose.name.length <= LONGEST_NAME);
+  poses.forEach((pose, k) => (pose.label = short ? pose.name : String(k + 1)));
+}
+
 export class Report {
+  /** @type {any} */ player;
+  /** @type {any} */ linkage;
+  /** @type {any} */ story;
+  /** @type {any} */ title;
+  /** @type {any} */ far;
+  /** @type {any} */ farName;
+  /** @type {any} */ farLabel;
+  /** @type {any} */ numbers;
+  /** @type {any} */ cards;
+  /** @type {any} */ poses;
+  /** @type {any} */ rows;
+  /** @type {any} */ current;
+  /** @type {any} */ sizes;
+  /** @type {any} */ fitting;
+  /** @type {any} */ assemblies;
+  /** @type {any} */ plots;
+  /** @type {any} */ loops;
+  /** @type {any} */ aside;
+  /** @type {any} */ plane;
+  /** @type {any} */ spaceStory;
+  /** @type {any} */ spaceNumbers;
+
   constructor(data, el, options) {
     this.data = data;
     this.el = el;
     this.options = options;
     this.ended = new AbortController();
-    // Where names are long, drawings have numbers instead, and tables both.
-    const short = data.poses.every((pose) => pose.name.length <= LONGEST_NAME);
-    data.poses.forEach((pose, k) => (pose.label = short ? pose.name : String(k + 1)));
+    for (const { poses } of [data, ...data.linkages.flatMap(({ picture }) => picture ?? [])]) label(poses);
+    Object.assign(data, data.linkages[0]?.picture);
     this.linkages = data.linkages.map((linkage) => ({
       ...linkage,
       pose_errors: linkage.pose_errors.map((row) => ({ ...row, at: row.way === null ? null : linkage.ways[row.way] })),
@@ -53,20 +79,21 @@ export class Report {
     if (linkages.length) {
       this.player = new Player(data, (...now) => this.show(...now), () => this.rebuild());
       this.assemblies = new Assemblies(data, (index) => this.player.take(index));
-      this.cards = new Cards(data, linkages, (index) => this.choose(index));
+      this.cards = new Cards(linkages, (index) => this.choose(index));
       body.append(this.cards.element);
     }
     body.append(main);
     main.append(this.stage());
     if (linkages.length) main.append(this.numbersAndPlots());
     const family = data.family_map ? this.familyMap() : null;
-    main.append(...(this.family?.isCurve ? [family, this.imageSpace()] : [this.imageSpace(), ...(family ? [family] : [])]));
+    const space = data.space ? this.imageSpace() : null;
+    main.append(...(this.family?.isCurve ? [family, space] : [space, family]).filter(Boolean));
     if (data.pivot_map) main.append(this.pivotMap());
-    this.poses = section("pose-box", nounOf(data) === "point" ? "Point by point" : "Pose by pose");
+    this.poses = section("pose-box", { point: "Point by point", pose: "Pose by pose", place: "Pair by pair" }[nounOf(data)]);
     main.append(this.poses);
-    if (linkages.length) main.append(section("all", "All linkages", linkageTable(data), this.everyDimension()));
+    if (linkages.length) main.append(section("all", "All linkages", worded(data, { ...data.table, class: "bm-linkages bm-stacks" }), this.everyDimension()));
     if (data.dyads.length) main.append(section("dyads", "Dyads", dyadTable(data)));
-    this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes, KINDS));
+    this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes));
   }
 
   /** The drawing with what moves it. */
@@ -83,13 +110,13 @@ export class Report {
       this.story,
       drawing,
       player ? [player.element, this.assemblies.element] : null,
-      h("div", { class: "bm-under" }, keyOf(data, Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), this.magnification()) : null),
+      h("div", { class: "bm-under" }, keyOf(data, Boolean(player)), player ? h("div", { class: "bm-choose" }, this.farPivots(), data.stop ? null : this.magnification()) : null),
     );
   }
 
   /** Whether the picture is to hold far pivots and outlines that leave it; only where there are some. */
   farPivots() {
-    this.far = h("input", { type: "checkbox", onchange: () => this.draw() });
+    this.far = h("input", { type: "checkbox", checked: Boolean(this.data.whole), onchange: () => this.draw() });
     this.farName = h("span", {});
     this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " ", this.farName);
     return this.farLabel;
@@ -98,7 +125,7 @@ export class Report {
   offerAll(linkage) {
     if (!this.farLabel) return;
     const pivots = hasFarPivots(this.data, linkage, this.plane.places);
-    this.farLabel.hidden = !pivots && !this.plane.cut && !this.far.checked;
+    this.farLabel.hidden = !pivots && !this.plane.cut && (this.data.whole || !this.far.checked);
     this.farName.textContent = pivots ? "Whole linkage, with far pivots" : "All of the body and its surroundings";
   }
 
@@ -113,13 +140,15 @@ export class Report {
 
   numbersAndPlots() {
     this.numbers = h("div", { class: "bm-fill" });
+    this.loops = h("div", {});
     const plots = h("div", { class: "bm-fill" });
     this.plots = new Plots(this.data, plots, (u) => this.player.go(u));
+    plots.append(this.loops);
     this.aside = h(
       "div",
       { class: "bm-aside" },
       section("numbers", "Numbers", this.numbers),
-      section("plotted", "Errors and transmission", plots),
+      section("plotted", this.linkages[0].loops ? "Transmission over the driver" : "Errors and transmission", plots),
     );
     return this.aside;
   }
@@ -153,13 +182,14 @@ export class Report {
 
   /** For print, and for those who read: the dimensions of every linkage. */
   everyDimension() {
-    const parts = this.linkages.map((each) => h("div", { class: "bm-every-one" }, dimensionTable(this.data, each)));
-    return h("details", { class: "bm-every" }, h("summary", {}, "Dimensions of every linkage"), h("div", { class: "bm-every-all" }, parts));
+    const parts = this.linkages.map((each) => h("div", { class: "bm-every-one" }, numbersOf(this.data, each)));
+    return this.linkages[0].tables?.length === 0 ? null : h("details", { class: "bm-every" }, h("summary", {}, "Dimensions of every linkage"), h("div", { class: "bm-every-all" }, parts));
   }
 
   choose(index) {
     const known = Boolean(this.linkage);
     this.linkage = this.linkages[index];
+    Object.assign(this.data, this.linkage.picture); // a linkage that has poses of its own
     this.cards.mark(index);
     if (this.factor) this.factor.value = String(factorFor(this.data, this.linkage));
     this.player.load(this.linkage);
@@ -178,14 +208,18 @@ export class Report {
     if (linkage) {
       player.rebuild();
       this.title.textContent = `${linkage.id}: ${linkage.type}`;
-      this.story.textContent = storyOf(linkage);
+      this.story.textContent = linkage.said.story;
+      this.loops.replaceChildren(loopKey(linkage) ?? "");
       this.assemblies.build(linkage, player.way);
-      this.numbers.replaceChildren(dimensionTable(data, linkage), factsOf(data, linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
+      this.numbers.replaceChildren(...numbersOf(data, linkage), factsOf(linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note)));
     }
-    this.poses.replaceChildren(this.poses.querySelector("h2"), poseTable(data, linkage));
-    this.rows = [...this.poses.querySelectorAll("tbody tr")];
-    this.spaceStory.replaceChildren(...spaceStory(data, linkage));
-    this.spaceNumbers.replaceChildren(this.spaceNumbers.firstChild, ...imageTables(data, linkage));
+    this.poses.replaceChildren(this.poses.querySelector("h2"), linkage?.stops ? worded(data, linkage.stops) : poseTable(data, linkage));
+    const rows = [...this.poses.querySelectorAll("tbody tr")];
+    this.rows = data.poses.map((pose, k) => rows[pose.row === undefined ? k : pose.row]);
+    if (this.space) {
+      this.spaceStory.replaceChildren(...spaceStory(data, linkage));
+      this.spaceNumbers.replaceChildren(this.spaceNumbers.firstChild, ...imageTables(data, linkage));
+    }
     this.draw();
   }
 
@@ -218,11 +252,11 @@ export class Report {
   show(place, drive, transmission, near) {
     this.plane.show(place);
     this.space?.show(place);
-    this.plots.show(drive, transmission, place);
+    this.plots.show(drive);
     const row = this.rows[near];
     if (row === this.current) return;
     this.current?.classList.remove("bm-current");
-    row.classList.add("bm-current");
+    row?.classList.add("bm-current");
     this.current = row;
   }
 
@@ -239,14 +273,10 @@ export class Report {
     this.sizes.observe(root);
     unfoldForPrint(root, signal);
     if (!player) return;
-    this.keys(signal);
+    listenToKeys(this.root, this.plane.svg, player, signal);
     window.addEventListener("beforeprint", () => player.play(false), { signal });
     player.play(false);
     if (!window.matchMedia(REDUCED_MOTION).matches) player.playOnce();
-  }
-
-  keys(signal) {
-    listenToKeys(this.root, this.plane.svg, this.player, signal);
   }
 
   close() {

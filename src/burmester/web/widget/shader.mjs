@@ -91,12 +91,14 @@ void main() {
 function hasGraphics() {
   const gl = document.createElement("canvas").getContext("webgl2", { failIfMajorPerformanceCaveat: true });
   const named = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
+  const name = gl && named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
   return Boolean(gl) && !/swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
 /** A canvas with WebGL 2 that draws scenes, as `sceneOf` in image_space.mjs describes them. */
 export class Shader {
+  /** @type {any} */ pace;
+
   /** The shader on a canvas, null where it cannot be; `lost` is called when it ceases to be. */
   static on(canvas, lost) {
     if (!hasGraphics()) return null;

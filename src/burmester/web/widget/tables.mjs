@@ -58,13 +58,13 @@ export const poseName = (pose) => (pose.label === pose.name ? pose.name : `${pos
 export const isPoint = (pose) => pose.angle_deg === null;
 
 /** What the rows of a task are: points where no angle counts, else poses. */
-export const nounOf = ({ poses }) => (poses.length && poses.every(isPoint) ? "point" : "pose");
+export const nounOf = ({ poses, stop = undefined }) => stop ?? (poses.length && poses.every(isPoint) ? "point" : "pose");
 
 /** Whether pose k has its name in a drawing: the points of a long path are close together. */
 export const isNamed = ({ path, poses }, k) => !path || poses.length <= MOST_NAMES || k === 0 || (k + 1) % NAME_STEP === 0;
 
 /** A pose as a sentence calls it: "pose 3", "point 4: lift". */
-export const calledOf = (pose) => `${isPoint(pose) ? "point" : "pose"} ${poseName(pose)}`;
+export const calledOf = (pose) => pose.called ?? `${isPoint(pose) ? "point" : "pose"} ${poseName(pose)}`;
 
 /** A text cut to a number of characters. */
 export const shortened = (text, most) => (text.length > most ? `${text.slice(0, most - 1).trimEnd()}…` : text);
@@ -77,10 +77,6 @@ export function missOf(position, angle, unit) {
   return angle === "free" || (position === "exact" && angle === "exact") ? length : `${length} and ${angle}`;
 }
 
-export function verdictOf(linkage) {
-  return linkage.usable ? "✓ usable" : "✕ not usable";
-}
-
 /** All dyads, with their misses; of a point alone a dyad misses nothing. */
 export function dyadTable(data) {
   const misses = data.poses.some(isPoint) ? [] : ["rms miss", "worst miss"];
@@ -91,29 +87,13 @@ export function dyadTable(data) {
   return longTable(data.dyads_title, heads, rows, { class: "bm-stacks" });
 }
 
-export function linkageTable(data) {
-  const names = ["ground", "driver", "coupler", "follower"];
-  const heads = [
-    "", { name: "verdict", text: true }, { name: "type", text: true }, { name: "dyads", text: true }, { name: "driver", text: true }, ...names.map((name) => `${name} link`),
-    "worst miss", ...(nounOf(data) === "point" ? [] : ["worst angle"]), "least transm.", "extent", "sens.", { name: "why not", text: true },
-  ];
-  const rows = data.linkages.map((each) =>
-    h(
-      "tr",
-      {},
-      cells(
-        [
-          each.id, verdictOf(each), each.type, each.dyads.map((dyad) => dyad.id).join(" "), each.led[0].id,
-          ...names.map((name) => each.said.links?.[name] ?? "–"),
-          each.said.worst, ...(nounOf(data) === "point" ? [] : [each.said.angle]), each.said.transmission,
-          each.said.quality.extent?.split(" ")[0] ?? "–", each.said.quality.sensitivity ?? "–", each.said.reasons.join("; ") || "–",
-        ],
-        [1, 2, 3, 4, heads.length - 1],
-        heads,
-      ),
-    ),
-  );
-  return longTable(`All linkages${unitOf(data)}`, heads, rows, { class: "bm-linkages bm-stacks" });
+/** A table of words and numbers as the data have it: `words` are its columns of words, `lengths` whether its unit is told.
+ * A cell of several texts has a line for each. */
+export function worded(data, { caption, heads, words = [], rows, ...how }) {
+  const named = heads.map((name, k) => (words.includes(k) ? { name, text: true } : name));
+  const lines = (cell) => (Array.isArray(cell) ? cell.map((part) => h("span", { class: "bm-line-of" }, part)) : cell);
+  const made = longTable(caption + (how.lengths ? inUnit(data) : ""), named, rows.map((row) => h("tr", {}, cells(row.map(lines), words, named))), { class: how.class });
+  return how.folded ? h("details", { class: "bm-every" }, h("summary", {}, how.folded), made) : made;
 }
 
 function dimensionRows(linkage) {
@@ -143,12 +123,15 @@ export function dimensionTable(data, linkage) {
   );
 }
 
+/** What to build a linkage from, in tables. */
+export const numbersOf = (data, linkage) => linkage.tables?.map((each) => worded(data, each)) ?? [dimensionTable(data, linkage)];
+
 /** The poses, and where a linkage takes the body; of points alone without what is asked of the angle. */
 export function poseTable(data, linkage) {
   const digits = decimalsOf(data), unit = unitOf(data), noun = nounOf(data), turned = noun !== "point";
   const ifTurned = (value) => (turned ? [value] : []);
   const heads = [noun, `wanted x`, `y${unit}`, ...ifTurned("angle")];
-  if (linkage) heads.push("coupler x", `y${unit}`, "angle", "off by", ...ifTurned("turned by"), "transm.", { name: "where", text: true });
+  if (linkage) heads.push("coupler x", `y${unit}`, "angle", "off by", ...ifTurned("turned by"), ...(linkage.columns?.map(([head]) => head) ?? ["transm."]), { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
       poseName(pose) + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), ...ifTurned(isPoint(pose) ? "free" : `${fixed(pose.angle_deg, 2)}°`),
@@ -157,7 +140,7 @@ export function poseTable(data, linkage) {
       const row = linkage.pose_errors[k];
       values.push(
         fixed(row.x, digits), fixed(row.y, digits), row.angle_deg === null ? "–" : `${fixed(row.angle_deg, 2)}°`,
-        row.said.position, ...ifTurned(row.said.turned), row.said.transmission,
+        row.said.position, ...ifTurned(row.said.turned), ...(linkage.columns?.map(([, texts]) => texts[k]) ?? [row.said.transmission]),
         row.way === null ? "–" : wayName(linkage.ways[row.way], linkage),
       );
     }

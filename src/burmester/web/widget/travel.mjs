@@ -7,12 +7,12 @@ import { act, back, normalOf, placeAt } from "./kinematics.mjs";
 const LONGEST_STEP = 0.015; // scenes: where frames are farther apart, there are places between them
 const MOST_BETWEEN = 40; // places between two frames
 
-/** The places of a four-bar along a stretch of a way, as `placesAlong`. */
+/** The places of a linkage along a stretch of a way, as `placesAlong`. */
 export const placesOf = (data, linkage, way, stretch) =>
-  placesAlong(data, stretch, (u) => (Number.isInteger(u) ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length)));
+  placesAlong(data, stretch, (u) => (Number.isInteger(u) && !way.joints ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length)));
 
 /** The places along a stretch, its ends among them, close enough for a smooth path; at: the place at a frame. */
-export function placesAlong(data, { low, high }, at) {
+function placesAlong(data, { low, high }, at) {
   const places = [at(low)];
   let before = low;
   const goTo = (u) => {

@@ -3,14 +3,12 @@
 // makes.  Nothing else is needed, and nothing is loaded.  Angles are radians unless a name says
 // degrees; lengths are in the task's unit; F is the ground, M the body.
 
-import { FunctionReport } from "./function_report.mjs";
 import { Report } from "./report.mjs";
-import { SixBarReport } from "./six_bar_report.mjs";
 
 const widget = {
   render({ model, el }) {
     const options = { webgl: model.get("webgl") ?? true };
-    const made = (data) => new (data.generators ? FunctionReport : data.six_bars ? SixBarReport : Report)(data, el, options);
+    const made = (data) => new Report(data, el, options);
     let report = made(model.get("data"));
     const anew = () => {
       report.close();

@@ -3,18 +3,7 @@
 import { h, s } from "./dom.mjs";
 import { axes } from "./drawing.mjs";
 import { runs } from "./numbers.mjs";
-import { isPoint, missOf, nounOf, verdictOf } from "./tables.mjs";
-
-/** The sentence under the linkage's name. */
-export function storyOf(linkage) {
-  const { said } = linkage;
-  const met = `${linkage.usable ? "Usable" : "Not usable"}: it ${said.met}`;
-  if (!linkage.ways.length) return `${met}. It cannot be shown moving: ${said.reasons.join("; ") || "its motion is not known"}.`;
-  if (linkage.type === "change-point") {
-    return `${met}, driven by ${linkage.led[0].id}. At a change point, where all links lie in one line, it may go on either way.`;
-  }
-  return linkage.usable ? `${met}, driven by ${linkage.led[0].id}.` : `Not usable: it ${said.in_short}.`;
-}
+import { isPoint, nounOf } from "./tables.mjs";
 
 /** The poses of a way and how it ends, behind its name. */
 export function wayStory(way, poses) {
@@ -26,21 +15,8 @@ export function wayStory(way, poses) {
   return `${here}; ${ends}`;
 }
 
-/** Verdict, links, errors, quality and driver. */
-export function factsOf(data, linkage) {
-  const { said } = linkage, unit = data.unit ? ` ${data.unit}` : "";
-  const rows = [
-    ["verdict", verdictOf(linkage)],
-    ...Object.entries(said.links ?? {}).map(([name, value]) => [`${name} link`, `${value}${unit}`]),
-    ["worst miss", missOf(said.worst, said.angle, unit)],
-    ["rms miss", missOf(said.rms, said.rms_angle, unit)],
-    ["least transmission angle", said.transmission === "-" ? "–" : said.transmission],
-    ...Object.entries(said.quality),
-    ["driver", `${linkage.led[0].id}${said.turns_fully ? ", turns fully" : ""}`],
-    ...(said.freedom ? [["pivots", said.freedom.replace("pivots ", "")]] : []),
-  ];
-  return h("dl", { class: "bm-facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
-}
+/** Facts of a linkage: rows of a name and a text. */
+export const factsOf = ({ said }) => h("dl", { class: "bm-facts" }, said.facts.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 
 /** What image space shows. */
 export function spaceStory(data, linkage) {
@@ -53,13 +29,20 @@ export function spaceStory(data, linkage) {
   return [plain, " The surfaces are all places that dyad ", surface(0), " (driver) and dyad ", surface(1), " (follower) allow; where they meet, the line, the coupler moves."];
 }
 
+/** The lines of the plot, and what they mean; of several loops. */
+export function loopKey({ loops = [] }) {
+  const one = (text, k) => h("li", {}, s("svg", { width: 34, height: 12, viewBox: "0 -6 34 12", "aria-hidden": "true", class: "bm-key" }, s("path", { class: `bm-line bm-loop${k}`, d: "M0 0H32" })), text);
+  return loops.length ? h("ul", { class: "bm-keys" }, loops.map(one)) : null;
+}
+
 /** The signs of the drawing, and what they mean. */
 export function keyOf(data, hasLinkages) {
   const one = (sign, text) => h("li", {}, s("svg", { width: 34, height: 20, viewBox: "-4 -13 34 20", "aria-hidden": "true", class: "bm-key" }, sign), text);
-  const link = (side) => s("g", { class: `bm-link bm-side${side}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
+  const link = (kind) => s("g", { class: `bm-link bm-${kind}` }, s("path", { class: "bm-bar", d: "M0 -3H22" }), s("path", { class: "bm-core", d: "M0 -3H22" }));
   const posed = data.poses.some((pose) => !isPoint(pose)) || !data.poses.length, some = data.poses.some(isPoint);
   const frame = (name, axis, r, text) => (posed ? [one(s("g", { class: name }, s("path", { d: axes(axis) }), s("circle", { r })), text)] : []);
   const dot = (name, r, text) => (some ? [one(s("g", { class: name }, s("circle", { cx: 11, cy: -3, r })), text)] : []);
+  if (data.stop) return h("ul", { class: "bm-keys" }, data.keys.map(([kind, text]) => one(link(kind), text)));
   const items = [...frame("bm-wanted", 22, 4, "wanted pose"), ...dot("bm-wanted", 4, "wanted point")];
   if (data.path) items.push(one(s("path", { class: "bm-wanted-path", d: "M-2 2C6 -16 18 -10 28 -4" }), "wanted path"));
   if (hasLinkages) {
@@ -67,8 +50,7 @@ export function keyOf(data, hasLinkages) {
       ...frame("bm-achieved", 17, 2.2, "achieved pose"),
       ...dot("bm-achieved", 2.2, "achieved point"),
       one(s("g", { class: "bm-errors" }, s("path", { d: "M0 0L22 -6L15 -7.5M22 -6L17 -0.8" })), "error, enlarged"),
-      one(link(0), "driver (filled)"),
-      one(link(1), "follower (hollow)"),
+      ...data.keys.map(([kind, text]) => one(link(kind), text)),
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M"),
     );
   }

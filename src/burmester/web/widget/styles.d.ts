@@ -1,0 +1,3 @@
+// Style sheets are bundled as texts.
+
+declare module "*.css";
