@@ -156,7 +156,7 @@ def _output_panel(
     inputs, outputs, _ = _pair_degrees(found, task)
     dots = list(zip(inputs, outputs, strict=True)) if len(inputs) <= MOST_DOTS else []
     way = ways[0] if ways else {"drive": [], "output": []}
-    title = "output (°)" + (": wanted as dots, made as a line" if dots else "")
+    title = "output (°)" + (", wanted as dots" if dots else "")
     return {"title": title, "x": way["drive"], "y": way["output"], "dots": dots}
 
 
@@ -168,7 +168,7 @@ def _error_panel(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
     at = np.degrees(task.compared()[0]).tolist()
     whole = task.function is not None
     return {
-        "title": "structural error of the output (°)" + ("" if whole else ", at the pairs"),
+        "title": "structural error (°)" + ("" if whole else ", at the pairs"),
         "x": at,
         "y": [number(each) for each in known.tolist()],
         "dots": [each for each in pairs if each[1] is not None],

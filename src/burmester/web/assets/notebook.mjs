@@ -432,86 +432,86 @@ m-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-co
  path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3p\
 x; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { display: inline-block; max-width: 100%; }\n.bm-under { display: flex; flex\
 -wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-top: 10px; }\n.bm-choose { display: flex; flex-wrap: wrap; gap: 4px 18p\
-x; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden] { display: none; }\n.bm-factor { white-space\
-: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel); border: 1px solid \
-var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: 1 1 260px; font-si\
-ze: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-aside { display: grid; \
-gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content\
-: space-between; gap: 14px; border-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: righ\
-t; }\n.bm-note-text { font-size: 0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: \
-thin; }\n.bm table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; c\
-lip-path: inset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-alig\
-n: left; font-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical\
--align: top; white-space: nowrap; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-\
-align: bottom; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm\
- .bm-pose-table td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-\
-linkages td:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pos\
-e-table tbody th { position: sticky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(\
-.bm-pose-table) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--\
-bm-wash); }\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll\
- { margin-top: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: norm\
-al; }\n.bm-every { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px\
- 28px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel \
-{ fill: none; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none\
-; }\n.bm .bm-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { f\
-ont-size: 12px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--\
-bm-error); }\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; \
-}\n.bm-line.bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follow\
-er); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm\
--map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg\
- { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm\
--map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); op\
-acity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: v\
-ar(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16p\
-x; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\n.bm-pairs-map can\
-vas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .b\
-m-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius: 8px; display: blo\
-ck; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11p\
-x; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-cur\
-ve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke:\
- var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-p\
-air-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body {\
- fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-li\
-necap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-p\
-anel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var\
-(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; border: 1px solid var(--bm-mute\
-d); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-\
-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.b\
-m-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-re\
-adout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; height: 11px; border:\
- 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near { background: var(-\
--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border-radius: 8px; touch-action\
-: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg { position: absolu\
-te; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharr\
-ay: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-line\
-cap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-p\
-anel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-order: stroke; strok\
-e: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { m\
-ax-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .b\
-m-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside { order: -3; }\n  .bm-choices { align-items: stretch; }\
-\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width:\
- 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6p\
-x; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: b\
-reak-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: \
-1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-sta\
-cks td { display: flex; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-\
-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-he\
-ad); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: \
-var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620p\
-x) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-\
-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; pa\
-dding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .b\
-m-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage, .bm-aside, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; \
-}\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: \
-1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\
-\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; \
---bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --b\
-m-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c;\n    font-s\
-ize: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !important; \
-}\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border: 0; pad\
-ding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scroll { ove\
-rflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid; }\n  .bm\
- th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+x; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden], .bm-ways[hidden] { display: none; }\n.bm-fa\
+ctor { white-space: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel); \
+border: 1px solid var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: \
+1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-aside\
+ { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: fle\
+x; justify-content: space-between; gap: 14px; border-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd \
+{ text-align: right; }\n.bm-note-text { font-size: 0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px;\
+ scrollbar-width: thin; }\n.bm table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; o\
+verflow: hidden; clip-path: inset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-pat\
+h: none; text-align: left; font-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--b\
+m-faint); vertical-align: top; white-space: nowrap; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space:\
+ normal; vertical-align: bottom; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkage\
+s td.bm-words, .bm .bm-pose-table td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-\
+child(3), .bm .bm-linkages td:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywh\
+ere; }\n.bm .bm-pose-table tbody th { position: sticky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash);\
+ }\n.bm-scroll:has(.bm-pose-table) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { \
+background: var(--bm-wash); }\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-\
+numbers .bm-scroll { margin-top: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th {\
+ white-space: normal; }\n.bm-every { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { displ\
+ay: grid; gap: 6px 28px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: p\
+an-y; }\n.bm-panel { fill: none; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharra\
+y: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\
+\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-\
+dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); s\
+troke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fil\
+l: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-\
+width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 1\
+00%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-\
+radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill:\
+ var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm\
+-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { displ\
+ay: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\
+\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: c\
+rosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius:\
+ 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-in\
+k); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: \
+6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { f\
+ill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-w\
+idth: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1;\
+ }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-w\
+idth: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { \
+stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pa\
+ir-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; border: 1px s\
+olid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-h\
+igh)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm\
+-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n\
+.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; hei\
+ght: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near {\
+ background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border-radius:\
+ 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg \
+{ position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behin\
+d { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width\
+: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point \
+{ fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-or\
+der: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n\
+.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-wi\
+dth: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside { order: -3; }\n  .bm-choices { align\
+-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@con\
+tainer (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th {\
+ padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem\
+; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); wi\
+dth: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbo\
+dy th, .bm .bm-stacks td { display: flex; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-widt\
+h: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { con\
+tent: attr(data-head); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-al\
+ign: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@containe\
+r (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has\
+(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-dir\
+ection: column; padding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { \
+flex: none; }\n  .bm-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage, .bm-aside, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { gri\
+d-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@cont\
+ainer (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); al\
+ign-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; \
+--bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-s\
+olid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #\
+1c7a6c;\n    font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display:\
+ none !important; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-car\
+d { border: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .b\
+m .bm-scroll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-insi\
+de: avoid; }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<

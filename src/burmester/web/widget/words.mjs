@@ -55,7 +55,7 @@ export function keyOf(data, hasLinkages) {
     );
   }
   const box = "M-2 6H26V-10H-2Z";
-  if (data.body) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
+  if (data.body || data.linkages[0]?.drawn) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
   if (data.keep_out.length) items.push(one(s("g", {}, s("path", { class: "bm-region-edge", d: box, fill: "none" }), s("path", { class: "bm-hatch", d: "M-2 1L9 -10M2 6L18 -10M12 6L26 -8" })), "keep out"));
   return h("ul", { class: "bm-keys" }, items);
 }
