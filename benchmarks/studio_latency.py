@@ -42,7 +42,7 @@ from playwright.async_api import async_playwright
 
 from benchmarks.studio_drags import executable, percentile
 from burmester.live import answers
-from burmester.studio import road as roads
+from burmester.studio.session_worker import SessionWorker
 
 # Processes by what their commands hold; the first that is found counts.
 KINDS = {
@@ -293,7 +293,7 @@ async def measure(page, moves):
 
 
 class NoJob:
-    """Who asks a road, and hears nothing on the way."""
+    """Who asks a worker, and hears nothing on the way."""
 
     def send(self, head, body=b""):
         """Nobody takes pieces."""
@@ -316,9 +316,9 @@ def alone(sent):
 
         return run
 
-    road, totals, parts = roads.Road(), [], defaultdict(list)
+    worker, totals, parts = SessionWorker(), [], defaultdict(list)
     head = {"do": "solve", "time_limit": 60}
-    road.do(head, json.dumps({**json.loads(sent[0]), "do": "solve"}).encode(), NoJob())
+    worker.do(head, json.dumps({**json.loads(sent[0]), "do": "solve"}).encode(), NoJob())
     names = {"follow": "follow", "followed_frame": "encode"}
     patches = [
         mock.patch.object(answers, each, timed(name, getattr(answers, each)))
@@ -329,7 +329,7 @@ def alone(sent):
     for text in sent:
         spent.clear()
         start = time.process_time()
-        road.do({"do": "follow", "from": 0}, text.encode(), NoJob())
+        worker.do({"do": "follow", "from": 0}, text.encode(), NoJob())
         totals.append(1000 * (time.process_time() - start))
         for name in names.values():
             parts[name].append(1000 * spent[name])

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from burmester import PP, PR, RP, RR, read_task, synthesize
-from burmester.live.identity import matched, standing
+from burmester.live.identity import match_ids, snapshot
 from burmester.web.data import scene_of
 
 
@@ -45,12 +45,12 @@ def test_a_linkage_goes_on_as_the_one_where_it_was(name):
         replace(elsewhere(found.linkages[k], 1e-5 * scene * rng.uniform(-1, 1, 2)), id=f"B{k}")
         for k in order
     ]
-    was = matched(standing(near), found)
+    was = match_ids(snapshot(near), found)
     assert was == {each.id: {"id": f"B{k}", "moved": 0} for k, each in enumerate(found.linkages)}
     # Farther off, none of them is the same.
     far = [elsewhere(each, 5 * scene * np.ones(2), 1.0) for each in found.linkages]
-    assert matched(standing(far), found) == {}
-    assert matched([], found) == {}
+    assert match_ids(snapshot(far), found) == {}
+    assert match_ids([], found) == {}
 
 
 def test_how_far_a_search_moved_a_linkage_is_told_in_its_size():
@@ -63,7 +63,7 @@ def test_how_far_a_search_moved_a_linkage_is_told_in_its_size():
         return max(scene, *(part.max() for part in parts))
 
     near = elsewhere(one, np.array([0.01 * size(one), 0.0]))
-    told = matched(standing([near]), found)[one.id]
+    told = match_ids(snapshot([near]), found)[one.id]
     assert told["moved"] == pytest.approx(0.01 * size(one) / size(near), abs=6e-5)
 
 
@@ -72,7 +72,7 @@ def test_where_it_was_seen_last_counts_for_what_is_told():
     found = answer("case:ge2012-exact")
     one, by = found.linkages[0], np.array([0.01 * scene_of(found), 0.0])
     seen = replace(elsewhere(one, 5 * by), id="B")
-    told = matched(standing([replace(one, id="B")], {"B": seen}), found)
+    told = match_ids(snapshot([replace(one, id="B")], {"B": seen}), found)
     assert told == {one.id: {"id": "B", "moved": pytest.approx(5 * 0.01, rel=0.5)}}
 
 
@@ -83,6 +83,6 @@ def test_a_linkage_with_two_candidates_is_the_nearer_one():
     near = replace(elsewhere(one, by), id="A")
     nearer = replace(elsewhere(one, -0.6 * by), id="B")
     for both in ([near, nearer], [nearer, near]):
-        was = matched(standing(both), found)
+        was = match_ids(snapshot(both), found)
         assert was[one.id]["id"] == "B"
         assert "A" not in {each["id"] for each in was.values()}

@@ -9,7 +9,7 @@ from burmester.errors import InputError
 from burmester.following.follow import follow
 from burmester.following.followed import Followed
 from burmester.live.frames import Drawn, drawn_of, followed_frame
-from burmester.live.identity import matched, standing
+from burmester.live.identity import match_ids, snapshot
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -120,8 +120,8 @@ class LiveAnswers:
         if isinstance(found, str):
             found = self._answers
         seen = self._seen[1] if self._seen[0] == document else {}
-        return [] if found is None else standing(found.linkages, seen)
+        return [] if found is None else snapshot(found.linkages, seen)
 
     def match(self, before: Sequence[dict[str, Any]]) -> dict[str, dict[str, Any]]:
         """Which linkages of the last synthesis are those that stood elsewhere."""
-        return {} if self._synthesis is None else matched(before, self._synthesis)
+        return {} if self._synthesis is None else match_ids(before, self._synthesis)

@@ -23,10 +23,10 @@ SAME: Final = 0.02
 UNTOLD: Final = 1e-3  # of it: a linkage that a search moved by less is where it was
 
 
-def standing(
+def snapshot(
     linkages: Sequence[FoundLinkage], seen: Mapping[str, FoundLinkage] = MappingProxyType({})
 ) -> list[dict[str, Any]]:
-    """The dyads of linkages, by their ids, as `matched` takes them.
+    """The dyads of linkages, by their ids, as `match_ids` takes them.
 
     seen: how some of them were drawn last for the same task, by their ids, where that is not how
     they are: a hand leaves less time to settle than there is when it rests.
@@ -42,14 +42,14 @@ def standing(
     ]
 
 
-def matched(before: Sequence[dict[str, Any]], synthesis: Synthesis) -> dict[str, dict[str, Any]]:
+def match_ids(before: Sequence[dict[str, Any]], synthesis: Synthesis) -> dict[str, dict[str, Any]]:
     """For linkages of a synthesis the "id" that each had before, where it is the same linkage.
 
     "moved" says how far it is from where it was seen last, in its size; 0 for less than is told.
-    before: what `standing` said of the linkages at the same task.  None is taken twice: of several
+    before: what `snapshot` said of the linkages at the same task.  None is taken twice: of several
     that are near each other the nearest pair counts first.
     """
-    new = standing(synthesis.linkages)
+    new = snapshot(synthesis.linkages)
     if not new or not before:
         return {}
     scene = scene_of(synthesis)

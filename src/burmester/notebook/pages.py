@@ -13,7 +13,7 @@ what a page wants, `kind` what it is told, `n` the page's number of the message 
 Nobody asked for "task" (another document, which a page solves for its answer) and "chosen".
 
 A notebook may hear pages in another thread than the one that runs cells: `_lock` is held where
-answers are followed or changed.  The whole road runs in a thread of its own, so that a hand is
+answers are followed or changed.  The whole search runs in a thread of its own, so that a hand is
 followed meanwhile; without an event loop (a script, a test) it is gone at once.
 """
 
@@ -46,7 +46,7 @@ PROGRESS_S: Final = 0.1  # between two words of progress
 NOT_DRAWN: Final = ("pivot_map", "family_map")  # parts of a report that a widget has no room for
 
 # One search after the other: what is called off ends at its next step.
-_one_road = threading.Lock()
+_one_search = threading.Lock()
 
 
 class _CalledOffError(Exception):
@@ -54,7 +54,7 @@ class _CalledOffError(Exception):
 
 
 class _Search:
-    """One whole road: who wants it, and whether anybody does any more."""
+    """One whole search: who wants it, and whether anybody does any more."""
 
     def __init__(self, view: str, n: int, document: Any) -> None:
         self.view, self.n, self.document = view, n, document
@@ -174,7 +174,7 @@ class Pages:
             self._studio.follow_hand(task)
 
     def _solve(self, view: str, n: int, document: Any) -> None:
-        """The whole road, unless its answer is there."""
+        """The whole search, unless its answer is there."""
         self._call_off()
         self._newest = document
         if document == self._document:
@@ -193,13 +193,13 @@ class Pages:
         self._later(self._go(self._search))
 
     async def _go(self, search: _Search) -> None:
-        """The whole road for a page, beside all else."""
+        """The whole search for a page, beside all else."""
         view, n, document = search.view, search.n, search.document
         loop, start = asyncio.get_running_loop(), time.monotonic()
         search.say = lambda text: loop.call_soon_threadsafe(self._progress, view, n, text)
 
-        def road(task: Task) -> tuple[Result, dict[str, Any]]:
-            with _one_road:
+        def searched(task: Task) -> tuple[Result, dict[str, Any]]:
+            with _one_search:
                 if not search.is_wanted:
                     raise _CalledOffError
                 result = self._studio.solved(task, progress=search.listen)
@@ -207,7 +207,7 @@ class Pages:
 
         try:
             task = self._reader.task_of(document)
-            result, report = await asyncio.to_thread(road, task)
+            result, report = await asyncio.to_thread(searched, task)
         except Exception as error:
             if search.is_wanted:
                 self._search = None

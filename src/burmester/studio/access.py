@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from typing import Any, Final, TypeAlias
 
 from burmester.errors import BurmesterError
-from burmester.studio.parcel import as_json
+from burmester.studio.message import as_json
 
 __all__ = ["MOST_BYTES", "PROTOCOL", "TOKEN_S", "Access", "is_loopback", "refusal"]
 

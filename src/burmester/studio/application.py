@@ -19,8 +19,8 @@ from burmester.errors import BurmesterError
 from burmester.studio import autosave
 from burmester.studio.access import TOKEN_S, Access, refusal
 from burmester.studio.commands import commands
-from burmester.studio.house import House
-from burmester.studio.parcel import as_json, from_json
+from burmester.studio.message import as_json, from_json
+from burmester.studio.server_state import ServerState
 from burmester.studio.session import Session
 from burmester.studio.workers import WorkerEndedError
 
@@ -41,7 +41,7 @@ class _NotTakenError(Exception):
     """A request whose body is not what is asked for: a status, and why."""
 
 
-def application(house: House, door: Access) -> Starlette:
+def application(state: ServerState, door: Access) -> Starlette:
     """The application behind a door, which has the key for who brings a token."""
 
     async def session(request: Request) -> Response:
@@ -52,12 +52,12 @@ def application(house: House, door: Access) -> Starlette:
 
     async def start(request: Request) -> Response:
         saved = await asyncio.to_thread(autosave.last)
-        told = await house.beginning()
+        told = await state.beginning()
         return Response(as_json({**told, "saved": saved}), media_type="application/json")
 
     async def template(request: Request) -> Response:
         body = as_json({"name": request.path_params["name"]})
-        return await _of_desk(house, {"do": "template"}, body)
+        return await _of_desk(state, {"do": "template"}, body)
 
     async def command(request: Request) -> Response:
         told = commands(await _given(request))
@@ -74,7 +74,7 @@ def application(house: House, door: Access) -> Starlette:
         return Response(status_code=204)
 
     async def live(socket: WebSocket) -> None:
-        await Session(socket, house).run()
+        await Session(socket, state).run()
 
     routes = [Route(path, _static(*what)) for path, what in _STATIC.items()]
     routes += [
@@ -83,8 +83,8 @@ def application(house: House, door: Access) -> Starlette:
         Route("/template/{name}", template),
         Route("/command", command, methods=["POST"]),
         Route("/autosave", save, methods=["PUT"]),
-        *(Route(f"/{do}", _desk(house, do, False), methods=["POST"]) for do in OF_TASK),
-        *(Route(f"/{do}", _desk(house, do, True), methods=["POST"]) for do in OF_RESULT),
+        *(Route(f"/{do}", _desk(state, do, False), methods=["POST"]) for do in OF_TASK),
+        *(Route(f"/{do}", _desk(state, do, True), methods=["POST"]) for do in OF_RESULT),
     ]
     handlers: dict[Any, Any] = {404: _missing, 405: _missing, Exception: _failed}
     handlers[_NotTakenError] = _not_taken
@@ -101,22 +101,22 @@ def _static(name: str, kind: str) -> Callable[[Request], Awaitable[Response]]:
     return sent
 
 
-def _desk(house: House, do: str, of_result: bool) -> Callable[[Request], Awaitable[Response]]:
+def _desk(state: ServerState, do: str, of_result: bool) -> Callable[[Request], Awaitable[Response]]:
     """What a worker does; of_result: whether with the answer to the task, if it is known."""
 
     async def done(request: Request) -> Response:
         given = await _given(request)
-        key = house.key_of(given) if of_result else None
-        return await _of_desk(house, {"do": do}, await request.body(), key)
+        key = state.key_of(given) if of_result else None
+        return await _of_desk(state, {"do": do}, await request.body(), key)
 
     return done
 
 
 async def _of_desk(
-    house: House, head: dict[str, Any], body: bytes, key: str | None = None
+    state: ServerState, head: dict[str, Any], body: bytes, key: str | None = None
 ) -> Response:
     try:
-        answer, data = await house.desk(head, body, key)
+        answer, data = await state.desk(head, body, key)
     except TimeoutError:
         return _refused(422, "that took too long", "try it with the command")
     except WorkerEndedError as error:

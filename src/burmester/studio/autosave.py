@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from burmester.io.files import open_plain, write
-from burmester.studio.parcel import as_json, from_json
+from burmester.studio.message import as_json, from_json
 
 __all__ = ["folder", "last", "save"]
 

@@ -23,7 +23,7 @@ from typing import Any
 from burmester import __version__
 from burmester.errors import InputError
 from burmester.io import templates
-from burmester.studio.house import House
+from burmester.studio.server_state import ServerState
 
 __all__ = ["Opening", "serve"]
 
@@ -90,17 +90,17 @@ def _bound(host: str, port: int) -> socket.socket:
 
 async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], None]) -> None:
     host, limit_s = opening.host, opening.limit_s
-    house = House(limit_s)
-    await house.begin()
+    state = ServerState(limit_s)
+    await state.begin()
     try:
         import uvicorn  # noqa: PLC0415
 
         from burmester.studio.access import MOST_BYTES, TOKEN_S, Access  # noqa: PLC0415
         from burmester.studio.application import application  # noqa: PLC0415
 
-        await house.open({"path": opening.path, "template": TEMPLATE}, opening.data)
+        await state.open({"path": opening.path, "template": TEMPLATE}, opening.data)
         names = templates.of_places()
-        house.start |= {
+        state.start |= {
             "version": __version__,
             "templates": [{"name": each, "summary": templates.summary(each)} for each in names],
             "limit_s": limit_s,
@@ -108,7 +108,7 @@ async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], No
         port = bound.getsockname()[1]
         is_heard = opening.path != "-" and sys.stdin is not None and sys.stdin.isatty()
         door = Access(port=port, host=host, help=ENTER if is_heard else AGAIN)
-        door.within(application(house, door))
+        door.within(application(state, door))
         server = uvicorn.Server(
             uvicorn.Config(
                 door,
@@ -141,10 +141,10 @@ async def _serve(opening: Opening, bound: socket.socket, say: Callable[[str], No
             if opening.browser:
                 with suppress(OSError):  # where nothing can be written, the address is to be read
                     file = _leading_to(address(), ending)
-                    house.later(asyncio.to_thread(webbrowser.open, file.as_uri()))
+                    state.later(asyncio.to_thread(webbrowser.open, file.as_uri()))
             await _until_stopped(server, bound)
     finally:
-        await house.workers.close()
+        await state.workers.close()
 
 
 def _leading_to(address: str, ending: ExitStack) -> Path:

@@ -1,7 +1,7 @@
 """One tab: what its page asks over its websocket, and the answers.
 
 Two things go on at once: what the hand asks for (follow, place, curve, cognates), where only
-the newest of each counts, and the whole road, which a new one replaces.  Every message has one
+the newest of each counts, and the whole search, which a new one replaces.  Every message has one
 last answer.
 """
 
@@ -12,30 +12,36 @@ import json
 import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager, suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from burmester.errors import InputError
 from burmester.studio.access import PROTOCOL
-from burmester.studio.parcel import as_json, from_json
-from burmester.studio.workers import Parcel, Worker, WorkerEndedError
+from burmester.studio.message import as_json, from_json
+from burmester.studio.workers import Message, Worker, WorkerEndedError
 
 if TYPE_CHECKING:
-    from burmester.studio.house import House
+    from burmester.studio.server_state import ServerState
 
-__all__ = ["Session"]
+__all__ = ["HAND", "SEARCH", "Kind", "Session"]
 
 HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53
 HAND = ("follow", "place", "curve", "cognates")
+SEARCH = ("solve", "cancel")
+# What a page is told; `web/widget/types.d.ts` says the same to the page.
+Kind: TypeAlias = (
+    Literal["solving", "waiting", "progress", "solved", "limit", "ended", "cancelled"]
+    | Literal["superseded", "refused", "followed", "placed", "curve", "cognates"]
+)
 
 
 class Session:
     """A websocket, the worker that holds its answers, and what is under way."""
 
-    def __init__(self, socket: WebSocket, house: House) -> None:
-        self._socket, self._house = socket, house
+    def __init__(self, socket: WebSocket, state: ServerState) -> None:
+        self._socket, self._state = socket, state
         self._live: Worker | None = None
         self._from = 0  # the number of the message that its answers are to
         self._newest: dict[str, tuple[int, str]] = {}  # of the hand: the newest of each kind
@@ -77,8 +83,8 @@ class Session:
                 await self._tell(older[0], "superseded", by=n)
             self._newest[do] = n, text
             if self._hand is None or self._hand.done():
-                self._hand = self._house.later(self._follow_hand())
-        elif do in ("solve", "cancel"):
+                self._hand = self._state.later(self._follow_hand())
+        elif do in SEARCH:
             if self._solving is not None and not self._solving[1].done():
                 self._solving[1].cancel()
                 if do == "cancel":
@@ -86,9 +92,9 @@ class Session:
                 else:
                     await self._tell(self._solving[0], "superseded", by=n)
             if do == "solve":
-                key = self._house.key_of(given)
-                limit_s = self._house.limit_of(given)
-                self._solving = n, self._house.later(self._solve(n, key, text, limit_s))
+                key = self._state.key_of(given)
+                limit_s = self._state.limit_of(given)
+                self._solving = n, self._state.later(self._solve(n, key, text, limit_s))
         else:
             await self._refuse(n, "this is no message of the page")
 
@@ -111,11 +117,11 @@ class Session:
                 kind = "refused" if head["kind"] == "failed" else head["kind"]
                 await self._send(n, kind, body)
 
-    async def _by_hand(self, do: str, text: str) -> Parcel:
+    async def _by_hand(self, do: str, text: str) -> Message:
         last = None
         while self._live is not last:  # while it waits, a search may bring another one
             last = self._live
-            async with self._house.workers.held(last, self) as live:
+            async with self._state.workers.held(last, self) as live:
                 if live is not None:
                     return await live.ask({"do": do, "from": self._from}, text.encode())
         if do == "follow":
@@ -123,35 +129,35 @@ class Session:
                 self._live = None
                 raise WorkerEndedError(last.code)
             return {"kind": "refused"}, _solve_first("there is nothing to follow yet")
-        async with self._house.workers.lent() as worker:
+        async with self._state.workers.lent() as worker:
             return await worker.ask({"do": do}, text.encode())
 
     async def _solve(self, n: int, key: str, text: str, limit_s: float) -> None:
-        """The whole road, when it is this one's turn."""
-        house, start = self._house, time.monotonic()
+        """The whole search, when it is this one's turn."""
+        state, start = self._state, time.monotonic()
         try:
-            if house.is_opening(key):
+            if state.is_opening(key):
                 await self._tell(n, "solving", since=time.time())
-                await house.opened()
+                await state.opened()
 
             def waits(before: int) -> None:
-                house.later(self._tell(n, "waiting", before=before))
+                state.later(self._tell(n, "waiting", before=before))
 
-            async with house.turns.turn(waits), house.workers.lent(key) as worker:
+            async with state.turns.turn(waits), state.workers.lent(key) as worker:
                 is_own = worker is self._live and worker.holder is self
-                before = await self._standing(worker, text) if is_own else None
-                if worker.key == key and (known := house.answers.get(key)) is not None:
+                before = await self._snapshot(worker, text) if is_own else None
+                if worker.key == key and (known := state.answers.get(key)) is not None:
                     await worker.ask({"do": "again"}, b"{}")
                     body = known.report
                 else:
                     await self._tell(n, "solving", since=time.time())
-                    head, body = await house.solve(
+                    head, body = await state.solve(
                         worker, key, text.encode(), self._progress(n), limit_s
                     )
                     if head["kind"] == "failed":
                         await self._send(n, "refused", body)
                         return
-                was = await self._matched(worker, before, text)
+                was = await self._match_ids(worker, before, text)
                 self._hold(worker, n)
             seconds = round(time.monotonic() - start, 3)
             await self._send(n, "solved", body, key="result", seconds=seconds, was=was)
@@ -161,7 +167,7 @@ class Session:
         except WorkerEndedError as error:
             await self._tell(n, "ended", messages=[error.data])
 
-    async def _standing(self, live: Worker, text: str) -> bytes | None:
+    async def _snapshot(self, live: Worker, text: str) -> bytes | None:
         """Where the linkages of the page are at a task."""
         try:
             head, before = await live.ask({"do": "stand"}, text.encode())
@@ -169,14 +175,14 @@ class Session:
             return None
         return None if head["kind"] == "failed" else before
 
-    async def _matched(self, worker: Worker, before: bytes | None, text: str) -> dict[str, Any]:
+    async def _match_ids(self, worker: Worker, before: bytes | None, text: str) -> dict[str, Any]:
         """For the new linkages the ids that they have on the page, where they are there already.
 
         before: where those are, if the worker that held them has the new ones by now.
         """
         if self._live is not worker:
-            async with self._house.workers.held(self._live, self) as live:
-                before = None if live is None else await self._standing(live, text)
+            async with self._state.workers.held(self._live, self) as live:
+                before = None if live is None else await self._snapshot(live, text)
         if before is None:
             return {}
         head, body = await worker.ask({"do": "match"}, before)
@@ -190,12 +196,12 @@ class Session:
         self._live, self._from, worker.holder = worker, n, self
 
     def _progress(self, n: int) -> Callable[[str], object]:
-        return lambda text: self._house.later(self._tell(n, "progress", text=text))
+        return lambda text: self._state.later(self._tell(n, "progress", text=text))
 
     async def _refuse(self, n: int, why: str) -> None:
         await self._send(n, "refused", as_json({"messages": [InputError("400", why).to_dict()]}))
 
-    async def _tell(self, n: int, kind: str, **more: Any) -> None:
+    async def _tell(self, n: int, kind: Kind, **more: Any) -> None:
         with _if_open():
             await self._socket.send_text(as_json({"n": n, "kind": kind, **more}).decode())
 

@@ -1,6 +1,6 @@
 """A worker: a process that does the science of the studio, one thing after the other.
 
-It is started by the server (`workers`), reads parcels from its standard input and writes parcels
+It is started by the server (`workers`), reads messages from its standard input and writes messages
 to its standard output.  It ends when its input ends, also in the midst of a computation: so no
 worker is left when the server ends, however that happens.
 """
@@ -18,7 +18,7 @@ from collections.abc import Callable
 from typing import Any, BinaryIO
 
 from burmester.live.fault import fault_data
-from burmester.studio.parcel import as_json, packed, read_parcel
+from burmester.studio.message import as_json, packed, read_message
 
 __all__ = ["main"]
 
@@ -33,17 +33,17 @@ class _Inbox:
     """What the server sent, in its order; `cancelled` is the number of the last call-off."""
 
     def __init__(self, source: BinaryIO) -> None:
-        self.parcels: queue.SimpleQueue[tuple[dict[str, Any], bytes]] = queue.SimpleQueue()
+        self.messages: queue.SimpleQueue[tuple[dict[str, Any], bytes]] = queue.SimpleQueue()
         self.cancelled = -1
         self._source = source
         threading.Thread(target=self._read, daemon=True).start()
 
     def _read(self) -> None:
-        while (parcel := read_parcel(self._source)) is not None:
-            if parcel[0]["do"] == "cancel":
-                self.cancelled = parcel[0]["job"]
+        while (message := read_message(self._source)) is not None:
+            if message[0]["do"] == "cancel":
+                self.cancelled = message[0]["job"]
             else:
-                self.parcels.put(parcel)
+                self.messages.put(message)
         os._exit(0)  # the server is gone
 
 
@@ -53,7 +53,7 @@ def main(first: str | None = None) -> None:
     warnings.simplefilter("ignore")
     source = os.fdopen(os.dup(0), "rb")
     sink = os.fdopen(os.dup(1), "wb", buffering=0)
-    os.dup2(2, 1)  # what anybody prints must not come between the parcels
+    os.dup2(2, 1)  # what anybody prints must not come between the messages
     null = os.open(os.devnull, os.O_RDONLY)
     os.dup2(null, 0)
     inbox = _Inbox(source)
@@ -61,16 +61,16 @@ def main(first: str | None = None) -> None:
         from burmester.studio.opening import opening  # noqa: PLC0415  half of what follows
 
         _Job(0, inbox, sink).answer(
-            lambda: ({"kind": "json"}, as_json(opening(*inbox.parcels.get())))
+            lambda: ({"kind": "json"}, as_json(opening(*inbox.messages.get())))
         )
 
-    from burmester.studio.road import Road  # noqa: PLC0415  the reader looks for the end already
+    from burmester.studio.session_worker import SessionWorker  # noqa: PLC0415  the reader looks for the end already
 
-    road = Road()
+    worker = SessionWorker()
     _Job(0, inbox, sink).send({"kind": "ready"}, last=True)
     while True:
-        head, body = inbox.parcels.get()
-        _Job(head["job"], inbox, sink).run(road, head, body)
+        head, body = inbox.messages.get()
+        _Job(head["job"], inbox, sink).run(worker, head, body)
 
 
 class _Job:
@@ -81,9 +81,9 @@ class _Job:
         self._inbox, self._sink = inbox, sink
         self._told = 0.0
 
-    def run(self, road: Any, head: dict[str, Any], body: bytes) -> None:
-        """Do what a parcel says."""
-        self.answer(lambda: road.do(head, body, self))
+    def run(self, worker: Any, head: dict[str, Any], body: bytes) -> None:
+        """Do what a message says."""
+        self.answer(lambda: worker.do(head, body, self))
 
     def answer(self, work: Callable[[], tuple[dict[str, Any], bytes]]) -> None:
         """Do it, and say that it is done, whatever comes of it."""

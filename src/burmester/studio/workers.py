@@ -17,11 +17,11 @@ from contextlib import asynccontextmanager, suppress
 from typing import Any, TypeAlias
 
 from burmester.errors import BurmesterError
-from burmester.studio.parcel import LENGTHS, lengths, packed
+from burmester.studio.message import LENGTHS, lengths, packed
 
-__all__ = ["Parcel", "Turns", "Worker", "WorkerEndedError", "Workers"]
+__all__ = ["Message", "Turns", "Worker", "WorkerEndedError", "Workers"]
 
-Parcel: TypeAlias = tuple[dict[str, Any], bytes]
+Message: TypeAlias = tuple[dict[str, Any], bytes]
 
 SHORT_S = 0.002  # between two looks whether a worker is free
 GRACE_S = 0.4  # for a computation that was called off to end by itself
@@ -54,7 +54,7 @@ class Worker:
 
     def __init__(self, process: asyncio.subprocess.Process) -> None:
         self._process = process
-        self._parcels: asyncio.Queue[Parcel | None] = asyncio.Queue()
+        self._messages: asyncio.Queue[Message | None] = asyncio.Queue()
         self._reading = asyncio.create_task(self._read())
         self._job = 0
         self._done = False  # until it says that it is ready
@@ -99,15 +99,15 @@ class Worker:
             await self._answer(None)
             self._loaded = True
 
-    async def first(self, head: dict[str, Any], body: bytes = b"") -> Parcel:
+    async def first(self, head: dict[str, Any], body: bytes = b"") -> Message:
         """The answer of a worker that was started with a word to what it does first."""
         self._write(packed(head | {"do": "first", "job": 0}, body))
         return await self._answer(None)
 
     async def ask(
-        self, head: dict[str, Any], body: bytes = b"", piece: Callable[[Parcel], Any] | None = None
-    ) -> Parcel:
-        """The last parcel of an answer; those before it go to `piece`.
+        self, head: dict[str, Any], body: bytes = b"", piece: Callable[[Message], Any] | None = None
+    ) -> Message:
+        """The last message of an answer; those before it go to `piece`.
 
         Raises WorkerEndedError.  Who is cancelled while it waits calls `settle` before it is asked
         again.
@@ -119,27 +119,27 @@ class Worker:
         return await self._answer(piece)
 
     async def _read(self) -> None:
-        """Take what it sends, parcel by parcel, whoever waits for it or does so no more."""
+        """Take what it sends, message by message, whoever waits for it or does so no more."""
         source = self._process.stdout
         assert source is not None
         try:
             while True:
                 front, rest = lengths(await source.readexactly(LENGTHS))
                 head: dict[str, Any] = json.loads(await source.readexactly(front))
-                self._parcels.put_nowait((head, await source.readexactly(rest)))
+                self._messages.put_nowait((head, await source.readexactly(rest)))
         except asyncio.IncompleteReadError:
-            self._parcels.put_nowait(None)
+            self._messages.put_nowait(None)
 
-    async def _answer(self, piece: Callable[[Parcel], Any] | None) -> Parcel:
+    async def _answer(self, piece: Callable[[Message], Any] | None) -> Message:
         while True:
-            if (parcel := await self._parcels.get()) is None:
-                self._parcels.put_nowait(None)
+            if (message := await self._messages.get()) is None:
+                self._messages.put_nowait(None)
                 raise WorkerEndedError(await self._process.wait())
-            if parcel[0]["last"]:
+            if message[0]["last"]:
                 self._done = True
-                return parcel
+                return message
             if piece is not None:
-                piece(parcel)
+                piece(message)
 
     def _write(self, data: bytes) -> None:
         # Not waited for: a worker takes what it gets even while it computes.

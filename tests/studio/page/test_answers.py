@@ -414,7 +414,7 @@ def test_while_a_pose_is_dragged_the_linkage_and_its_space_go_along(page, result
     dyads = led(result["linkages"][0]).values()
     own = [complex(*each["moving_pivot"]) for each in dyads]
     assert apart == pytest.approx(abs(own[0] - own[1]), rel=0.2)
-    # Size and sensitivity are known to the whole road alone: they are grey.
+    # Size and sensitivity are known to the whole search alone: they are grey.
     opacity = (
         card(page, "L1")
         .locator('[data-figure="size"]')

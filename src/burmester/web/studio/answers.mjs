@@ -1,7 +1,7 @@
-// The linkages as they are known now: those of the last whole road, moved on by what was followed since.
+// The linkages as they are known now: those of the last whole search, moved on by what was followed since.
 //
 // Every part of the page that shows a linkage reads it here.  A linkage stays the same object while it is
-// followed, and over whole roads as long as it goes on: the server says which one goes on as which.
+// followed, and over whole searches as long as it goes on: the server says which one goes on as which.
 
 import { figure, fixed, radians } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
@@ -32,8 +32,8 @@ export class Answers extends Events {
     super();
     this.store = store;
     this.data = { ...NOTHING }; // as report_data, but for the poses: they are those of the document
-    this.linkages = []; // in the order of the whole road, those that appeared since behind them
-    this.gone = []; // ids of linkages before that are none of the last whole road
+    this.linkages = []; // in the order of the whole search, those that appeared since behind them
+    this.gone = []; // ids of linkages before that are none of the last whole search
     this.byId = new Map();
     this.placed = null;
     store.on("solved", () => this.takeSolved());
@@ -55,7 +55,7 @@ export class Answers extends Events {
     return id === PLACED ? this.placed ?? undefined : this.byId.get(id);
   }
 
-  /** Whether what only the whole road knows belongs to an older task. */
+  /** Whether what only the whole search knows belongs to an older task. */
   get isOld() {
     return this.store.solvedFor !== this.store.document;
   }
@@ -172,14 +172,14 @@ function follow(now, each, data) {
   }));
 }
 
-/** A linkage that was not there before it was followed: the whole road will say more of it. */
+/** A linkage that was not there before it was followed: the whole search will say more of it. */
 const appeared = (each) => ({
   id: each.id, type: each.type ?? "linkage", rank: Infinity, dyads: each.led, ways: [], pose_errors: [], isNew: true, followed: true,
   said: { met: "", story: "", facts: [], reasons: [], quality: {}, dimensions: [], notes: [], links: null, manifolds: [[], []], worst: "–", rms: "–", transmission: "-" },
   space: null, shortcomings: [], defects: [], unmet: [],
 });
 
-/** The worst miss as a card says it: the words of the whole road, or a number of what was followed. */
+/** The worst miss as a card says it: the words of the whole search, or a number of what was followed. */
 export function worstOf(linkage, data) {
   if (linkage.worst === null || linkage.worst === undefined) return "–";
   if (!linkage.followed) return linkage.said.worst === "-" ? "–" : linkage.said.worst === "exact" ? "exact" : `${linkage.said.worst}${data.unit ? ` ${data.unit}` : ""}`;

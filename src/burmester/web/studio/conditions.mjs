@@ -11,7 +11,7 @@ const ROUNDING = 1e-6; // of the size of the motion: what rounding may put a piv
 const MOST_PLACES = 90; // of the motion at which outlines are compared
 const KEYS = ["fixed_pivot", "moving_pivot"];
 
-/** The linkage that is drawn now: followed, or that of the last whole road, or the one that was placed; or null. */
+/** The linkage that is drawn now: followed, or that of the last whole search, or the one that was placed; or null. */
 export function currentLinkage(store) {
   if (store.chosen === "placed") return store.placed?.linkage ?? null;
   const followed = store.followed?.linkages.find(({ id }) => id === store.chosen);

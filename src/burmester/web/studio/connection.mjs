@@ -115,6 +115,7 @@ export class Connection {
     };
   }
 
+  /** @param {import("../widget/types").Told} message */
   take(message) {
     const waiting = this.asked.get(message.n);
     if (waiting && !UNFINISHED.has(message.kind)) {
@@ -124,7 +125,8 @@ export class Connection {
     this.emit("message", message);
   }
 
-  /** Send a message; returns its number, or null where the connection is closed. */
+  /** Send a message; returns its number, or null where the connection is closed.
+   * @param {import("../widget/types").Asked} message */
   send(message) {
     if (!this.isOpen) return null;
     this.n += 1;
@@ -132,7 +134,8 @@ export class Connection {
     return this.n;
   }
 
-  /** Send a message and wait for its last answer. */
+  /** Send a message and wait for its last answer.
+   * @param {import("../widget/types").Asked} message */
   ask(message) {
     return new Promise((resolve, reject) => {
       const n = this.send(message);

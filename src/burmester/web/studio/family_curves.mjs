@@ -36,7 +36,7 @@ export class FamilyCurves {
     return this.known;
   }
 
-  /** The curves that the whole road brought, where the task has some. */
+  /** The curves that the whole search brought, where the task has some. */
   renew() {
     const { data } = this.answers, map = data.family_map;
     this.known = map?.kind === "curve" ? { ...map, worth: worthOf(new FamilyPairs(data)) } : null;

@@ -25,7 +25,7 @@ export class PivotMapPanel {
     watch(this.element, () => this.pace.ask());
   }
 
-  /** The map that the whole road brought, if it is another one. */
+  /** The map that the whole search brought, if it is another one. */
   renew() {
     const { data } = this.answers;
     if (this.shown === data.pivot_map) return;

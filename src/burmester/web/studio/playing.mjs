@@ -167,7 +167,7 @@ export class Playing extends Events {
     this.tellDriver();
   }
 
-  /** What the whole road says of the driver that is chosen. */
+  /** What the whole search says of the driver that is chosen. */
   tellDriver() {
     const { base } = this;
     if (!base?.drives || base.followed) {

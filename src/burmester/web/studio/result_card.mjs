@@ -40,7 +40,7 @@ export class ResultCard {
     this.element = h("article", { class: "bs-card bm-choice" }, this.main, h("div", { class: "bs-card-tools" }, this.pin, this.compare, this.improve, this.letGo), this.better);
   }
 
-  /** Show a linkage as it is now; old: what only the whole road knows belongs to an older task. */
+  /** Show a linkage as it is now; old: what only the whole search knows belongs to an older task. */
   show(linkage, { data, old, chosen, pinned, compared }) {
     const { said } = linkage, { classList } = this.element, isPlaced = linkage.id === PLACED;
     if (this.id !== linkage.id || old) this.better.replaceChildren();

@@ -2,12 +2,12 @@
 //
 // While a gesture lasts, its documents are followed: each is sent at once, and the server takes the newest one when it is
 // free, so that it never waits for a page that is drawing.  When the hand has
-// rested, the whole road runs.  Every part draws from here and listens for what it draws.
+// rested, the whole search runs.  Every part draws from here and listens for what it draws.
 
 import { withKeys } from "./document.mjs";
 import { History } from "./history.mjs";
 
-const REST = 150; // milliseconds without an edit before the whole road runs
+const REST = 150; // milliseconds without an edit before the whole search runs
 const MOST_REST = 1000; // the same where what was asked before is not answered yet
 const MOST_FLYING = 1; // follows on their way, as a rule: of two the second would wait, and answer to an older task than one asked later
 const MOST_SHOWN = 6; // linkages whose motion is asked for while dragging
@@ -212,7 +212,7 @@ export class Store {
     this.resting = setTimeout(rest, REST);
   }
 
-  /** Run the whole road for the task as it is now. */
+  /** Run the whole search for the task as it is now. */
   solve() {
     clearTimeout(this.resting);
     const { document, options } = this;
@@ -226,7 +226,7 @@ export class Store {
     this.setState("solving", "");
   }
 
-  /** Stop the whole road; what was followed stays. */
+  /** Stop the whole search; what was followed stays. */
   cancel() {
     this.connection.send({ do: "cancel" });
   }

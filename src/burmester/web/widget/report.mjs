@@ -23,6 +23,9 @@ const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room f
 const section = (name, title, ...content) =>
   h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
 
+/** What a report may leave out. */
+const NOTHING = { unit: null, poses: [], path: null, body: null, keep_out: [], dyads: [] };
+
 /** Where names are long, drawings have numbers instead, and tables both. */
 function label(poses) {
   const short = poses.every((pose) => pose.name.length <= LONGEST_NAME);
@@ -52,8 +55,8 @@ export class Report {
   /** @type {any} */ spaceStory;
   /** @type {any} */ spaceNumbers;
 
-  constructor(data, el, options) {
-    this.data = data;
+  constructor(given, el, options) {
+    const data = (this.data = { ...NOTHING, ...given });
     this.el = el;
     this.options = options;
     this.ended = new AbortController();

@@ -18,3 +18,18 @@ export interface View {
   X(x: number): number;
   Y(y: number): number;
 }
+
+/** What a page asks over its websocket; `burmester.studio.session` has the same, and a test compares them. */
+export interface Asked {
+  do: "follow" | "place" | "curve" | "cognates" | "solve" | "cancel";
+  [more: string]: any;
+}
+
+/** What a page is told there. */
+export interface Told {
+  n: number;
+  kind:
+    | "solving" | "waiting" | "progress" | "solved" | "limit" | "ended" | "cancelled" | "superseded" | "refused"
+    | "followed" | "placed" | "curve" | "cognates";
+  [more: string]: any;
+}

@@ -10,7 +10,7 @@ import json
 import struct
 from typing import Any, Final, Protocol
 
-__all__ = ["LENGTHS", "Stream", "as_json", "from_json", "lengths", "packed", "read_parcel"]
+__all__ = ["LENGTHS", "Stream", "as_json", "from_json", "lengths", "packed", "read_message"]
 
 _LENGTHS = struct.Struct("<II")
 LENGTHS = _LENGTHS.size
@@ -43,7 +43,7 @@ def from_json(text: str | bytes) -> Any:
 
 
 def packed(head: dict[str, Any], body: bytes = b"") -> bytes:
-    """A parcel as bytes."""
+    """A message as bytes."""
     front = as_json(head)
     return _LENGTHS.pack(len(front), len(body)) + front + body
 
@@ -54,8 +54,8 @@ def lengths(front: bytes) -> tuple[int, int]:
     return head, body
 
 
-def read_parcel(stream: Stream) -> tuple[dict[str, Any], bytes] | None:
-    """The next parcel of a stream that waits for its bytes; None where it has ended."""
+def read_message(stream: Stream) -> tuple[dict[str, Any], bytes] | None:
+    """The next message of a stream that waits for its bytes; None where it has ended."""
     front = stream.read(LENGTHS)
     if len(front) < LENGTHS:
         return None

@@ -15,10 +15,10 @@ from typing import Any
 
 from burmester.errors import InputError
 from burmester.live.plain import plain
-from burmester.studio.parcel import as_json
-from burmester.studio.workers import Parcel, Turns, Worker, WorkerEndedError, Workers
+from burmester.studio.message import as_json
+from burmester.studio.workers import Message, Turns, Worker, WorkerEndedError, Workers
 
-__all__ = ["Answer", "House"]
+__all__ = ["Answer", "ServerState"]
 
 ANSWER_BYTES = 64_000_000  # of all answers that are kept
 SPARE = 2  # workers that are there before they are asked for
@@ -58,10 +58,10 @@ class Answers:
         return sum(len(each.result) + len(each.report) for each in self._kept.values())
 
 
-class House:
+class ServerState:
     """Workers, turns and answers.
 
-    limit_s: seconds after which a whole road is killed.
+    limit_s: seconds after which a whole search is killed.
     """
 
     def __init__(self, limit_s: float) -> None:
@@ -129,16 +129,16 @@ class House:
         body: bytes,
         said: Callable[[str], object],
         limit_s: float,
-    ) -> Parcel:
-        """Go the whole road in a worker; raises TimeoutError at the limit, and WorkerEndedError."""
+    ) -> Message:
+        """Search in a worker; raises TimeoutError at the limit, and WorkerEndedError."""
         result = b""
 
-        def piece(parcel: Parcel) -> None:
+        def piece(message: Message) -> None:
             nonlocal result
-            if parcel[0]["kind"] == "result":
-                result = parcel[1]
+            if message[0]["kind"] == "result":
+                result = message[1]
             else:
-                said(parcel[1].decode())
+                said(message[1].decode())
 
         worker.key = worker.holder = None
         head = {"do": "solve", "time_limit": SOFT * self.limit_s}
@@ -150,7 +150,7 @@ class House:
             self.answers.keep(key, Answer(result, answer[1]))
         return answer
 
-    async def desk(self, head: dict[str, Any], body: bytes, key: str | None = None) -> Parcel:
+    async def desk(self, head: dict[str, Any], body: bytes, key: str | None = None) -> Message:
         """What is asked over HTTP; raises TimeoutError and WorkerEndedError.
 
         key: of the task whose answer is wanted, if one is: it is not found twice.

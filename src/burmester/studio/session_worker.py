@@ -1,6 +1,6 @@
-"""What a worker does: read a task, go the whole road with it, follow its answers, hand them over.
+"""What a worker does: read a task, search it through, follow its answers, hand them over.
 
-One road holds the answers of one task: those of the last synthesis, and where they have been
+It holds the answers of one task: those of the last synthesis, and where they have been
 followed to since.
 """
 
@@ -29,10 +29,9 @@ from burmester.live.plain import plain
 from burmester.progress import shown
 from burmester.studio.cognates import cognate_reports
 from burmester.studio.curves import curves
-from burmester.studio.exports import dyads_of, exported, formats, report_page
-from burmester.studio.names import plain_name
+from burmester.studio.exports import dyads_of, exported, formats, plain_name, report_page
+from burmester.studio.message import as_json
 from burmester.studio.opening import template
-from burmester.studio.parcel import as_json
 from burmester.studio.placed import placed
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
@@ -40,7 +39,7 @@ from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import report_data
 
-__all__ = ["Road"]
+__all__ = ["HANDLERS", "SessionWorker"]
 
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
 
@@ -58,7 +57,7 @@ class Job(Protocol):
         """Take what is said of the progress."""
 
 
-class Road:
+class SessionWorker:
     """The answers of one task, and everything that is done with a task."""
 
     def __init__(self) -> None:
@@ -66,13 +65,16 @@ class Road:
         self._reader = TaskReader()
 
     def do(self, head: dict[str, Any], body: bytes, job: Job) -> Answer:
-        """Do what a parcel says; the answer is a parcel, too."""
+        """Do what a message says; the answer is a message, too."""
         sizes = head.get("known")
         start = sum(sizes) if sizes else 0
         given = json.loads(body[start:])
         if sizes:
             given[KNOWN] = body[: sizes[0]], body[sizes[0] : start]
-        return _DEEDS[head["do"]](self, head, given, job)
+        if head["do"] not in HANDLERS:
+            raise KeyError(head["do"])
+        handler: Callable[[dict[str, Any], Any, Job], Answer] = getattr(self, head["do"])
+        return handler(head, given, job)
 
     def formats(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The formats of exports."""
@@ -162,7 +164,7 @@ class Road:
         return _json(report_data(judge_linkage(task, chosen.driver_first, options, improve=True)))
 
     def solve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
-        """The whole road: the result as a file holds it first, then what the page draws."""
+        """The whole search: the result as a file holds it first, then what the page draws."""
         self._live.begin_at(None)
         task = task_of(given.get("document"))
         options = options_of(given.get("options"), head.get("time_limit"))
@@ -217,24 +219,8 @@ class Road:
         return {"kind": "curve"}, as_json(found)
 
 
-_DEEDS: dict[str, Callable[[Road, dict[str, Any], Any, Job], Answer]] = {
-    name: getattr(Road, name)
-    for name in (
-        *(
-            "formats",
-            "template",
-            "read",
-            "outline",
-            "check",
-            "task",
-            "export",
-            "result",
-            "report",
-            "improve",
-        ),
-        *("solve", "again", "follow", "stand", "match", "place", "curve", "cognates"),
-    )
-}
+# What is asked for by its name in a message.
+HANDLERS: Final = frozenset(each for each in vars(SessionWorker) if each[0] != "_") - {"do"}
 
 
 def _json(data: object) -> Answer:
