@@ -2885,6 +2885,7 @@ var DARK_SCHEME = "(prefers-color-scheme: dark)";
 var HIGHEST = 0.66;
 var LONGEST_NAME3 = 5;
 var section = (name, title, ...content) => h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
+var NOTHING = { unit: null, poses: [], path: null, body: null, keep_out: [], dyads: [] };
 function label(poses) {
   const short = poses.every((pose) => pose.name.length <= LONGEST_NAME3);
   poses.forEach((pose, k) => pose.label = short ? pose.name : String(k + 1));
@@ -2932,8 +2933,8 @@ var Report = class {
   spaceStory;
   /** @type {any} */
   spaceNumbers;
-  constructor(data, el, options) {
-    this.data = data;
+  constructor(given, el, options) {
+    const data = this.data = { ...NOTHING, ...given };
     this.el = el;
     this.options = options;
     this.ended = new AbortController();
