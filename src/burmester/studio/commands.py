@@ -1,12 +1,13 @@
-"""What the page shows, as commands that do the same."""
+"""What the page shows, as commands that do the same, and names of its files."""
 
 from __future__ import annotations
 
-from typing import Any
+import re
+from typing import Any, Final
 
-from burmester.studio.names import plain_name
+__all__ = ["commands", "plain_name"]
 
-__all__ = ["commands"]
+MOST_LETTERS: Final = 60  # of the name of a file
 
 # Options of `burmester export` by their names in the page.
 SETTINGS = {
@@ -100,3 +101,14 @@ def _numbers(link: Any) -> list[str] | None:
 
 def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def plain_name(given: object) -> str:
+    """A name that is one everywhere, and leads nowhere.
+
+    >>> plain_name("../Lid hinge 2"), plain_name(None)
+    ('Lid-hinge-2', 'task')
+    """
+    text = given if isinstance(given, str) else ""
+    name = re.sub(r"[^A-Za-z0-9_]+", "-", text[: 10 * MOST_LETTERS]).strip("-")
+    return name[:MOST_LETTERS].strip("-") or "task"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import tempfile
 from dataclasses import fields
 from importlib.util import find_spec
@@ -16,11 +15,10 @@ from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import read_result
 from burmester.report.page import page_of
+from burmester.studio.commands import plain_name
 from burmester.values import real_numbers
 
-__all__ = ["dyads_of", "exported", "formats", "plain_name", "report_page"]
-
-MOST_LETTERS: Final = 60  # of the name of a file
+__all__ = ["dyads_of", "exported", "formats", "report_page"]
 
 _TYPES: Final = {  # of the options of an export, as JSON has them
     "float | None": (int, float, type(None)),
@@ -100,14 +98,3 @@ def _options(given: Any) -> Options:
 def report_page(report: bytes, name: str) -> bytes:
     """The page of `burmester report`, of what `report_data` said."""
     return page_of(json.loads(report), f"{name}.toml").encode()
-
-
-def plain_name(given: object) -> str:
-    """A name that is one everywhere, and leads nowhere.
-
-    >>> plain_name("../Lid hinge 2"), plain_name(None)
-    ('Lid-hinge-2', 'task')
-    """
-    text = given if isinstance(given, str) else ""
-    name = re.sub(r"[^A-Za-z0-9_]+", "-", text[: 10 * MOST_LETTERS]).strip("-")
-    return name[:MOST_LETTERS].strip("-") or "task"

@@ -28,8 +28,9 @@ from burmester.live.document import (
 from burmester.live.plain import plain
 from burmester.progress import shown
 from burmester.studio.cognates import cognate_reports
+from burmester.studio.commands import plain_name
 from burmester.studio.curves import curves
-from burmester.studio.exports import dyads_of, exported, formats, plain_name, report_page
+from burmester.studio.exports import dyads_of, exported, formats, report_page
 from burmester.studio.message import as_json
 from burmester.studio.opening import template
 from burmester.studio.placed import placed
