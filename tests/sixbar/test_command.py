@@ -8,7 +8,6 @@ import pytest
 from PIL import Image
 
 import burmester
-from burmester.errors import InputError
 from tests.command import run
 from tests.oracles.six_bars import LIST, dimensions, driven
 from tests.sixbar.tasks import TURNING
@@ -90,26 +89,6 @@ def test_the_files_of_a_six_bar(folder, result):
     with Image.open(folder / "bar.gif") as film:
         assert film.n_frames > 2
     assert json.loads((folder / "bar.json").read_text())["id"] == "S1"
-
-
-def test_a_format_that_six_bars_do_not_have(folder, result):
-    with pytest.raises(InputError) as refused:
-        result.export(folder / "bar.py")
-    assert refused.value.code == "E198"
-    assert not (folder / "bar.py").exists()
-
-
-def test_what_a_result_in_python_holds(result):
-    assert result["s2"] is result[1]
-    assert len(list(result)) == len(result) == 3
-    with pytest.raises(InputError, match="S9") as refused:
-        result["S9"]
-    assert refused.value.code == "E151"
-    assert "driven at" in repr(result)
-    best = result.best
-    joints = best.joints(best.drive)
-    assert joints["A"] == pytest.approx(np.tile(best.linkage.fixed_first, (5, 1)))
-    assert np.linalg.norm(joints["G"] - joints["H"], axis=1) == pytest.approx(best.lengths["GH"])
 
 
 def test_a_task_that_no_four_bar_does_offers_six_bars(folder):
