@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, final
 
@@ -47,7 +47,7 @@ def stacked_rows(answers: StackedAnswers, indices: NDArray[np.intp]) -> pa.Table
     for task, code in answers.warnings:
         told[task].append(code)
     columns = {
-        "index": pa.array(indices, pa.int64()),
+        "index": indices,
         "outcome": _words(StackedAnswers.OUTCOMES, answers.outcome),
         "code": pc.if_else(pc.equal(codes, ""), None, codes),
         "dyads": _lists(answers.dyads.task, count, _dyads(answers.dyads)),
@@ -55,8 +55,7 @@ def stacked_rows(answers: StackedAnswers, indices: NDArray[np.intp]) -> pa.Table
     }
     if linkages is not None:
         columns["linkages"] = _lists(linkages.task, count, _linkages(linkages))
-    every = [columns.get(each.name, pa.nulls(count, each.type)) for each in ANSWER]
-    return pa.table(every, schema=ANSWER)
+    return pa.table(_filled(ANSWER, count, columns), schema=ANSWER)
 
 
 def refused_rows(refusals: Sequence[Refusal]) -> pa.Table:
@@ -119,9 +118,23 @@ def _words(words: Sequence[str], codes: NDArray[np.integer[Any]]) -> Any:
     return pa.array(words, pa.string()).take(pa.array(codes, pa.int32()))
 
 
-def _numbers(values: NDArray[np.float64]) -> Any:
-    """Numbers, null where there is none."""
-    return pa.array(values, mask=~np.isfinite(values))
+def _filled(fields: Iterable[Any], count: int, columns: Mapping[str, Any]) -> list[Any]:
+    """Columns (count,) of these fields; null where there is no number, or no column."""
+    out = []
+    for field in fields:
+        values = columns.get(field.name)
+        if values is None:
+            values = pa.nulls(count, field.type)
+        elif isinstance(values, np.ndarray):
+            missing = ~np.isfinite(values) if values.dtype.kind == "f" else None
+            values = pa.array(values, field.type, mask=missing)
+        out.append(values)
+    return out
+
+
+def structs(kind: Any, count: int, columns: Mapping[str, Any]) -> Any:
+    """The same as an array of structs of this type."""
+    return pa.StructArray.from_arrays(_filled(kind, count, columns), fields=list(kind))
 
 
 def _lists(tasks: NDArray[np.intp], count: int, values: Any) -> Any:
@@ -130,41 +143,21 @@ def _lists(tasks: NDArray[np.intp], count: int, values: Any) -> Any:
     return pa.ListArray.from_arrays(pa.array(offsets, pa.int32()), values)
 
 
-def _struct(kind: Any, columns: Mapping[str, Any]) -> Any:
-    return pa.StructArray.from_arrays([columns[field.name] for field in kind], fields=list(kind))
-
-
 def _dyads(rows: DyadRows) -> Any:
-    columns = {
-        "kind": _words(DyadRows.KINDS, rows.kind),
-        "status": _words(DyadRows.STATUSES, rows.status),
-        **_pair("fixed", rows.fixed),
-        **_pair("moving", rows.moving),
-        **_pair("point", rows.point),
-    }
-    for name in ("length", "direction_deg", "normal_deg", "offset", "angle_deg", "rms", "worst"):
-        columns[name] = _numbers(getattr(rows, name))
-    return _struct(DYAD, columns)
-
-
-def _pair(name: str, values: NDArray[np.float64]) -> dict[str, Any]:
-    return {f"{name}_{axis}": _numbers(values[:, k]) for k, axis in enumerate("xy")}
+    columns = {name: getattr(rows, name, None) for name in DYAD_COLUMNS}
+    for name in ("fixed", "moving", "point"):
+        columns |= dict(zip((f"{name}_x", f"{name}_y"), getattr(rows, name).T, strict=True))
+    columns["kind"] = _words(DyadRows.KINDS, rows.kind)
+    columns["status"] = _words(DyadRows.STATUSES, rows.status)
+    return structs(DYAD, len(rows.kind), columns)
 
 
 def _linkages(rows: LinkageRows) -> Any:
-    columns = {
-        "first": pa.array(rows.first, pa.int32()),
-        "second": pa.array(rows.second, pa.int32()),
-        "verdict": _words(LinkageRows.VERDICTS, rows.verdict),
-        "type": _words(LinkageRows.TYPES, rows.type),
-        "dyads": pa.nulls(len(rows), pa.list_(DYAD)),  # those of the task itself
-    }
-    names = ("rms", "worst", "angle_rms_deg", "angle_worst_deg", "combined")
-    for name in (*names, "transmission_deg", "extent", "sensitivity"):
-        columns[name] = _numbers(getattr(rows, name))
-    for name in ("path_rms", "path_worst", "chamfer", "dtw"):  # poses are no path
-        columns[name] = pa.nulls(len(rows), pa.float64())
-    return _struct(LINKAGE, columns)
+    """Linkages of stacks: their dyads are those of the task itself, and poses are no path."""
+    columns = {name: getattr(rows, name, None) for name in LINKAGE_COLUMNS}
+    columns["verdict"] = _words(LinkageRows.VERDICTS, rows.verdict)
+    columns["type"] = _words(LinkageRows.TYPES, rows.type)
+    return structs(LINKAGE, len(rows), columns)
 
 
 def _outcome(data: Mapping[str, Any]) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 import pyarrow as pa
 
 from burmester import __version__
+from burmester.batch.answer_rows import structs
 from burmester.batch.manifest import digest_of
 from burmester.batch.parts import DrawnTasks, Part, TableTasks
 from burmester.batch.schema import DYAD, POSE
@@ -158,22 +159,19 @@ def _dyads(found: RandomLinkages) -> Any:
     kinds = found.linkages.kinds.ravel()
     numbers = found.linkages.dimensions.reshape(len(kinds), -1)
     pin = kinds == 0
-    blank = np.full(len(kinds), np.nan)
-    columns: dict[str, Any] = {
-        "kind": pa.array(np.where(pin, "RR", "PR"), pa.string()),
-        "status": pa.nulls(len(kinds), pa.string()),
-        "fixed_x": np.where(pin, numbers[:, 0], blank),
-        "fixed_y": np.where(pin, numbers[:, 1], blank),
-        "moving_x": numbers[:, 2],
-        "moving_y": numbers[:, 3],
-        "length": np.where(pin, numbers[:, 4], blank),
-        "normal_deg": np.where(pin, blank, np.degrees(numbers[:, 0])),
-        "offset": np.where(pin, blank, numbers[:, 1]),
-    }
-    arrays = []
-    for field_ in DYAD:
-        values = columns.get(field_.name, blank)
-        arrays.append(
-            pa.array(values, mask=np.isnan(values)) if isinstance(values, np.ndarray) else values
+    fixed, length, normal, offset = (
+        np.where(which, values, np.nan)
+        for which, values in (
+            (pin[:, None], numbers[:, :2]),
+            (pin, numbers[:, 4]),
+            (~pin, np.degrees(numbers[:, 0])),
+            (~pin, numbers[:, 1]),
         )
-    return pa.StructArray.from_arrays(arrays, fields=list(DYAD))
+    )
+    columns = {
+        "kind": np.where(pin, "RR", "PR"),
+        **{"fixed_x": fixed[:, 0], "fixed_y": fixed[:, 1]},
+        **{"moving_x": numbers[:, 2], "moving_y": numbers[:, 3]},
+        **{"length": length, "normal_deg": normal, "offset": offset},
+    }
+    return structs(DYAD, len(kinds), columns)
