@@ -10,7 +10,6 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.errors import Advice
 from burmester.fourbar.linkage import Linkage
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
@@ -18,7 +17,7 @@ from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.functions.refinement import at_bounds
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.requirements.figures import Figures
-from burmester.requirements.table import NOT_ASKED, shortcomings, standard
+from burmester.requirements.table import NOT_ASKED, Violation, shortcomings, standard
 from burmester.verdicts.requirement_check import figures_of
 from burmester.wording import figure, in_runs
 
@@ -54,13 +53,13 @@ class FoundGenerator:
     errors: FloatArray
     range_errors: FloatArray
     usable: bool
-    defects: tuple[Advice, ...]
+    defects: tuple[Violation, ...]
     shortcomings: tuple[str, ...]
     least_transmission: float
     extent: float
 
     @property
-    def violations(self) -> tuple[Advice, ...]:
+    def violations(self) -> tuple[Violation, ...]:
         """None: what it does not keep of the task stands among its defects."""
         return ()
 
@@ -176,7 +175,7 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
     defects = _defects(generator, task, errors, exact=exact)
     bounds = task.requirements.bounds
     figures = figures_of(generator.linkage(), least, True)
-    asked = [Advice(each.code, each.message, "") for each in shortcomings(bounds, figures, figure)]
+    asked = shortcomings(bounds, figures, figure)
     usual = standard(bounds, 0.0, NOT_ASKED)
     below = [each.message for each in shortcomings(usual, figures, figure)]
     if not exact and bool(at_bounds(generator)):
@@ -198,22 +197,22 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
 
 def _defects(
     generator: Generator, task: FunctionTask, errors: FloatArray, *, exact: bool
-) -> tuple[Advice, ...]:
+) -> tuple[Violation, ...]:
     """Why the linkage does not go through the range and the pairs; kinds as codes."""
     out = []
     low, high = task.input_ends
     names = [str(k + 1) for k in range(len(errors))]
     open_at = np.flatnonzero(np.isnan(errors))
     if len(open_at):
-        out.append(Advice("assembly", f"cannot be assembled at {_pairs(open_at, names)}", ""))
+        out.append(Violation("assembly", f"cannot be assembled at {_pairs(open_at, names)}"))
     missed = np.flatnonzero(exact & (np.abs(errors) > MET))
     if len(missed):
-        out.append(Advice("branch", f"meets {_pairs(missed, names)} on another branch", ""))
+        out.append(Violation("branch", f"meets {_pairs(missed, names)} on another branch"))
     if not bool(generator.runs_through(low, high)):
         locks = _dead_inputs(generator, low, high)
         where = " and ".join(_degrees(each) for each in locks)
         message = f"locks at an input of {where}" if locks else "cannot be assembled over the range"
-        out.append(Advice("dead-point", message, ""))
+        out.append(Violation("dead-point", message))
     return tuple(out)
 
 
