@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from abc import abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from html import escape
 from pathlib import Path
@@ -23,7 +23,7 @@ from typing import (
 from burmester.api.linkage import ResultLinkage, ResultSixBar
 from burmester.api.moving_picture import MovingPicture
 from burmester.api.python_words import in_python_words
-from burmester.api.table import as_html, as_text, plain_html
+from burmester.api.table import HEADS, NUMBERS, as_text, cells, plain_html
 from burmester.describe import six_bar_words
 from burmester.describe.sentences import best_sentences
 from burmester.io import files
@@ -220,30 +220,32 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
         """The object of `burmester synthesize --json`."""
         return synthesis_data(self)
 
+    def _best(self) -> list[str]:
+        """What to build, in sentences."""
+        if self.six_bars is None:
+            return best_sentences(self)
+        return [f"{six_bar_words.headline(each)}." for each in self.six_bars.found[:1]]
+
+    def _columns(self) -> tuple[Sequence[str], list[tuple[str, ...]], range]:
+        """All linkages: heads, rows, and which columns are numbers."""
+        if self.six_bars is None:
+            return HEADS, [cells(each) for each in self.linkages], NUMBERS
+        rows = [six_bar_words.row(self, each) for each in self.six_bars.found]
+        return six_bar_words.HEADS, rows, range(2, 7)
+
     def __repr__(self) -> str:
-        if self.six_bars is not None:
-            found = self.six_bars.found
-            best = [six_bar_words.headline(each) for each in found[:1]]
-            rows = ["  ".join(six_bar_words.row(self, each)) for each in found]
-            return "\n".join([*best, self.outcome.message, *rows])
         warnings = [f"{each.code}: {each.message}" for each in self.warnings]
-        lines = [*best_sentences(self), self.outcome.message, *warnings][:SENTENCES]
-        return "\n".join([*lines, *as_text(self.linkages, LINES - len(lines) - 1)])
+        lines = [*self._best(), self.outcome.message, *warnings][:SENTENCES]
+        return "\n".join([*lines, *as_text(*self._columns(), LINES - len(lines) - 1)])
 
     def _repr_html_(self) -> str:
         """In a notebook: what to build, all linkages in a table, and the first one drawn."""
-        six_bars, every = self.six_bars, self.candidates
-        if six_bars is None:
-            answer, warnings = best_sentences(self), [each.message for each in self.warnings]
-            table = as_html(self.linkages) if every else ""
-        else:
-            found, warnings = six_bars.found, []
-            answer = [f"{six_bar_words.headline(each)}." for each in found[:1]]
-            rows = [six_bar_words.row(self, each) for each in found]
-            table = plain_html(six_bar_words.HEADS, rows, range(2, 7)) if every else ""
-        sentences = [*answer, *(f"{each}." for each in (self.outcome.message, *warnings))]
+        every, messages = self.candidates, [self.outcome, *self.warnings]
+        sentences = [*self._best(), *(f"{each.message}." for each in messages)]
         text = "".join(f"<p>{escape(each)}</p>" for each in sentences)
-        return f"<div>{text}{table}{every[0]._repr_html_() if every else ''}</div>"
+        faint = {k for k, each in enumerate(every) if not each.usable}
+        table = plain_html(*self._columns(), faint) + every[0]._repr_html_() if every else ""
+        return f"<div>{text}{table}</div>"
 
     def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
         """In a notebook: text, HTML without scripts, and the first linkage as a drawing."""

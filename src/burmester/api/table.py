@@ -25,7 +25,7 @@ NUMBERS = range(3, 8)  # columns of numbers, set to the right
 def as_line(linkage: FoundLinkage) -> str:
     """A linkage in one line: "L1: crank-rocker of D1 and D2, misses by ..."."""
     first, second = linkage.ids
-    _, _, _, worst, angle, least, *_, verdict = _cells(linkage)
+    _, _, _, worst, angle, least, *_, verdict = cells(linkage)
     if "-" in (worst, angle):
         how = f"cannot be assembled near every {asked_for(linkage.task)}"
     elif worst == "exact" and angle in ("exact", "free"):
@@ -39,29 +39,25 @@ def as_line(linkage: FoundLinkage) -> str:
     return f"{linkage.id}: {kind} of {first} and {second}, {how}{sure}"
 
 
-def as_text(linkages: Sequence[FoundLinkage], most: int) -> list[str]:
+def as_text(
+    heads: Sequence[str], rows: Sequence[Sequence[str]], numbers: Container[int], most: int
+) -> list[str]:
     """A line of heads and at most `most` lines of linkages, the last one a count of the rest."""
-    shown = linkages if len(linkages) <= most else linkages[: most - 1]
+    shown = rows if len(rows) <= most else rows[: most - 1]
     if not shown:
         return []
-    rows = [HEADS, *map(_cells, shown)]
-    widths = [max(len(row[k]) for row in rows) for k in range(len(HEADS))]
+    every = [heads, *shown]
+    widths = [max(len(row[k]) for row in every) for k in range(len(heads))]
     lines = [
         "  ".join(
-            cell.rjust(width) if k in NUMBERS else cell.ljust(width)
+            cell.rjust(width) if k in numbers else cell.ljust(width)
             for k, (cell, width) in enumerate(zip(row, widths, strict=True))
         ).rstrip()
-        for row in rows
+        for row in every
     ]
-    if len(shown) < len(linkages):
-        lines.append(f"and {len(linkages) - len(shown)} more")
+    if len(shown) < len(rows):
+        lines.append(f"and {len(rows) - len(shown)} more")
     return lines
-
-
-def as_html(linkages: Sequence[FoundLinkage]) -> str:
-    """A table element; the linkages that are not usable are paler."""
-    faint = {k for k, each in enumerate(linkages) if not each.usable}
-    return plain_html(HEADS, list(map(_cells, linkages)), NUMBERS, faint)
 
 
 def plain_html(
@@ -104,7 +100,7 @@ def dimensions_as_html(linkage: FoundLinkage) -> str:
     return f"<table><tbody>{rows}</tbody></table>"
 
 
-def _cells(linkage: FoundLinkage) -> tuple[str, ...]:
+def cells(linkage: FoundLinkage) -> tuple[str, ...]:
     """One linkage by columns."""
     error, task = linkage.error, linkage.task
     angle = "free" if task.angles_are_free else angle_error(float(error.angle.max()))
