@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from decimal import Decimal
 from functools import partial
 from typing import Any, Final
 
@@ -35,6 +36,7 @@ from burmester.wording import listed
 Pose = dict[str, Any]  # what a pose states, numbers as printed
 
 POINT_KEYS: Final = {"p": ("px", "py"), "q": ("qx", "qy")}
+FAR: Final = Decimal("1e300")  # a number beyond may be no double
 _NUMBER: Final = Field(Node.digits)
 _COMMON: Final[Fields] = {
     "weight": _NUMBER,
@@ -220,8 +222,9 @@ def _rows(poses: Node, stated_unit: str | None) -> tuple[Rows, str | None, str |
     nodes = poses.items()
     tracked, unit = _tracked(nodes), None
     fields, help = (_POINTS, _POINTS_HELP) if tracked else (_XY_ANGLE, _XY_ANGLE_HELP)
+    plain = (lambda value: None) if tracked else _plain
     read = partial(_pose, fields=_COMMON | fields)
-    stated = [read(node._replace(help=help)) for node in nodes]
+    stated = [plain(node.value) or read(node._replace(help=help)) for node in nodes]
     columns: dict[str, list[str]]
     if tracked:
         columns, where = _points(nodes, stated), ""
@@ -260,6 +263,18 @@ def _pose(node: Node, fields: Fields) -> Pose:
     return given
 
 
+def _plain(value: Any) -> Pose | None:
+    """A pose of three finite numbers, as most of a long file are; or None."""
+    if isinstance(value, list) and len(value) == len(NUMERIC):
+        value = dict(zip(NUMERIC, value, strict=True))
+    elif not (isinstance(value, dict) and "x" in value and "y" in value):
+        return None
+    for key, number in value.items():
+        if key not in _XY_ANGLE or type(number) is not Decimal or not -FAR < number < FAR:
+            return None
+    return {key: str(number) for key, number in value.items()}
+
+
 def _free(pose: Pose) -> set[str]:
     """The components that `free` names, or whose tolerance says so."""
     bounds = zip(COMPONENTS, bounds_of(pose.get("tolerance", {}), None), strict=True)
@@ -273,16 +288,14 @@ def _tracked(nodes: Sequence[Node]) -> bool:
     help = "give all poses in one way"
     for i, node in enumerate(nodes):
         keys = node.value if isinstance(node.value, dict) else ()
-        of_points, of_angle = (
-            [key for key in fields if key in keys] for fields in (_POINTS, _XY_ANGLE)
-        )
+        of_points, of_angle = (not each.keys().isdisjoint(keys) for each in (_POINTS, _XY_ANGLE))
         message, at, key = "", node.path, False
         if of_points and of_angle:
-            message = f"pose {i + 1} has {of_points[0]} and {of_angle[0]}"
-            at, key = (*node.path, of_angle[0]), True
+            one, other = (next(k for k in each if k in keys) for each in (_POINTS, _XY_ANGLE))
+            message, at, key = f"pose {i + 1} has {one} and {other}", (*node.path, other), True
         elif of_points or of_angle or (isinstance(node.value, list) and len(node.value) == 3):
-            first = first or (bool(of_points), i)
-            if first[0] != bool(of_points):
+            first = first or (of_points, i)
+            if first[0] != of_points:
                 forms = ("x, y and an angle", "two points")
                 message = f"pose {first[1] + 1} is {forms[first[0]]}, pose {i + 1} is "
                 message += forms[not first[0]]
