@@ -4,8 +4,6 @@ import gc
 
 import burmester.signals as signals  # noqa: PLR0402  `from` would load importlib first
 
-__all__ = ["main"]
-
 # A start makes tens of thousands of objects that stay; Python would look through all of them
 # again and again for cycles, a tenth of the time.  Of these cycles there are few, and none large.
 OBJECTS_BEFORE_CYCLES_ARE_SOUGHT = 100_000

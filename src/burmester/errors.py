@@ -13,8 +13,6 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, final
 
-__all__ = ["Advice", "BurmesterError", "InputError", "library"]
-
 
 class BurmesterError(Exception):
     """An error that a user can act on.

@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from unicodedata import category
 
-__all__ = ["blanked", "printable"]
-
 _UNSHOWN = ("Cc", "Cf", "Cs", "Zl", "Zp")  # controls, half characters, foreign line ends
 _SHORT = {"\n": r"\n", "\r": r"\r", "\t": r"\t"}
 _BYTES = range(0xDC80, 0xDD00)  # what Python makes of bytes of a path that are no text

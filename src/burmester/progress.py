@@ -26,8 +26,6 @@ from dataclasses import dataclass, field, replace
 from time import monotonic
 from typing import NamedTuple, TypeAlias, final
 
-__all__ = ["Listener", "Progress", "Watch", "goes_on", "limited", "shown", "step", "time_for"]
-
 
 @final
 class Progress(NamedTuple):

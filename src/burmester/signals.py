@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     from types import FrameType
     from typing import Any, NoReturn
 
-__all__ = ["end", "exit_code", "handled", "unfinished"]
-
 unfinished: set[str] = set()  # files that nobody is to find if the process ends now
 
 _ENDING = [

@@ -16,8 +16,6 @@ from numpy.typing import NDArray
 from burmester.errors import InputError
 from burmester.wording import listed
 
-__all__ = ["Shape", "real_numbers", "require_instance", "shown"]
-
 # Lengths of axes; None is any length, an ellipsis any number of leading axes.
 Shape: TypeAlias = tuple[int | EllipsisType | None, ...]
 

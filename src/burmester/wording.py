@@ -5,19 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-__all__ = [
-    "LEAST_RUN",
-    "count",
-    "figure",
-    "in_runs",
-    "in_unit",
-    "least_angle",
-    "listed",
-    "shortened",
-    "spans",
-    "with_article",
-]
-
 UNIT_NAMES = {"in": "inches", "ft": "feet"}  # others go by their symbols
 LEAST_RUN = 3  # successive numbers; from it on they are told as a range
 

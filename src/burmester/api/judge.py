@@ -25,7 +25,8 @@ from burmester.synthesis.given_linkage import GivenDyad, OpenLink
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.six_bar_judgement import SixBar, judge_six_bar
 from burmester.tasks.motion_task import AngleUnit, Task
-from burmester.tasks.options import Norm, SynthesisOptions
+from burmester.tasks.option_table import Norm
+from burmester.tasks.options import SynthesisOptions
 from burmester.values import real_numbers, shown
 from burmester.verdicts.found_linkage import FoundLinkage
 

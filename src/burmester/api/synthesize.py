@@ -15,7 +15,8 @@ from burmester.progress import Listener, shown
 from burmester.synthesis import motion_generation
 from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.motion_task import AngleUnit, Task
-from burmester.tasks.options import Method, Norm, Preference, SynthesisOptions
+from burmester.tasks.option_table import Method, Norm, Preference
+from burmester.tasks.options import SynthesisOptions
 from burmester.values import real_numbers
 from burmester.values import shown as shortly
 

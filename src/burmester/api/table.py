@@ -13,10 +13,10 @@ from burmester.describe.quality_words import in_short
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.length_per_radian import default_length_per_radian
 from burmester.tasks.motion_task import Task, characteristic_length
-from burmester.tasks.notation import least_angle, length_of
+from burmester.tasks.notation import length_of
 from burmester.verdicts.explanation import asked_for
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.wording import listed
+from burmester.wording import least_angle, listed
 
 HEADS = ("", "type", "dyads", "worst", "angle", "transm.", "ext.", "sens.", "")
 NUMBERS = range(3, 8)  # columns of numbers, set to the right

@@ -20,20 +20,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
 
-__all__ = [
-    "Ball",
-    "BallPoses",
-    "Matrix",
-    "System",
-    "column",
-    "flint",
-    "has_descent",
-    "is_nonzero",
-    "positive_definite",
-    "upper_bound",
-    "zero_near",
-]
-
 Ball: TypeAlias = Any  # arb or acb
 Matrix: TypeAlias = Any  # arb_mat or acb_mat
 System: TypeAlias = Callable[[Matrix], tuple[Matrix, Matrix]]  # values and Jacobian at a column

@@ -38,14 +38,13 @@ from burmester.certificates.proofs import (
     stationary_line,
     surely_different,
 )
-from burmester.dyads.critical_points import COUNT, CriticalDyads
+from burmester.dyads.critical_points import CriticalDyads
+from burmester.dyads.critical_search import COUNT
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.values import real_numbers, require_instance
-
-__all__ = ["Certificate", "CertifiedDyad", "certify", "certify_five"]
 
 PRECISION_BITS = (128, 384)  # the second where the first leaves something unproved
 FIVE_POSE_ROOTS = 4  # dyads through five poses, real or complex

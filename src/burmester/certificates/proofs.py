@@ -31,21 +31,6 @@ from burmester.certificates.ball_arithmetic import (
     zero_near,
 )
 
-__all__ = [
-    "MAX_RELATIVE_ERROR",
-    "Zeros",
-    "circle_distances",
-    "circle_of",
-    "first_is_least",
-    "five_equations",
-    "gram_of",
-    "grows_to_infinity",
-    "infinity_takes_eight",
-    "proved_zeros",
-    "squared_residual",
-    "stationary_line",
-]
-
 MAX_RELATIVE_ERROR = 1e-7  # of a point's size; an exact point farther away is another one
 
 

@@ -24,8 +24,6 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.surroundings import Surroundings
 
-__all__ = ["Clearance", "clearance_between_poses"]
-
 TOLERANCE: Final = 2e-5  # of the size of what moves; the least clearance is known to so much
 FINE: Final = 1e-8  # the same where the coarser one leaves open whether the margin is kept
 MAX_FRAMES: Final = 8000  # of one motion; beyond it the bound that is reached is told

@@ -21,8 +21,6 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.surroundings import Surroundings
 
-__all__ = ["least_clearances", "shares_too_close"]
-
 FEW_CORNERS: Final = 48  # an outline of more is taken with fewer
 OUTLINE_TOLERANCE: Final = 2e-3  # of the outline's size
 STRIDE: Final = 5  # every fifth frame comes first

@@ -23,8 +23,6 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 
-__all__ = ["MotionFrames"]
-
 SAMPLES: Final = 721  # places among which a link or the coupler turns back
 EVEN_FRAMES: Final = 65  # frames to begin with, poses and turning points not counted
 ROUNDS, FINER = 5, 17  # a turning point is told to (2 / 16)^5 of a sample

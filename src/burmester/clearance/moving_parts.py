@@ -21,19 +21,6 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.surroundings import Surroundings
 
-__all__ = [
-    "BAR_NAMES",
-    "BODY",
-    "Ways",
-    "area",
-    "bars_of",
-    "distances",
-    "moved",
-    "pairs_of",
-    "segments",
-    "shortened",
-]
-
 Geometries: TypeAlias = NDArray[np.object_]
 
 BODY: Final = "the body"

@@ -16,8 +16,6 @@ from burmester.cli.output import (
 )
 from burmester.errors import InputError
 
-__all__ = ["batch"]
-
 TASKS_HELP = """\b
 TASKS   a table with a row for each pose (.parquet or .csv), whose columns are
         task, x, y, angle_deg (or angle_rad), and weight and exact if wanted;

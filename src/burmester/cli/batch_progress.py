@@ -12,8 +12,6 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from burmester.batch.job import BatchProgress
 
-__all__ = ["duration", "outcomes_line", "watching"]
-
 PERIOD_S = 10.0  # between two plain lines
 SHOWN = 3  # outcomes on a line
 

@@ -16,8 +16,6 @@ if TYPE_CHECKING:
 
     from burmester.batch.summary import Summary
 
-__all__ = ["show_summary"]
-
 SHOWN = 10  # failed tasks
 
 

@@ -6,8 +6,6 @@ import click
 
 from burmester.cli.output import EXIT_FOUND, print_json, show_list
 
-__all__ = ["cases"]
-
 
 @click.command()
 @click.argument("name", required=False)

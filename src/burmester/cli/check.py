@@ -15,8 +15,6 @@ from burmester.cli.options import (
 )
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
-__all__ = ["check"]
-
 
 @click.command(cls=Sectioned)
 @with_options(POSES)

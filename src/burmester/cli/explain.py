@@ -6,8 +6,6 @@ import click
 
 from burmester.cli.output import EXIT_FOUND, console
 
-__all__ = ["explain"]
-
 
 @click.command()
 @click.argument("code", required=False)

@@ -9,8 +9,6 @@ import click
 from burmester.cli.options import Number
 from burmester.cli.output import EXIT_FOUND, console
 
-__all__ = ["export"]
-
 FORMATS = """\b
 FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
         pdf            the plates at 1:1 on A4 or Letter, to print

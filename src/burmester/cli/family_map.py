@@ -12,8 +12,6 @@ from burmester.synthesis.result import Synthesis
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["figure_bytes", "figure_format", "require_map_file", "write_map"]
-
 FIGURES: Final = {".png": {}, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
 

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from burmester.io.reading.functions.function_options import FunctionSettings
     from burmester.synthesis.function_generation import FunctionSynthesis
 
-__all__ = ["function"]
-
 TABLES: Final = (".csv", ".tsv", ".txt", ".xlsx", ".parquet", ".toml", ".json")  # no expressions
 OF_EXPRESSIONS: Final = ("x", "input_range", "output", "opposite", "pairs", "spacing")
 NOT_CHECKED: Final = ("links", "linkage", "plot", "report", "file")

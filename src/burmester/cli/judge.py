@@ -14,8 +14,6 @@ from burmester.cli.options import (
 )
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 
-__all__ = ["judge"]
-
 GIVEN_WORKS = "R330"
 
 DYAD_HELP = """\b

@@ -6,8 +6,6 @@ import click
 
 from burmester.cli.output import EXIT_FOUND, show_list
 
-__all__ = ["new"]
-
 
 @click.command()
 @click.argument("template", required=False)

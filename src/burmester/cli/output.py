@@ -13,18 +13,6 @@ if TYPE_CHECKING:
 
     from burmester.synthesis.result import Synthesis
 
-__all__ = [
-    "CONTENT",
-    "EXIT_FOUND",
-    "EXIT_INTERRUPT",
-    "EXIT_NOTHING",
-    "NOTES",
-    "console",
-    "hand_over",
-    "print_json",
-    "show_list",
-]
-
 EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
 
 CONTENT, NOTES = "content", "notes"  # of standard input, if it was read; to be told beside

@@ -14,8 +14,6 @@ import click
 
 from burmester.cli.output import CONTENT, NOTES
 
-__all__ = ["words_of_function"]
-
 TAKE_PAIRS: Final = ("check", "synthesize", "report", "judge")
 OF_FUNCTIONS: Final = (
     "--function", "--x", "--input", "--opposite", "--pairs", "--spacing", "--minimax",

@@ -15,8 +15,6 @@ from typing import TextIO
 
 from burmester.progress import Progress, shown
 
-__all__ = ["working"]
-
 DELAY_S = 0.5  # seconds before the line comes
 PERIOD_S = 0.25  # seconds between two looks at what is being done
 TYPED = 4  # columns beyond the line, where a terminal shows ^C

@@ -24,8 +24,6 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING
 if TYPE_CHECKING:
     from burmester.synthesis.result import Synthesis
 
-__all__ = ["report"]
-
 
 @click.command(cls=Sectioned)
 @with_options(POSES, SPECIFICATION, METHOD, SIX_BARS, MANUFACTURING)

@@ -6,8 +6,6 @@ import click
 
 from burmester.cli.output import EXIT_FOUND, console, print_json
 
-__all__ = ["reproduce"]
-
 
 @click.command()
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")

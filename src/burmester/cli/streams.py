@@ -15,8 +15,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any, TextIO
 
-__all__ = ["failure", "guarded"]
-
 _GONE = (errno.EPIPE, errno.ESHUTDOWN, errno.ECONNRESET)
 
 

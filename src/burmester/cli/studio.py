@@ -10,8 +10,6 @@ from burmester.cli.options import Number
 from burmester.cli.output import EXIT_FOUND
 from burmester.errors import InputError
 
-__all__ = ["studio"]
-
 LIBRARIES = ("starlette", "uvicorn", "websockets")
 MOST_BYTES = 50_000_000  # of standard input
 

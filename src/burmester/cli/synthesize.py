@@ -21,8 +21,6 @@ from burmester.cli.options import (
 )
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 
-__all__ = ["synthesize"]
-
 
 @click.command(cls=Sectioned, epilog=POSES_HELP)
 @with_options(POSES, SPECIFICATION, METHOD, SIX_BARS, MANUFACTURING)

@@ -19,8 +19,6 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, pairs_of
 from burmester.numerics.bundles import take
 from burmester.numerics.counted_draws import uniform_draws
 
-__all__ = ["Atlas", "Likeness", "along_path", "likenesses", "the_atlas"]
-
 SEED = 20
 DRAWN = 24_000  # linkages drawn; about half of them have a crank
 SAMPLES, STEPS = 64, 128  # of a curve at equal steps of arc length, and of the crank angle

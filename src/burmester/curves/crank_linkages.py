@@ -22,8 +22,6 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
 from burmester.numerics.bundles import take
 
-__all__ = ["G1", "G2", "SIZE", "A", "B", "C", "CrankLinkages", "CrankPlaces", "R"]
-
 SIZE = 9  # dimensions of a crank-driven linkage and its coupler point
 G1, G2 = slice(0, 2), slice(2, 4)  # the fixed pivots, the crank's first
 A, B, R = 4, 5, 6  # the lengths of crank, coupler (between its pins) and follower

@@ -23,8 +23,6 @@ from burmester.curves.curve_kernel import descend as descend_one_by_one
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.progress import goes_on
 
-__all__ = ["SETTLED", "CurveFit", "PathTarget", "descend"]
-
 SETTLED = 1e-13  # relative gain of the cost below which a step is the last
 AT_ONCE = 50  # linkages that descend between two looks at the time
 

@@ -27,8 +27,6 @@ from burmester.numerics.weights import weights_of_mean_one
 from burmester.progress import goes_on, step
 from burmester.tasks.pose_sample import PoseSample
 
-__all__ = ["PathSearch"]
-
 # A search takes so many points, the refinement of what it finds so many, and the last steps all:
 # so many feet of a linkage, in at least and at most so many steps.
 MAX_SEARCHED_POINTS, MAX_FITTED_POINTS = 60, 200

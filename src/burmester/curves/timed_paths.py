@@ -22,8 +22,6 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
 
-__all__ = ["linkages_of_five_points", "timed_starts"]
-
 MAX_DYADS = 12  # the best of the poses of more points; each pair of them is two start values
 LONGEST = 50.0  # radii of gyration; dyads with longer links are none to start from
 

@@ -11,7 +11,7 @@ from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
 from burmester.verdicts import explanation
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.wording import figure, listed
+from burmester.wording import figure, least_angle, listed
 
 TOLD_CHANGE = 0.1  # relative; a smaller change of extent or sensitivity is not told
 
@@ -65,7 +65,7 @@ def _changes(
         (gains if better.combined_error <= given.combined_error else prices).append(text)
     locks = any(each.kind == "branch" for each in given.defects)
     before, after = (each.driven.least_over_range for each in (given, better))
-    angles = [notation.least_angle(each) for each in (after, before)]
+    angles = [least_angle(each) for each in (after, before)]
     if math.isfinite(after) and (locks or not math.isfinite(before)):
         gains.append(f"transmits at {angles[0]} or more")
     elif angles[0] != angles[1]:

@@ -28,7 +28,7 @@ from burmester.verdicts.ranking import (
 from burmester.verdicts.tolerance_words import most_used
 from burmester.verdicts.tracing import Tracing
 from burmester.verdicts.uncertainty import pose_sigma
-from burmester.wording import figure, in_unit, listed, spans, with_article
+from burmester.wording import figure, in_unit, least_angle, listed, spans, with_article
 
 NOT_DETERMINED = (
     "Not determined: first order need not hold so far, with regions over 5 % of the motion's size "
@@ -53,7 +53,7 @@ def headline(synthesis: Synthesis) -> str:
     kind = best.type.replace("change-point", "change-point linkage")
     doubt = type_doubt(synthesis, best)
     kind = with_article(kind) + (f" ({doubt})" if doubt else "")
-    least = notation.least_angle(best.driven.least_over_range)
+    least = least_angle(best.driven.least_over_range)
     return (
         f"{best.id}, {kind} driven by {best.dyads_driver_first[0].id}, "
         f"{_passes(synthesis, best)}, transmission angle {least} or more."
@@ -104,7 +104,7 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
             yield (
                 f"{text}: {each.id}, {spans(float(quality.extent))} of the motion, errors "
                 f"up to {figure(float(quality.sensitivity))} times as large at a pose, "
-                f"transmission angle {notation.least_angle(float(quality.transmission))} or more."
+                f"transmission angle {least_angle(float(quality.transmission))} or more."
             )
 
 
@@ -132,7 +132,7 @@ def _prices_of_path(synthesis: Synthesis) -> Iterator[str]:
         text = f"{each.found.id} {explanation.nearness(each.found, task, size)}"
         if each.times is not None and each is not prices[0]:
             text += f", {figure(each.times)} times as far"
-        least = notation.least_angle(math.radians(each.transmission_deg))
+        least = least_angle(math.radians(each.transmission_deg))
         longest = f"longest link {figure(each.link_ratio)} times the shortest"
         yield f"{text}: transmission angle {least} or more, {longest}."
 
@@ -146,7 +146,7 @@ def _prices(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
     told: set[str | None] = set()
     if (stated or sounder) and _nearer(closest, best, size):
         near = explanation.nearness(closest, task, size)
-        least = notation.least_angle(closest.driven.least_over_range)
+        least = least_angle(closest.driven.least_over_range)
         what = f"transmission angle {least} or more"
         if closest.shortcomings:
             what = f"but {' and '.join(closest.shortcomings)}"

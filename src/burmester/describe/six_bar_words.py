@@ -10,10 +10,13 @@ import numpy as np
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.motion_task import Task
-from burmester.tasks.notation import least_angle, length_of, pose_labels
+from burmester.tasks.notation import (
+    length_of,
+    pose_labels,
+)
 from burmester.verdicts.explanation import meets_exactly, worst_miss
 from burmester.verdicts.tolerance_words import percent
-from burmester.wording import figure, listed, with_article
+from burmester.wording import figure, least_angle, listed, with_article
 
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar

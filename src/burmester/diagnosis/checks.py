@@ -22,8 +22,6 @@ from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
 from burmester.values import require_instance
 from burmester.wording import figure, listed, shortened
 
-__all__ = ["Diagnosis", "diagnose", "disagreement", "repeats_advice"]
-
 MAX_DISTANCE = 1e8  # spans of the poses, from the origin; beyond it half of the digits are lost
 DOUBLE_DIGITS = 16  # decimal ones of a double
 MAX_LISTED = 5  # repeats in a message; of more three and their number

@@ -45,8 +45,6 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.wording import figure
 
-__all__ = ["AS_READ", "Comparison", "OtherConvention", "other_convention"]
-
 COMPARING = "comparing each pose with the others"  # with odd_pose, as one step
 MIN_POSES = 7  # distinct ones; any six fit too well in both readings
 MAX_POSES = 60  # of more distinct ones so many are looked at, evenly chosen

@@ -28,8 +28,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, median
 from burmester.numerics.bundles import concatenate, take
 
-__all__ = ["MAX_POSES_ALL_LEFT_OUT", "LeaveOneOut", "pencil_pairs"]
-
 MAX_POSES_ALL_LEFT_OUT = 30  # poses; of more only the suspects are left out, one at a time
 SAMPLE_SIZE = 60  # poses; the first fits to many poses are to a sample of about as many
 SUSPECTS = 4  # poses without which fits start from dyads of their own

@@ -34,16 +34,6 @@ from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.linear_algebra import matvec
 
-__all__ = [
-    "RATIOS",
-    "ByRatio",
-    "chance_of_number",
-    "chance_of_pose",
-    "first_order_chances",
-    "fits_by_ratio",
-    "floor_by_ratio",
-]
-
 RATIOS = np.geomspace(0.05, 50.0, 13)  # radians per extent; every step counts the same beforehand
 TESTS = 2  # per pose, one of all its numbers and one of each; the lesser chance counts
 # Determinant of a pose's share of the residuals; below it the others say nothing of the pose.

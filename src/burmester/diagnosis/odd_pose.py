@@ -57,8 +57,6 @@ from burmester.tasks.notation import length_of, pose_labels
 from burmester.values import real_numbers, require_instance
 from burmester.wording import figure, listed
 
-__all__ = ["OddPose", "odd_pose"]
-
 MIN_POSES = 7  # distinct ones; fewer leave no residual to spare without one pose
 # Of more distinct poses so many are looked at, evenly chosen, and the MANY_SUSPECTS farthest off
 # their motion.

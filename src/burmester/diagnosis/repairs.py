@@ -15,16 +15,6 @@ from burmester.numerics.arrays import ROUNDING, FloatArray, wrapped_angle
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.tasks.motion_task import Task
 
-__all__ = [
-    "NUMBERS",
-    "UNIT_FACTORS",
-    "Prediction",
-    "Repair",
-    "by_evidence",
-    "repairs_of",
-    "unit_repair",
-]
-
 NUMBERS = ("x", "y", "angle")
 # Mahalanobis distances, squared, up to which a changed pose agrees with the others.  Generous, as
 # x, y and the angle may not be known equally well.

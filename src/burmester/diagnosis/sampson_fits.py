@@ -25,20 +25,6 @@ from burmester.numerics.weights import weights_of_mean_one
 from burmester.refinement.least_error import refine
 from burmester.refinement.residuals import SIZE
 
-__all__ = [
-    "EQUAL_ERRORS",
-    "FITS_PER_LABEL",
-    "FULL_STEPS",
-    "SCREENING_STEPS",
-    "UNIFORM_EXTENT_SQUARED",
-    "Fits",
-    "NormalizedPoses",
-    "fit_in_two_steps",
-    "fit_linkages",
-    "refine_best",
-    "sampson_residuals",
-]
-
 SCREENING_STEPS = 6  # of the first descent, from every start
 FULL_STEPS = 30  # of the second descent, from the best starts of each label
 FITS_PER_LABEL = 3  # linkages kept of each label

@@ -19,14 +19,6 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import poses_in_words
 from burmester.tasks.repeated_poses import exact_repeats
 
-__all__ = [
-    "Swap",
-    "best_exchange",
-    "distances_between",
-    "path_length",
-    "swapped_poses",
-]
-
 MIN_POSES_IN_ORDER = 6  # of fewer the order says too little
 MAX_POSES_IN_ORDER = 1000  # of more all distances between them take too much memory
 MAX_PATH_SHARE = 0.8  # of the path as given, left by the best exchange; else nothing is said

@@ -37,8 +37,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, median
 from burmester.numerics.bundles import concatenate
 
-__all__ = ["UnitError", "coincidence_chance", "combined_chance", "pose_apart", "unit_error"]
-
 FACTORS = np.array([each for factor in UNIT_FACTORS for each in (factor, 1 / factor)])  # (14,)
 USUAL_FACTOR_CHANCE = 0.75  # that a unit error is one of the first three factors, either way
 FACTOR_CHANCES = np.repeat([USUAL_FACTOR_CHANCE / 6] * 3 + [(1 - USUAL_FACTOR_CHANCE) / 8] * 4, 2)

@@ -29,8 +29,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec, unit_vectors
 
-__all__ = ["DyadCurve", "dyad_curve"]
-
 MIN_SOUNDNESS = 1e-6  # of a chord; below, one of its planes holds a whole piece of the curve
 SLIDER_P1 = 1e-7  # |p1| of a unit manifold; below, it is a slider and its pivots are noise
 DISTANT_P1 = 1e-5  # |p1| of a unit manifold; below, a pivot is hundreds of lengths away

@@ -26,17 +26,6 @@ from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.unique_rows import unique_index
 from burmester.progress import goes_on
 
-__all__ = [
-    "MAX_LENGTH",
-    "CircleMinima",
-    "circle_minima",
-    "further_down",
-    "minima_of",
-    "reach",
-    "sharpened_circles",
-    "steady_starts",
-]
-
 MAX_NEWTON_STEPS = 60  # from each start
 START_BITS = 20  # of a start's coordinates; no rounding of where it comes from is in these
 

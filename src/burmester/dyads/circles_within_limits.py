@@ -23,8 +23,6 @@ from burmester.polynomials.bilinear_fit import Condition, Parameters, Shape, cir
 from burmester.polynomials.stationary_points import StationaryPoints
 from burmester.tasks.limits import Limits
 
-__all__ = ["circles_within_limits"]
-
 START_LENGTH = 20.0  # characteristic lengths; the links that start along a line
 
 _CIRCLE = circle_shape(2, 2, 0, "none")

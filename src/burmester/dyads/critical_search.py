@@ -19,19 +19,6 @@ from burmester.polynomials import elimination, macaulay
 from burmester.polynomials.bilinear_fit import Parameters, circle_shape
 from burmester.polynomials.elimination_template import CHARTS
 
-__all__ = [
-    "COUNT",
-    "REAL_TOLERANCE",
-    "SAME_POINT",
-    "SETTLED_STEP",
-    "CriticalPoints",
-    "balanced",
-    "critical_points",
-    "derivatives",
-    "features",
-    "health",
-]
-
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
 # Number of steps of Newton's method; three are usual, more than 5 are taken only towards points
 # that lie close together.

@@ -23,8 +23,6 @@ import numpy as np
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.linear_algebra import unit_vectors
 
-__all__ = ["DOUBLE_ZERO", "RANK_TOLERANCE", "SAME_PLACE", "Chord", "Loop"]
-
 RANK_TOLERANCE = 1e-12  # share of the first singular value; one below it is zero
 DOUBLE_ZERO = 1e-6  # radians of 2 psi; zeros of D nearer than this are one double zero
 SAME_PLACE = 1e-7  # sizes of the motion; places nearer than this are the same

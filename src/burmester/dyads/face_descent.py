@@ -20,8 +20,6 @@ from burmester.numerics.bundles import put, take
 from burmester.numerics.iteration import iterate
 from burmester.numerics.linear_algebra import matvec
 
-__all__ = ["descend", "inside"]
-
 STEEPNESS_ROUNDING = 1e-7  # share of the terms of a directional derivative that is rounding
 MAX_MOVES = 200  # along a face, or from one face to another
 MAX_SIZE = 1e9  # characteristic lengths; a dyad that went farther away does not come back

@@ -20,9 +20,7 @@ from burmester.numerics.bundles import Bundle, concatenate
 from burmester.numerics.unique_rows import unique_rows
 from burmester.polynomials.bilinear_fit import Parameters, Shape
 from burmester.polynomials.stationary_points import StationaryPoints, stationary_points
-from burmester.tasks.options import Norm
-
-__all__ = ["Descents", "FaceSearch"]
+from burmester.tasks.option_table import Norm
 
 SAME_DYAD = 1e-7  # relative; dyads whose coordinates differ by less are one
 NEAR_DYAD = 1e-6  # relative; from a dyad so near to a known one no way down is looked for

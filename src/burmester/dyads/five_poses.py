@@ -25,8 +25,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.linear_algebra import matvec, solve_where_regular
 
-__all__ = ["FivePoseDyads", "conic_intersections", "dyads_of_five", "require_count"]
-
 REAL_TOLERANCE = 1e-7  # of a unit vector; a polished root with less imaginary part is real
 NEWTON_STEPS = 12  # on the poses' own equations, at most; roots that are close together take more
 LAST_STEP = 1e-10  # of a unit vector; the error after a step as short as this is its square

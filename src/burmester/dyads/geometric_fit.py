@@ -16,19 +16,6 @@ from burmester.dyads.circle_kernel import distance_terms, distances
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "DIVISOR_FLOOR",
-    "NEGLIGIBLE_GAIN",
-    "DistanceFunction",
-    "Distances",
-    "FitProblem",
-    "GeometricFit",
-    "Point",
-    "circle_distances",
-    "circle_terms",
-    "line_distances",
-]
-
 DIVISOR_FLOOR = 1e-300  # lengths; keeps 0 / 0 away from a pivot that meets its centre
 NEGLIGIBLE_GAIN = 1e-10  # share of the sum of squares; a step that gains less is not checked by it
 

@@ -42,17 +42,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.least_squares import Kernel, levenberg_marquardt
 
-__all__ = [
-    "ImagePoints",
-    "NormalFit",
-    "algebraic_distance",
-    "algebraic_fit",
-    "curve_distance",
-    "larochelle",
-    "manifold_distance",
-    "ravani_roth",
-]
-
 MIN_POSES = 5  # of a fit; with fewer a whole curve of dyads has distance zero
 SAMPLES = 65  # of the half angle, among which the nearest point of a manifold is bracketed
 MAX_VALLEYS = 5  # of the distance; a harmonic of order 2 squared has four, and t² hardly adds one

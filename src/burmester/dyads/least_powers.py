@@ -22,15 +22,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.iteration import iterate
 from burmester.numerics.linear_algebra import matvec
 
-__all__ = [
-    "SETTLED_STEP",
-    "free_minima",
-    "least_powers",
-    "least_squares",
-    "least_squares_step",
-    "pseudo_inverse",
-]
-
 MIN_SCALE = 1e-100  # lengths; distances below this are not magnified by higher powers
 MAX_NEWTON_STEPS = 40  # of a sum of powers
 MAX_FREE_STEPS = 30  # to a free minimum

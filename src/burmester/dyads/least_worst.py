@@ -19,8 +19,6 @@ from burmester.numerics.bundles import put, where
 from burmester.numerics.iteration import iterate
 from burmester.numerics.linear_algebra import matvec
 
-__all__ = ["least_worst"]
-
 SINGULAR = 1e-15  # share of the greatest singular value, below which one is zero
 MAX_MINIMAX_STEPS = 20  # of Newton's method once the worst poses are known
 FIRST_MINIMAX_POWER = 32  # of the distances, from which on the worst poses are looked for

@@ -13,8 +13,6 @@ from burmester.geometry.regions import PLANE, Face, Polygon, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec
 
-__all__ = ["Block", "LengthRange"]
-
 BOUNDARY_ROUNDING = 1e-9  # lengths, or a share of greater ones: a point so far outside is inside
 ON_FACE_ROUNDINGS = 10  # times the rounding; a point nearer to a face than this lies on it
 

@@ -9,7 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.circle_descent import circle_minima, reach, sharpened_circles
-from burmester.dyads.critical_points import COUNT, LITTLE_TURN, CriticalDyads, critical_dyads
+from burmester.dyads.critical_points import (
+    LITTLE_TURN,
+    CriticalDyads,
+    critical_dyads,
+)
+from burmester.dyads.critical_search import COUNT
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.dyads.starts_down import pivots_of_fits, starts_down
 from burmester.fourbar.canonical_frames import CanonicalFrames
@@ -19,21 +24,11 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.weights import shares
 from burmester.tasks.limits import Limits
-from burmester.tasks.options import Norm
+from burmester.tasks.option_table import Norm
 from burmester.tasks.pose_sample import PoseSample
 
 if TYPE_CHECKING:  # a search of its own, which most tasks do without
     from burmester.dyads.minima_within_limits import LimitedDyads
-
-__all__ = [
-    "BestDyads",
-    "ManyBestDyads",
-    "best_dyads",
-    "best_dyads_of_tasks",
-    "is_hard",
-    "starts_of_one",
-    "with_errors",
-]
 
 # Of more poses a sample of about so many is followed to minima, and all from these on.
 MAX_POSES_FOLLOWED = 500

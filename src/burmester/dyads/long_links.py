@@ -14,8 +14,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.repeated_poses import orientation_arcs
 
-__all__ = ["OUT_OF_SIGHT", "SENSIBLE_SWING", "nearly_sliders", "swing", "swings"]
-
 SENSIBLE_SWING = 0.1  # radians; a link that swings more is a link; arcs bend by 1 % of their chords
 OUT_OF_SIGHT = 10.0  # sizes of the picture; no picture shows both ends of a longer link
 

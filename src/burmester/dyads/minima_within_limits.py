@@ -30,11 +30,9 @@ from burmester.numerics.weights import shares
 from burmester.polynomials.bilinear_fit import Parameters, Shape, line_shape
 from burmester.tasks.frames import frames_of, limits_in
 from burmester.tasks.limits import Limits
-from burmester.tasks.options import Norm
+from burmester.tasks.option_table import Norm
 from burmester.tasks.rails import Rail
 from burmester.tasks.thin_regions import without_thin_regions
-
-__all__ = ["LimitedDyads", "limited_dyads"]
 
 _LINE = line_shape(2, 0)
 

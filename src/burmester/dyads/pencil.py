@@ -31,8 +31,6 @@ from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Pencil", "fit_pencil", "stationary_angles"]
-
 MIN_POSES = 6  # of a fit; the quadrics through fewer are more than a pencil
 BLOCK_ROWS = 1024  # reduced at a time; few enough that BLAS starts no threads for them
 MAX_CORRECTION = 1e-3  # radians; a longer Newton step on a foot does not remove rounding

@@ -19,8 +19,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
 
-__all__ = ["PivotMap", "fixed_pivot_map", "grid", "moving_pivot_map"]
-
 BLOCK_RESIDUALS = 1 << 18  # computed at a time, to bound the memory
 # Sine of the least angle between two columns; below it the partner is not determined.
 PARALLEL_SINE = 1e-12

@@ -22,8 +22,6 @@ from burmester.numerics.unique_rows import unique_rows
 from burmester.tasks.limits import Limits
 from burmester.tasks.rails import Rail
 
-__all__ = ["sliders_along_rail", "sliders_on_rail"]
-
 SPACING: Final = np.radians(1.0)  # radians; directions are tried at most so far apart
 STEPS: Final = 40  # number of Gauss-Newton steps
 STIFFNESS: Final = (

@@ -28,21 +28,6 @@ from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.tasks.motion_task import COARSE, Task, characteristic_length
 
-__all__ = [
-    "KINDS",
-    "Fit",
-    "Fits",
-    "Found",
-    "FoundDyad",
-    "GivenPoses",
-    "beside",
-    "dyads_of_fits",
-    "found_dyads",
-    "least_slider_angle",
-    "same_dyads",
-    "within_digits",
-]
-
 Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads
 
 # Lengths are in characteristic lengths of the task.

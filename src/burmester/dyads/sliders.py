@@ -15,8 +15,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
 
-__all__ = ["fixed_lines", "moving_lines"]
-
 DEPENDENT = 1e-15  # of the size of rows; what is left of one that depends on others is no more
 
 

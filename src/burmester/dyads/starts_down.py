@@ -14,8 +14,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.tasks.repeated_poses import spanning
 
-__all__ = ["pivots_of_fits", "starts_down"]
-
 QUINTUPLES = 3  # of poses, at most; more found nothing new in a campaign
 
 # Generic factors by which one of each pair of conjugate points is picked.

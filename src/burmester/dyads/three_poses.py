@@ -9,8 +9,6 @@ from burmester.dyads.five_poses import require_count
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 
-__all__ = ["dyad_with_fixed_pivot", "dyad_with_moving_pivot"]
-
 
 def dyad_with_moving_pivot(poses: Displacement, moving_pivot: ArrayLike) -> RR:
     """The one RR dyad of three poses with each moving pivot.

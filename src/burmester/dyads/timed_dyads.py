@@ -21,8 +21,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.tasks.crank_timing import CrankTiming
 
-__all__ = ["nearest_timed", "timed_dyads", "timing_equations"]
-
 RANK: Final = 1e-11  # relative; singular values below it are zero
 MET: Final = 1e-7  # spans; a dyad that misses a pose by less meets it
 MOST_TRIPLES: Final = 60  # of timed poses, through which start dyads are laid

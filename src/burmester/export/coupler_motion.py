@@ -24,8 +24,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import characteristic_length
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["CouplerMotion", "places_on_branches"]
-
 TURN: Final = 2 * np.pi
 ANGLE_SAMPLES: Final = 721  # places between which the coupler's angle is unwrapped
 

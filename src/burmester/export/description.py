@@ -21,8 +21,6 @@ from burmester.wording import in_unit, with_article
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
-__all__ = ["description", "dimension_notes", "length_decimals"]
-
 FINEST: Final = 1e-7  # of a six-bar's span: what the last decimal of its lengths is worth
 
 

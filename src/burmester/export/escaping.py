@@ -14,17 +14,6 @@ from xml.sax.saxutils import escape
 
 from burmester.printable import printable
 
-__all__ = [
-    "dxf_text",
-    "line_comment",
-    "pdf_text",
-    "python_docstring",
-    "step_text",
-    "xml_attribute",
-    "xml_comment",
-    "xml_text",
-]
-
 MOST_STEP = 60  # characters; a longer text is broken into lines
 MOST = 1000  # characters; programs that read DXF take a little more than 2000
 _DXF_CODES = re.compile(r"%(?=%)|\\(?=[UM]\+)|\^")

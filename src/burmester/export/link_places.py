@@ -7,8 +7,6 @@ from typing import Any, Final, final, overload
 
 from burmester.geometry.displacement import Displacement
 
-__all__ = ["GROUND", "LinkPlaces"]
-
 GROUND: Final = "ground"
 
 

@@ -20,8 +20,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["Motion", "all_places"]
-
 ALL_PLACES: Final = 721  # places along the motion at which plates are compared
 
 

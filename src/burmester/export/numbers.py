@@ -9,8 +9,6 @@ from xml.etree.ElementTree import Element
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["decimals_within", "error_within", "number", "numbers_in", "rounded", "xy"]
-
 OF_LAST_DIGIT: Final = 1000.0  # units of the last digit that outlines of arcs and tangents lose
 MOST_DECIMALS: Final = 25  # decimals of a rounded number, at most
 

@@ -12,8 +12,6 @@ from burmester.errors import InputError
 from burmester.synthesis.result import Candidate
 from burmester.wording import in_unit
 
-__all__ = ["MILLIMETRES", "Options", "stated_unit", "unit_of"]
-
 MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 
 

@@ -26,8 +26,6 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.numerics.arrays import FloatArray
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["check", "write"]
-
 RAIL_MARGIN = 0.05  # of the travel: rail beyond each of its ends
 
 IMPORTS = '''"""{about}

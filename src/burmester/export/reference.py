@@ -31,19 +31,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
-__all__ = [
-    "ORIGIN",
-    "PRECISION",
-    "Joint",
-    "Limb",
-    "Reference",
-    "Slot",
-    "as_rows",
-    "require_equal",
-    "require_places",
-    "scaled",
-]
-
 PRECISION = 1e-9  # of the span: the largest deviation of a file from the linkage
 SIDES = ("driver", "follower")
 ORIGIN = np.zeros(2)

@@ -38,8 +38,6 @@ from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.synthesis.result import Candidate
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["SCHEMA", "check_csv", "check_json", "write_csv", "write_json"]
-
 SCHEMA: Final = "burmester.linkage/1"
 JOINTS_SCHEMA: Final = "burmester.six-bar/1"
 MOTION_ROWS: Final = 361  # rows along the motion, beside those of the poses

@@ -36,8 +36,6 @@ from burmester.verdicts.quality import proportions
 from burmester.verdicts.requirement_check import figures_of, outside
 from burmester.verdicts.tolerances import sensitivity_bound
 
-__all__ = ["AIMS", "Assessment", "assessed", "costs"]
-
 FRAMES: Final = 17  # number of places along the range at which pivots are held against a footprint
 # Numbers of places along the range at which contact with the surroundings is looked for in a
 # search, and among what is chosen from: there at more places where it is clear at fewer.

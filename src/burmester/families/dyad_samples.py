@@ -21,8 +21,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 
-__all__ = ["DyadSamples", "drawn_dyads"]
-
 FEW: Final = 0.3  # share of the draws; where fewer arrive, their neighbours are drawn too
 NEAR: Final = 0.1  # lengths; how far such a neighbour starts from a dyad that arrived
 SAME: Final = 1e-7  # lengths; dyads whose dimensions differ by less are one

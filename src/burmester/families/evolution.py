@@ -25,8 +25,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, replaced, take
 from burmester.progress import goes_on
 
-__all__ = ["improved"]
-
 CHILDREN: Final = 12  # number of children of each population in a generation
 PARENTS: Final = 4  # number of the best of them that the next generation follows
 FIRST_STEP: Final = 0.08  # lengths, about; the step of the first generation

@@ -26,7 +26,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take, where
 from burmester.progress import time_for
 from burmester.refinement.target import Target
-from burmester.tasks.options import Preference
+from burmester.tasks.option_table import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.assumptions import Assumptions, Bound
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -38,21 +38,6 @@ from burmester.verdicts.quality import (
     proportions,
     rule,
 )
-
-__all__ = [
-    "Family",
-    "FoundFamily",
-    "Pool",
-    "best_of_family",
-    "drawn_pool",
-    "driver_first",
-    "far_apart",
-    "front",
-    "pin_places",
-    "recommended_first",
-    "rule_in_words",
-    "spread_out",
-]
 
 # Of what the least, or nearly the least, is recommended, by what is preferred.
 PREFERRED: Final[Mapping[Preference, str]] = {

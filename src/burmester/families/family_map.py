@@ -32,8 +32,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 
-__all__ = ["FamilyMap", "curve_map", "family_map", "plane_map"]
-
 CURVE_SAMPLES = 200  # dyads along the curve of four poses
 COLUMNS, ROWS = 160, 120  # fixed pivots of the map of three poses
 LIMITED_BORDER = 0.05  # of the longer side: the same around regions for pivots

@@ -34,14 +34,6 @@ from burmester.requirements.table import without
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.assumptions import WIDE, Assumptions
 
-__all__ = [
-    "LeastExcess",
-    "assumed_to_build",
-    "last_search",
-    "least_excess",
-    "linkages_within_limits",
-]
-
 BY_EXTENT: Final = 1  # the number of that aim in AIMS; its place is taken by the excess
 STARTS: Final = 8  # number of populations
 # Of the evolution: of that which looks whether there is any linkage, and of that towards the least.

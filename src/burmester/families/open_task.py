@@ -27,13 +27,11 @@ from burmester.requirements.types import TYPES
 from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
-from burmester.tasks.options import Preference
+from burmester.tasks.option_table import Preference
 from burmester.tasks.problem import SynthesisProblem, driving_side
 from burmester.tasks.surroundings import KeepOut, Surroundings
 from burmester.verdicts.assumptions import Assumptions
 from burmester.verdicts.quality import enough_transmission
-
-__all__ = ["Conditions", "DyadFreedom", "OpenTask", "Trials"]
 
 
 @final

@@ -41,16 +41,6 @@ from burmester.tasks.notation import span
 from burmester.verdicts.assumptions import Assumptions
 from burmester.verdicts.requirement_check import figures_of, outside, standard_of
 
-__all__ = [
-    "CLASS_WORDS",
-    "Ground",
-    "PairBounds",
-    "PairClass",
-    "PairVerdicts",
-    "judged_pairs",
-    "meets_limits",
-]
-
 PAIRS_PER_BLOCK = 8192  # judged at once; their arrays fit the processor's cache
 FOOTPRINT_SAMPLES = 25  # places between the poses at which pivots are held against a footprint
 MET = 1e-9  # relative, and radians: a bound that is missed by less is met

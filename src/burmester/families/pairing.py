@@ -20,8 +20,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.links import LINK_RATIO, LONGEST_LINK, SHORTEST_LINK
 
-__all__ = ["Pairs", "promising_pairs"]
-
 RR_KIND, PR_KIND, RP_KIND = range(3)  # indices in DYAD_KINDS
 NEARLY: Final = 1.6  # ratio by which links may be beyond their bounds where few pairs keep them
 FOUR: Final = 4  # number of links of a 4R linkage

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 from burmester.geometry.regions import Line, Point, Polygon, Region, Segment
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["PivotFreedom"]
-
 ZONES: Final = 5  # number of zones, each twice as wide as the one before; beyond, dyads are rare
 LEAST_ZONE: Final = 0.25  # of a zone's diagonal; a zone that holds less of the region is left out
 TRIES: Final = 40  # number of rounds in which the points of a zone are drawn by rejection

@@ -18,8 +18,6 @@ from burmester.families.open_task import DyadFreedom, OpenTask, Trials
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["MET", "projected"]
-
 STEPS: Final = 12  # number of Newton steps
 LONGEST_STEP: Final = 1.0  # lengths; a longer step is shortened to it
 SHORTEST_RADIUS: Final = 1e-3  # lengths; a link is kept at least as long on the way

@@ -13,8 +13,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
 from burmester.tasks.rails import Rail
 
-__all__ = ["RailFreedom"]
-
 PR_KIND: Final = 1  # number of the kind in a batch
 
 

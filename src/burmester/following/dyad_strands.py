@@ -25,8 +25,6 @@ from burmester.synthesis.dyad_search import search_dyads
 from burmester.tasks.limits import Limits
 from burmester.tasks.problem import SynthesisProblem
 
-__all__ = ["DyadStrands", "NewDyads"]
-
 FARTHEST = 0.1  # sine of the angle between two manifolds; farther ones are never one dyad
 AS_NEAR = 3.0  # ratio of the distances from two dyads, up to which neither is surely the one
 ROUNDING = 1e-6  # sine; dyads that moved by less are themselves, whatever is near

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from burmester.dyads.limited_block import Block
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["FaceTable", "Held", "face_numbers", "held", "nearest_face"]
-
 
 class Held(NamedTuple):
     """Linear conditions on dyads z (k, n): rows (k, m, n) · z = at (k, m), where active (k, m).

@@ -27,8 +27,6 @@ from burmester.verdicts.explanation import reasons
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.wording import count, in_unit, listed
 
-__all__ = ["follow"]
-
 ANEW = "call burmester.synthesize with the new task, and follow from there"
 
 

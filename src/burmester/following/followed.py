@@ -17,8 +17,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.quality import Quality
 from burmester.wording import count
 
-__all__ = ["Change", "ChangeKind", "Followed"]
-
 ChangeKind: TypeAlias = Literal["appeared", "vanished", "works", "fails", "other defects"]
 
 

@@ -33,8 +33,6 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import shares
 from burmester.tasks.motion_task import Task
 
-__all__ = ["FreeMinima", "MovedFit"]
-
 STEPS_DOWN = 12  # number of steps on each way down, for each task
 
 

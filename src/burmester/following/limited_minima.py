@@ -36,8 +36,6 @@ from burmester.numerics.weights import shares
 from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 
-__all__ = ["LimitedMinima", "limited_fit"]
-
 EXACT_ROUNDING = 1e-9  # relative; an exact pose that is missed by less is met
 
 

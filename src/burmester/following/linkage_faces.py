@@ -17,8 +17,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 
-__all__ = ["brought_inside", "faces_met", "linkage_face_numbers", "linkages_held", "outside_limits"]
-
 OUTSIDE = 1e-9  # lengths; a pivot that is farther outside its region has left it
 KEPT_TABLES = 16  # limits whose faces are remembered
 

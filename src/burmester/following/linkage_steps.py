@@ -16,8 +16,6 @@ from burmester.numerics.bundles import take, where
 from burmester.numerics.linear_algebra import matvec, solve_or_shortest
 from burmester.refinement.residuals import SIZE, Linearisation, Problem, State, linearised, secant
 
-__all__ = ["Least", "curvatures", "gains", "least_errors", "moved_with_places"]
-
 STEPS = 3  # of Newton's method from the linkages before
 SETTLED_STEP = 1e-6  # relative; after a shorter step the error is less than its square
 LONG_STEP = 0.02  # relative; after a longer one the curvature is another

@@ -46,8 +46,6 @@ from burmester.refinement.target import Target
 from burmester.tasks.limits import Limits
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 
-__all__ = ["LinkageStrands", "NewLinkages", "Way"]
-
 LEAST_GAIN = 1e-6  # share of the squared error; where a step gains more, a linkage is no minimum
 SAME_DIMENSIONS = 1e-9  # relative; a linkage that differs by less is its pair of dyads
 PASSED = 1e-10  # lengths; dyads that miss a pose by less pass it

@@ -20,16 +20,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec, solve_or_shortest
 
-__all__ = [
-    "MovedMinima",
-    "circles_of",
-    "listed",
-    "moved_fit",
-    "moved_minima",
-    "saddle_system",
-    "twins",
-]
-
 SAME_DYAD = 1e-6  # relative; dyads that differ by less have become one
 
 MAX_STEPS = 8  # of Newton's method; more than 4 are taken only where something is wrong

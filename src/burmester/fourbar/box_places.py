@@ -22,8 +22,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 
-__all__ = ["Boxes", "places_in_boxes"]
-
 SAMPLES: Final = 128  # of each circuit, at least
 POSES_PER_BLOCK: Final = 64  # number of poses searched for at once; bounds the memory
 STARTS: Final = 6  # number of samples whose neighbourhoods are searched first

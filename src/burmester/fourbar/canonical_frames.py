@@ -19,8 +19,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
 
-__all__ = ["CanonicalFrames"]
-
 # Mean squared deviation of e^(i angle).  A smaller one is rounding: M only translates.
 ROTATION_ROUNDING = 1e-28
 # Sizes of the motion.  With an origin of M farther off than this, long doubles save digits.

@@ -16,19 +16,6 @@ from numpy.typing import NDArray
 from burmester.fourbar.loop_closure import DrivenLoop
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = [
-    "CHANGE_POINT",
-    "ONE_SIDED",
-    "Parameter",
-    "RangeKind",
-    "RangeType",
-    "clamped_at_change_points",
-    "input_and_root",
-    "near_change_point",
-    "parameter_of",
-    "range_types",
-]
-
 # Smallest `DrivenLoop.margin` (relative) at which the two circuits count as separate.
 CHANGE_POINT = 1e-9
 # At a change point a bound may be violated by rounding, up to this fraction of its scale.

@@ -43,8 +43,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.numerics.bundles import put
 
-__all__ = ["Circuits", "Location", "circuit_of"]
-
 PLACES_PER_BLOCK = 8192  # places computed at once; their arrays fit the processor's cache
 # Step of the parameter (radians or a length) away from a change point, where a place is undefined.
 INPUT_ROUNDING = 1e-12  # an input that passes a dead point by less is at it

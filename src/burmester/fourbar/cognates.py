@@ -19,8 +19,6 @@ from burmester.fourbar.dyad import PR, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import ComplexArray, complex_of, pairs_of
 
-__all__ = ["cognates"]
-
 
 def cognates(linkage: Linkage, point: ArrayLike = (0.0, 0.0)) -> tuple[Linkage, ...]:
     """The other linkages whose coupler point traces the same curve.

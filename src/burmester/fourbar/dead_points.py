@@ -17,9 +17,6 @@ import numpy as np
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.numerics.arrays import FloatArray, complex_of
 
-__all__ = ["Bound", "Closing", "of_crank", "of_rail", "of_slot"]
-
-
 PARALLEL_RAILS = 1e-14  # two rails are parallel where the sine between them is below this
 
 

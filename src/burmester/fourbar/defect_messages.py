@@ -15,18 +15,6 @@ from burmester.fourbar.traversal import DEAD_POINT_ANGLE, PoseRange, Traversal
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import LEAST_RUN, count, figure, in_runs, listed, shortened
 
-__all__ = [
-    "Defect",
-    "DefectKind",
-    "PoseNames",
-    "assembly_defects",
-    "branch_defect",
-    "circuit_defect",
-    "near_dead_point_defect",
-    "order_defect",
-    "undetermined_defect",
-]
-
 DefectKind: TypeAlias = Literal["assembly", "circuit", "branch", "order", "degenerate", "stray"]
 
 MAX_NAMES: Final = 6  # poses, ranges of poses, or pairs of poses that one message lists

@@ -17,8 +17,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
 
-__all__ = ["PP", "PR", "RP", "RR", "Dyad", "line_direction_deg", "refitted_circles"]
-
 
 class _Dimensions:
     """The common part of the four kinds: float arrays, and indices along the leading axes."""

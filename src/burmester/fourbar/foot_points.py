@@ -15,16 +15,6 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 
-__all__ = [
-    "ConstraintNormals",
-    "constraint_normals",
-    "foot_points",
-    "newton_steps",
-    "places_of",
-    "rows_of",
-    "wrapped",
-]
-
 MAX_NEWTON_STEPS: Final = 30  # number of steps to a foot point at most
 CONVERGED_STEP: Final = 1e-12  # relative; after a smaller step the next would be rounding
 SLOW_RESIDUAL: Final = 1e-9  # lengths; an end of slow steps with less counts as on the linkage

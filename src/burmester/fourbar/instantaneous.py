@@ -19,17 +19,6 @@ from burmester.fourbar.loop_closure import DrivenLoop, with_trailing_axes
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, complex_of
 
-__all__ = [
-    "Centrodes",
-    "centrodes",
-    "crossing_angle",
-    "instant_centre",
-    "mechanical_advantage",
-    "transmission_angle",
-    "twist",
-    "velocity",
-]
-
 
 class Centrodes(NamedTuple):
     """The instant centres of places (*,) in F and in M: points (*, 2).

@@ -18,16 +18,6 @@ from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "GRASHOF_SUMS",
-    "TYPES",
-    "TYPE_OF_SIGNS",
-    "Linkage",
-    "Links",
-    "grashof",
-    "grashof_numbers",
-]
-
 PARALLEL = 1e-9  # relative; lines whose cross product is smaller are parallel within rounding
 GRASHOF_TIE = 1e-9  # of all links together; a sum as small is zero but for rounding
 

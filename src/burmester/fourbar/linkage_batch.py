@@ -22,16 +22,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 
-__all__ = [
-    "DIMENSIONS",
-    "DYAD_KINDS",
-    "ConstraintJacobians",
-    "LinkageBatch",
-    "dyads_of",
-    "pin_distances",
-    "row_of",
-]
-
 DYAD_KINDS: Final = (RR, PR, RP)  # the kinds of dyads, by their number in a batch
 DIMENSIONS: Final = 5  # number of dimensions of a dyad; a slider leaves the last one unused
 FIXED, MOVING = slice(0, 2), slice(2, 4)  # the pivots' coordinates in an RR dyad's dimensions

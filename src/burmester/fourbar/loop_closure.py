@@ -35,8 +35,6 @@ from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["KINDS", "NO_PLACE", "DrivenLoop", "Terms", "displacement_of", "with_trailing_axes"]
-
 DyadOrLoop = TypeVar("DyadOrLoop", bound="Dyad | DrivenLoop")
 
 NO_PLACE: Final = complex(np.nan, np.nan)

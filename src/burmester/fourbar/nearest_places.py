@@ -20,8 +20,6 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["nearest", "on_circuits", "on_own_circuits", "places_at", "sampled"]
-
 
 class SearchEffort(NamedTuple):
     """The number of samples of each circuit, and of local minima followed for each pose.

@@ -18,8 +18,6 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["PathGaps", "are_drawing"]
-
 STEPS: Final = (4, 64, 960)  # steps of a sampled arc at least and at most, and of all arcs together
 ROUNDS, TRIED = 6, 5  # of narrowing the bracket of the greatest distance: to a half in each round
 MOST_NARROWED: Final = 400  # gaps of each linkage

@@ -23,8 +23,6 @@ from burmester.fourbar.traversal import quarters_inside
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["extent", "pivot_box", "reserve"]
-
 # Of f (see `loop_closure`): where a linkage at a change point has a bound this near to an end of
 # the range of f, the change point is at that end.
 CHANGE_POINT_BOUND: Final = 1e-6

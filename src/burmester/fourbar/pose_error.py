@@ -14,8 +14,6 @@ from burmester.fourbar.nearest_places import nearest, on_circuits
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 
-__all__ = ["PoseError", "error_frames"]
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)

@@ -11,20 +11,6 @@ from numpy.typing import NDArray
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 
-__all__ = [
-    "CERTAIN_STEP_BACK",
-    "FULL_TURN",
-    "REPEATED_POSE_STEP",
-    "BoolArray",
-    "OrderTolerance",
-    "PoseOrder",
-    "along_interval",
-    "around_circuit",
-    "smallest_arc",
-    "step_back",
-    "tolerated_step",
-]
-
 # Radians, or fractions of the linkage's size.  A smaller step back along the circuit is an order
 # defect that is not certain.
 CERTAIN_STEP_BACK: Final = 1e-5

@@ -18,8 +18,6 @@ from burmester.fourbar.loop_closure import DrivenLoop
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, even_numbers
 from burmester.numerics.weights import weights_or_ones
 
-__all__ = ["places_at_turns"]
-
 PHASES: Final = 360  # samples of the phase
 MOST_SAMPLED: Final = 60  # points by which phases are sampled; the last search takes all
 STARTS: Final = 3  # phases from which the search goes on

@@ -27,8 +27,6 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, even
 from burmester.numerics.bundles import take
 from burmester.numerics.weights import weights_or_ones
 
-__all__ = ["places_along"]
-
 SAMPLES: Final = 160  # of each circuit, at least
 MOST_LAID: Final = 60  # points that are laid by the shortest path; others go between these
 ANCHORS: Final = 4  # places on a closed circuit at which the first point may be

@@ -19,8 +19,6 @@ from burmester.fourbar.coupler_kernel import (
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["LeastTransmission", "Transmission"]
-
 
 class Transmission(NamedTuple):
     """Linkages (k,) at places (k, N).

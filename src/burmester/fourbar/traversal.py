@@ -35,18 +35,6 @@ from burmester.fourbar.pose_order import (
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 
-__all__ = [
-    "DEAD_POINT_ANGLE",
-    "DrivenView",
-    "PoseRange",
-    "Traversal",
-    "first_where",
-    "other_way_round",
-    "pose_range",
-    "quarters_inside",
-    "traversal_of",
-]
-
 # Radians (0.06°).  A place with a smaller transmission angle is beside a dead point: whether the
 # linkage locks there is uncertain.
 DEAD_POINT_ANGLE: Final = 1e-3

@@ -22,21 +22,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "INVARIANT",
-    "circle",
-    "coefficients_of_circle",
-    "coefficients_of_fixed_line",
-    "coefficients_of_moving_line",
-    "coefficients_of_rotation",
-    "condition_gradients",
-    "conditions",
-    "matrix",
-    "monomials",
-    "prismatic_parts",
-    "size",
-]
-
 # With the seventh monomial counted by sqrt(2), a rotation of F or M turns the eight of them by an
 # orthogonal matrix; coefficients divided by the same numbers go along with it.
 INVARIANT: Final = np.array([1, 1, 1, 1, 1, 1, np.sqrt(2), 1])

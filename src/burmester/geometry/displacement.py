@@ -21,8 +21,6 @@ from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
 from burmester.values import Shape, real_numbers
 
-__all__ = ["Displacement", "image_multiply"]
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)

@@ -9,8 +9,6 @@ import numpy as np
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["half_planes"]
-
 MAX_SIDES: Final = 8  # number of sides of a convex polygon that are conditions each
 
 

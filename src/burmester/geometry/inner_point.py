@@ -6,8 +6,6 @@ import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["inner_point"]
-
 GRID_SIDE = 40  # points along a side of the grid; the point is the best of these, not the very best
 AS_DEEP = (
     0.95  # of the greatest depth: of points as deep as that the one nearest to the middle is taken

@@ -21,8 +21,6 @@ from numpy.typing import ArrayLike, NDArray
 from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["QuadricFit", "QuadricKind", "classify", "fit_quadric", "matrix", "monomials"]
-
 TOLERANCE = 1e-10  # what counts as zero next to 1: rounding, with room for a few lost digits
 
 # The monomial q_k is Z_i Z_j, in the order of Eq. (11).

@@ -12,19 +12,6 @@ from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
 from burmester.values import Shape, real_numbers
 
-__all__ = [
-    "PLANE",
-    "Face",
-    "Line",
-    "Point",
-    "Polygon",
-    "Region",
-    "Segment",
-    "box",
-    "narrowed",
-    "require_searchable",
-]
-
 # Corners of a polygon: every edge is compared with every other one; flattened arcs have some 100.
 MAX_CORNERS = 2000
 MAX_SEARCHED_CORNERS = 100  # where each edge and corner is searched, a second or two for as many

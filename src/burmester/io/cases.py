@@ -12,8 +12,6 @@ from burmester.errors import InputError
 if TYPE_CHECKING:
     from importlib.resources.abc import Traversable
 
-__all__ = ["load", "names", "read_bytes"]
-
 
 def names() -> tuple[str, ...]:
     """The names of all cases, sorted."""

@@ -26,16 +26,6 @@ from burmester.errors import BurmesterError, InputError
 from burmester.printable import printable
 from burmester.signals import unfinished
 
-__all__ = [
-    "atomic_file",
-    "cannot_write",
-    "open_plain",
-    "quoted",
-    "require_writable",
-    "sweep",
-    "write",
-]
-
 STALE_SECONDS = 3600.0  # age above which a temporary file was left by a killed process
 
 _WINDOWS = os.name == "nt"

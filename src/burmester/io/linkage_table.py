@@ -26,7 +26,7 @@ from burmester.tasks import notation
 from burmester.verdicts import explanation
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.tolerance_words import share_texts
-from burmester.wording import count, figure, in_unit
+from burmester.wording import count, figure, in_unit, least_angle
 
 CLOSEST = 3  # linkages in the outcome, where none is usable
 LINKS = ("ground", "driver", "coupler", "follower")
@@ -172,7 +172,7 @@ def _usable(
             *((" ".join(dyad.id for dyad in found.dyads_driver_first),) if dyads else ()),
             *(() if decimals is None else links(found, decimals[k])),
             *worst_errors(synthesis, found),
-            notation.least_angle(found.driven.least_over_range),
+            least_angle(found.driven.least_over_range),
             *(in_short(found.quality) if quality else ()),
             *((_clear(found),) if near else ()),
         )

@@ -14,8 +14,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.scene.linkage_scene import scene_with
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["MOST_ROWS", "sketch"]
-
 MOST_ROWS = 14  # lines of the sketch
 FAR = 3.0  # sizes of the motion; pivots farther from its middle are outside the sketch
 WIDE, HIGH = 2, 4  # dots of a character

@@ -27,8 +27,6 @@ from burmester.refinement.target import Target
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.verdicts.ranking import by_quality
 
-__all__ = ["best_within"]
-
 MOST_CLOSEST = 4  # number of linkages that are refined again, with either driver
 # Of the way from an angle that is reached to GREATEST_ANGLE: the angles that are tried next.
 SHARES = 0.03, 0.08, 0.2, 0.5

@@ -22,8 +22,6 @@ from burmester.tasks.pose_sample import PoseSample
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import ranked
 
-__all__ = ["judged_at_all", "refined_by_all", "worst_left_out"]
-
 # Steps by all poses: so many places are computed for a linkage, in at least and at most so many
 # steps; their first damping.
 PLACES, STEPS, DAMPING = 200_000, (3, 40), 1e-9

@@ -12,7 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.defects import Defect, Driven, Verdict, judge
+from burmester.fourbar.defect_messages import Defect
+from burmester.fourbar.defects import (
+    Driven,
+    Verdict,
+    judge,
+)
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
@@ -67,17 +72,6 @@ from burmester.verdicts.uncertainty import (
     uncertainties,
 )
 from burmester.wording import count
-
-__all__ = [
-    "PLACES_AT_ONCE",
-    "Candidates",
-    "Evaluation",
-    "at_given_poses",
-    "numbered",
-    "sizable",
-    "transmission_at_given_poses",
-    "with_own_dyads",
-]
 
 MIN_LINK = 1e-6  # motion sizes; linkages with a shorter ground link or coupler are dropped
 EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance

@@ -59,8 +59,6 @@ from burmester.verdicts.ranking import (
 )
 from burmester.wording import count
 
-__all__ = ["MAX_POSES_REFINED", "linkages_from_dyads", "sample_refined", "target_of"]
-
 MAX_POSES_INTO_BOXES = 60  # refine on at most so many poses, evenly thinned
 STEPS_INTO_BOXES = 40  # number of steps of each of the two refinements
 

@@ -35,8 +35,6 @@ from burmester.refinement.starts import (
 from burmester.refinement.target import Target
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 
-__all__ = ["MAX_POSES_SEARCHED", "FurtherPairs", "PairsToSearch", "closer_linkages"]
-
 MAX_POSES_SEARCHED = 60  # look for linkages on at most so many poses, evenly thinned
 # Number of pairs refined a little, how often a dyad is among them, and number refined fully.
 MAX_PAIRS, USES_OF_A_DYAD, MAX_REFINED = 32, 4, 8

@@ -22,8 +22,6 @@ from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.refinement.target import ONE_CIRCUIT_RATIO, Target
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["NearestPlaces", "best_places"]
-
 
 class NearestPlaces(NamedTuple):
     """Places of linkages (k,) nearest to the poses.

@@ -33,8 +33,6 @@ from burmester.refinement.target import Target
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import digits_leave_open, farthest_recommended
 
-__all__ = ["Move", "greatest_move", "moves", "nearby_linkages"]
-
 # Numbers of steps of the refinements: after a few of them a linkage may be better and still near.
 STEPS = (1, 4, 12, 36)
 TRANSMISSION_GAINS = (10.0, 25.0)  # degrees that are tried above the given linkage's angle

@@ -23,8 +23,6 @@ from burmester.refinement.defect_free_search import driving_sides, refined_on_br
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import digits_leave_open, is_trade
 
-__all__ = ["sound_linkages", "trades"]
-
 LENGTH_RATIOS = 0.25, 4.0  # of the lengths per radian that are tried beside the chosen one
 TRADE_STEPS = 40  # number of steps of these refinements
 

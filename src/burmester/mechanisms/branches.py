@@ -21,8 +21,6 @@ from burmester.mechanisms.contract import Mechanism, drive_of
 from burmester.numerics.arrays import ComplexArray, FloatArray, wrapped_angle
 from burmester.numerics.golden_section import golden_section
 
-__all__ = ["Branch", "branches_of"]
-
 TURN = 2 * np.pi
 STEPS = 720  # of the table of a branch, for each piece of its circuit
 SOLVED = 40  # steps of the search for the share of an angle

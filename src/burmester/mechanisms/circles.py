@@ -6,8 +6,6 @@ import numpy as np
 
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["acute_angle", "arccos_or_nan", "meeting", "side_of"]
-
 
 def meeting(
     centre: ComplexArray,

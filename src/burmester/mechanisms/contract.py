@@ -17,8 +17,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["Locked", "Mechanism", "body_of", "drive_of"]
-
 
 class Locked(NamedTuple):
     """The angles (m,) of a generator at which a loop locks, and which one: (m,)."""

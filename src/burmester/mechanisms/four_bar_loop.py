@@ -9,8 +9,6 @@ import numpy as np
 from burmester.mechanisms.circles import arccos_or_nan
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["FourBarLoop"]
-
 
 @final
 class FourBarLoop(NamedTuple):

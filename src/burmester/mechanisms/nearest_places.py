@@ -20,8 +20,6 @@ from burmester.mechanisms.contract import Mechanism, body_of
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.golden_section import golden_section
 
-__all__ = ["BodyMeasure", "Minima", "least_along", "minima_of", "nearest_shares"]
-
 PLACES = 720  # looked at on a piece of a circuit
 REFINED = 4  # of the places that are nearer than both neighbours, so many on each piece are refined
 AT_ONCE = 1_000_000  # places times poses looked at in one go; bounds the memory

@@ -16,8 +16,6 @@ import numpy as np
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, complex_of
 
-__all__ = ["Frames", "Joints", "Skeleton", "distance", "seen_along"]
-
 # Joints (*, 2) by their letters; and those of each link, in the frame of that link.
 Joints: TypeAlias = Mapping[str, FloatArray]
 Frames: TypeAlias = Mapping[str, Joints]

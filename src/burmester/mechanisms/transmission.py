@@ -13,8 +13,6 @@ from burmester.mechanisms.circles import acute_angle
 from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["least_transmission_angle", "transmission_angles"]
-
 
 def least_transmission_angle(skeleton: Skeleton, joints: ComplexArray, pivot: str) -> FloatArray:
     """The least transmission angle (*,) where the joints are (*, j), in radians.

@@ -40,8 +40,6 @@ from burmester.web.data import report_data
 if TYPE_CHECKING:
     from burmester.notebook.studio import Studio
 
-__all__ = ["Pages"]
-
 PROGRESS_S: Final = 0.1  # between two words of progress
 NOT_DRAWN: Final = ("pivot_map", "family_map")  # parts of a report that a widget has no room for
 

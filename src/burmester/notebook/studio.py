@@ -21,10 +21,8 @@ from burmester.live.document import document_of, read_file
 from burmester.notebook.pages import Pages
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import AngleUnit, Task
-from burmester.tasks.options import Norm, Preference
+from burmester.tasks.option_table import Norm, Preference
 from burmester.values import require_instance
-
-__all__ = ["Studio"]
 
 OPENS_ON = "chest-lid"  # the template that is shown where no task is given
 

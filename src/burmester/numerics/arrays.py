@@ -7,17 +7,6 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "ROUNDING",
-    "ComplexArray",
-    "FloatArray",
-    "complex_of",
-    "even_numbers",
-    "median",
-    "pairs_of",
-    "wrapped_angle",
-]
-
 FloatArray = NDArray[np.float64]
 ComplexArray: TypeAlias = NDArray[np.complex128]
 

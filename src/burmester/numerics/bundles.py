@@ -14,8 +14,6 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Bundle", "concatenate", "copied", "put", "replaced", "row_count", "take", "where"]
-
 Bundle = TypeVar("Bundle")
 FOR_ALL_ROWS = bool, int, float, str  # types of values that are not picked from
 

@@ -12,8 +12,6 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["normal_draws", "uniform_draws"]
-
 _STEP = np.uint64(0x9E3779B97F4A7C15)
 _FIRST, _SECOND = np.uint64(0xBF58476D1CE4E5B9), np.uint64(0x94D049BB133111EB)
 BITS = 53  # of a double below 1

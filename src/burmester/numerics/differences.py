@@ -8,8 +8,6 @@ import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["DifferenceQuotients"]
-
 
 class DifferenceQuotients(NamedTuple):
     """A way to take derivatives: function values at `points` make the `jacobian`.

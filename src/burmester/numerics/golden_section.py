@@ -9,8 +9,6 @@ import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["golden_section"]
-
 STEPS = 55  # 3e-12 of the distance between the bounds is left
 GOLDEN = (math.sqrt(5) - 1) / 2
 

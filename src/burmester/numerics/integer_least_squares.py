@@ -7,8 +7,6 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["closest_numbers", "firmest_last"]
-
 
 def firmest_last(jacobian: FloatArray) -> NDArray[np.intp]:
     """The order of columns (m, n) in which the last are best determined, all others being free."""

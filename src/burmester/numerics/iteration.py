@@ -12,8 +12,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import Bundle, copied, put, row_count, take
 from burmester.progress import goes_on
 
-__all__ = ["Advance", "iterate", "shortened"]
-
 MAX_QUARTERINGS = 20  # trials of a step before it is given up, each a quarter of the one before
 
 Point = TypeVar("Point")

@@ -14,8 +14,6 @@ from burmester.numerics.bundles import Bundle, row_count, where
 from burmester.numerics.iteration import iterate
 from burmester.numerics.linear_algebra import solve
 
-__all__ = ["Attempt", "Descent", "Kernel", "damped_descent", "levenberg_marquardt"]
-
 MAX_STEPS = 200  # of `levenberg_marquardt`, taken or refused
 START_DAMPING = 1e-3  # of its first step, in units of the squared columns of the Jacobian
 MIN_DAMPING, MAX_DAMPING = 1e-13, 1e13  # the same; beyond the second no step helps any more

@@ -10,15 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = [
-    "matvec",
-    "one_thread",
-    "solve",
-    "solve_or_shortest",
-    "solve_where_regular",
-    "unit_vectors",
-]
-
 
 def matvec(matrix: NDArray[Any], vector: NDArray[Any]) -> NDArray[Any]:
     """Matrices (*, m, n) times vectors (*, n): (*, m)."""

@@ -27,8 +27,6 @@ import numpy as np
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.soft_program_kernel import solve_programs
 
-__all__ = ["SoftProgram"]
-
 
 class SoftProgram(NamedTuple):
     """Programs (k,) in n unknowns with m soft constraints.

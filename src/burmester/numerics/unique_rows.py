@@ -7,8 +7,6 @@ from typing import Any, Literal, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["unique_index", "unique_rows"]
-
 Rows = TypeVar("Rows", bound=NDArray[Any])
 
 

@@ -6,8 +6,6 @@ import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["shares", "weights_of_mean_one", "weights_or_ones"]
-
 
 def weights_or_ones(weights: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
     """Weights as they are, broadcast to a shape; ones where there are none."""

@@ -19,8 +19,6 @@ from numpy.typing import ArrayLike
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["MISPRINTS", "Comparison", "Section", "Verdict", "compare", "compare_columns"]
-
 MISPRINTS: Final = {  # item: what is printed, what is meant, what went wrong
     "Table 2, angle 6": (52.67, 52.87, "A digit is wrong"),
     "Table 3, sigma5": (0.2868, 0.1868, "A digit is wrong"),

@@ -13,8 +13,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.paper.comparison import MISPRINTS
 
-__all__ = ["LAST_DIGIT", "VECTORS", "PaperFit", "rounded"]
-
 LAST_DIGIT: Final = np.array([1e-4, 1e-4, 1e-2])  # of x, y and the angle in degrees
 VECTORS: Final = [f"v{i} p{j}" for i in (1, 2) for j in range(1, 9)]
 

@@ -30,8 +30,6 @@ from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Answer", "by_every_method", "random_starts", "starts_needed"]
-
 START_SPREAD = 3.0  # canonical lengths: spread of the start pivots
 SAME_END = 1e-4  # relative distance below which two ends are one
 

@@ -15,8 +15,6 @@ from burmester.paper.five_methods import Answer, by_every_method
 from burmester.progress import step
 from burmester.tasks.motion_task import Task
 
-__all__ = ["Answer", "SideBySide", "side_by_side", "side_by_side_data"]
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)

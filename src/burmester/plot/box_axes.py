@@ -17,8 +17,6 @@ from burmester.plot.style import BLACK, GREY, with_unit
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["box_axes"]
-
 NUMBER, NAME = 11.0, 27.0  # points from the box to the numbers and names beside it
 
 

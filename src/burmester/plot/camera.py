@@ -15,8 +15,6 @@ from numpy.typing import ArrayLike
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Box", "Camera", "chart"]
-
 MARGIN = 0.12  # share of the points' extent left free around them
 
 

@@ -23,8 +23,6 @@ from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, label, settle_lab
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["DrawnErrors", "DrawnTransmission", "pose_errors", "transmission"]
-
 USUAL_MIN_TRANSMISSION_DEG = 40.0  # degrees; below it friction may lock the linkage
 ZERO_ERROR = 1e-16  # of the largest error, or of 1: height at which an error of zero is drawn
 

@@ -17,8 +17,6 @@ from numpy.typing import ArrayLike
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["common_curve"]
-
 MAX_IMAGINARY = 1e-7  # of a root's size: largest imaginary part of a real root
 ZERO_COEFFICIENT = 1e-12  # of the largest coefficient: smaller ones count as 0
 

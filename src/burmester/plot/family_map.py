@@ -50,8 +50,6 @@ from burmester.plot.style import (
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["MapMarks", "family_figure", "family_map"]
-
 FRAME_SIZE: Final = 0.05  # of the width of a rectangle: the x axis of a pose
 SPECK: Final = 6  # of nine pairs around one that does not work; no outline goes around that one
 NAMES: Final = {

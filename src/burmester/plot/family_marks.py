@@ -27,18 +27,6 @@ from burmester.requirements.transmission import TRANSMISSION
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = [
-    "SCALE",
-    "TICKS",
-    "TINTS",
-    "colors_of",
-    "place_name",
-    "pose_names",
-    "ring",
-    "rings",
-    "scale_of",
-]
-
 SCALE: Final = "cividis"  # of transmission angles
 SCALE_STEP: Final = 5.0  # degrees; that scale ends at a multiple of it
 TINTS: Final = {

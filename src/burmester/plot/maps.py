@@ -20,8 +20,6 @@ from burmester.plot.style import BLUE, VERMILION
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["DrawnMap", "centre_point_curve", "circle_point_curve", "pivot_map"]
-
 MAX_DECADES = 4.0  # of errors that the colours distinguish, at most
 CURVE_REACH = 3.0  # spans of the poses; the curve is cut off beyond
 

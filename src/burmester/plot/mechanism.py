@@ -46,8 +46,6 @@ if TYPE_CHECKING:
 
     from burmester.fourbar.linkage import Linkage
 
-__all__ = ["DrawnLinkage", "draw", "linkage", "linkage_figure", "path"]
-
 FAINT = "#aab3bd"
 PLATES = (ORANGE, GREEN, PURPLE)  # colours of plates beside the body
 SYMBOL_SIZE = 0.045  # of the linkage's size: a ground pivot or a block

@@ -20,8 +20,6 @@ from burmester.tasks.surroundings import KeepOut
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["DrawnBody", "DrawnKeepOut", "body", "keep_out"]
-
 FIRST, LAST = 0.45, 1.0  # strength of the outline at the first pose and at the last
 FILL = 0.1  # of its strength: how opaque the inside of an outline is
 SWEPT = 0.22  # opacity of the outlines along the motion

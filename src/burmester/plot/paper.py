@@ -42,8 +42,6 @@ from burmester.plot.style import BLACK, GREY, PALETTE, figure, finish, house_sty
 from burmester.plot.walk import steps, walk, write_gif
 from burmester.progress import step
 
-__all__ = ["FORMATS", "NAMES", "paper_figure", "write_figures"]
-
 FORMATS: Final = ("png", "svg", "pdf", "gif")
 EXACT_BOX: Final = Box(np.array([-2.9, -4.6, -2.6]), np.array([3.1, 1.4, 1.7]), 1.9)
 NOISY_BOX: Final = Box(np.array([-2.2, -3.7, -1.5]), np.array([2.2, 0.7, 1.5]), 1.9)

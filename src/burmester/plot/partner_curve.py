@@ -22,8 +22,6 @@ from burmester.plot.style import BLACK, GREY, label, with_unit
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["PartnerCurve", "partner_curve"]
-
 ROOM: Final = 1.2  # around what is shown of a centre-point curve, as a factor
 
 

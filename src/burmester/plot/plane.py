@@ -27,18 +27,6 @@ from burmester.scene.linkage_scene import longest
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = [
-    "Achieved",
-    "CouplerCurve",
-    "Frames",
-    "achieved",
-    "centrodes",
-    "coupler_curve",
-    "parameters",
-    "poses",
-    "span_of",
-]
-
 X_AXIS_LENGTH = 0.13  # of the poses' span: length of a frame's x axis
 Y_AXIS_SHARE = 0.6  # of the x axis: length of the y axis
 ENDLESS_CURVE_REACH = 2.0  # spans; an endless curve is cut off beyond

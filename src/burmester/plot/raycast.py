@@ -21,8 +21,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.plot.camera import Camera
 
-__all__ = ["Extent", "Scene", "Surface", "cast", "render"]
-
 BLOCK = 1 << 13  # rays at a time, so that their data stay in the cache
 EDGE_SAMPLES = 3  # rays along each side of a pixel on an edge
 LIGHT_DIRECTION = np.array([-0.45, 0.55, -0.70])  # towards the light: right, up, ahead

@@ -32,8 +32,6 @@ from burmester.plot.style import BLACK, PALETTE, label, settle_labels
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["ImageSpace", "covered", "image_space", "scene_of", "standard_camera"]
-
 ON_SURFACE = 1e-6  # in t: a surface does not cover a curve that is nearer to it
 MARKER_SIZE = 0.02  # of the box: half the size of an image point's marker
 RINGS = 9  # lines of equal height on a surface as high as the box

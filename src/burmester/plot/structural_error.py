@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
     from burmester.synthesis.function_generation import FunctionSynthesis
 
-__all__ = ["structural_error", "structural_error_figure"]
-
 MOST_CURVES = 4  # linkages in one figure
 FAR = 5.0  # times the greatest error of the first; worse linkages are left out
 ROUNDING = 1e-9  # radians; an error below is none

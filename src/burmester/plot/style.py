@@ -28,25 +28,6 @@ from burmester.printable import printable
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = [
-    "BLACK",
-    "BLUE",
-    "GREEN",
-    "GREY",
-    "ORANGE",
-    "PALETTE",
-    "PURPLE",
-    "VERMILION",
-    "figure",
-    "finish",
-    "house_style",
-    "label",
-    "legend",
-    "plain",
-    "settle_labels",
-    "with_unit",
-]
-
 BLACK: Final = "#1b2733"
 GREY: Final = "#7b8794"
 BLUE: Final = "#0072B2"

@@ -21,8 +21,6 @@ from burmester.plot.camera import Box, Camera
 from burmester.plot.space import image_space
 from burmester.plot.style import figure, house_style
 
-__all__ = ["steps", "walk", "write_gif"]
-
 PALETTE_SIZE = 256  # colours of a GIF
 
 

@@ -22,8 +22,6 @@ import numpy as np
 
 from burmester.numerics.arrays import ComplexArray
 
-__all__ = ["UNKNOWNS", "Positions", "point_turns"]
-
 UNKNOWNS: Final = 8  # u, ub, z, zb of two dyads
 
 

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 from burmester.numerics.arrays import ComplexArray
 from burmester.points.alt_burmester import Positions
 
-__all__ = ["CLASS", "cognates", "distinct"]
-
 CLASS: Final = 3  # cognates of one curve
 
 SAME: Final = 1e-6  # relative; solutions whose keys differ by less are one

@@ -23,8 +23,6 @@ from burmester.points.path_tracking import ACCURACY, polished, tracked
 from burmester.points.start_systems import CASES, Case, start_system
 from burmester.progress import goes_on, step
 
-__all__ = ["AllLinkages", "all_linkages", "case_of"]
-
 STEPS: Final = 30  # of Newton's, at most
 MET: Final = 1e-10  # of an equation, in lengths of about 1; less is rounding
 FLAT: Final = 1e-6  # relative; a singular value below this vanishes

@@ -16,8 +16,6 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.points.alt_burmester import UNKNOWNS, Positions
 from burmester.points.path_kernel import follow, polish
 
-__all__ = ["Paths", "polished", "tracked"]
-
 ACCURACY: Final = 3e-4  # relative; Newton's first step on a prediction, beyond it the step was long
 TOGETHER: Final = 16  # paths that are followed in one call, some hundredths of a second
 

@@ -15,8 +15,6 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["MOST_MET", "PointSet", "line_or_circle", "point_set"]
-
 FLAT: Final = 1e-7  # of the points' radius of gyration; points as near to a curve are on it
 WITHIN_DIGITS: Final = 2.0  # half of the last digit: x and y may both be off by it, and the curve
 LEAST_CIRCLE, LEAST_CONIC = 4, 6  # points that are not on such a curve as a rule

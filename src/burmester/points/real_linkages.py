@@ -15,8 +15,6 @@ from burmester.points.classes import cognates
 from burmester.points.complete_solve import AllLinkages, all_linkages
 from burmester.points.path_tracking import polished
 
-__all__ = ["PointLinkages", "linkages_through"]
-
 REAL: Final = 1e-6  # relative; a linkage that is its own conjugate up to this is real
 MET: Final = 1e-7  # relative; a real linkage is kept if its Newton steps end below this
 SIZE: Final = 1.2  # root mean square distance of positions from the base: that of solved problems

@@ -22,8 +22,6 @@ from burmester.numerics.arrays import ComplexArray
 from burmester.points.alt_burmester import Positions, point_turns
 from burmester.points.path_tracking import polished
 
-__all__ = ["CASES", "Case", "StartSystem", "start_system"]
-
 
 class Case(NamedTuple):
     """How many poses (the base is one of them), points and fixed pivots a problem gives.

@@ -19,17 +19,6 @@ from numpy.typing import NDArray
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec, solve_or_shortest
 
-__all__ = [
-    "Condition",
-    "Parameters",
-    "Shape",
-    "circle_shape",
-    "equations",
-    "jacobian",
-    "line_shape",
-    "newton_step",
-]
-
 Condition: TypeAlias = Literal["none", "soft", "hard"]
 
 _UPWARDS = np.array([np.cos(1.5), np.sin(1.5)])  # of a line's two normals the one nearer to this

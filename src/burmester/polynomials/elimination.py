@@ -15,8 +15,6 @@ from burmester.numerics.bundles import take
 from burmester.polynomials.bilinear_fit import Parameters, Shape
 from burmester.polynomials.elimination_template import Chart, chart, isotropic, template
 
-__all__ = ["eigen_points", "in_chart"]
-
 BALANCE = 0.4  # target ratio of linear to bilinear terms; the result is not sensitive to it
 ENTRIES_AT_ONCE = 2_000_000  # of matrices; bounds the memory
 

@@ -21,20 +21,6 @@ from numpy.typing import NDArray
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.polynomials.bilinear_fit import Shape
 
-__all__ = [
-    "CHARTS",
-    "Chart",
-    "Isotropic",
-    "Template",
-    "chart",
-    "finite_count",
-    "isotropic",
-    "lagrangian",
-    "matrix_terms",
-    "monomials_by_parts",
-    "template",
-]
-
 TEMPLATES = "elimination_templates.npz"
 CHARTS = 4  # choices of random forms, of which another is tried where solutions are lost
 SHIFT = 0.5  # of the origin, in units; so that no coefficient vanishes by symmetry

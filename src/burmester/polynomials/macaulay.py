@@ -25,8 +25,6 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["CHARTS", "eigen_points"]
-
 Exponents = tuple[int, int, int, int]  # of c, c*, m, m*
 
 NO_COEFFICIENT = 1e-12  # a coefficient of the polynomials below this is rounding

@@ -20,8 +20,6 @@ from burmester.numerics.bundles import take
 from burmester.numerics.linear_algebra import solve_or_shortest
 from burmester.polynomials.bilinear_fit import Parameters, Shape, equations, jacobian, newton_step
 
-__all__ = ["ARRIVED", "AWAY", "LOST", "follow", "generic_solutions", "tracked_points"]
-
 PREDICTION_TOLERANCE = 1e-3  # relative; a step whose prediction is farther off is tried shorter
 CORRECTION_TOLERANCE = 1e-10  # relative; Newton's last step on a point of a path
 NEWTON_STEPS = 3  # that correct a prediction

@@ -21,8 +21,6 @@ from burmester.polynomials.elimination import eigen_points
 from burmester.polynomials.elimination_template import CHARTS, finite_count
 from burmester.polynomials.parameter_homotopy import ARRIVED, AWAY, LOST, tracked_points
 
-__all__ = ["StationaryPoints", "stationary_points"]
-
 MAX_NEWTON_STEPS = 12  # from an eigenvector; two are usual
 SETTLED_STEP = 1e-9  # relative; after a shorter one of Newton's method nothing is left to do
 SINGULAR = 1e-14  # inverse condition, relative; a point with a lower one is no isolated point

@@ -21,19 +21,6 @@ from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.tasks.requirements import Requirements
 
-__all__ = [
-    "CLEARANCE_ANGLE",
-    "SHORTEST_LINK",
-    "AllConstraints",
-    "BranchAndOrder",
-    "Constraints",
-    "DrivenBranch",
-    "FromSlopes",
-    "LeastLinks",
-    "LinkProportions",
-    "type_excess",
-]
-
 CLEARANCE_ANGLE: Final = np.radians(5.0)  # least transmission angle in a search for linkages
 TRANSMISSION_MARGIN: Final = 1e-7  # radians; kept above a required transmission angle
 MIN_INPUT_STEP: Final = 2e-3  # radians or lengths; least step of the input from pose to pose

@@ -39,17 +39,6 @@ from burmester.refinement.target import Target
 from burmester.refinement.under_constraints import Selection
 from burmester.tasks.requirements import Requirements
 
-__all__ = [
-    "FEW_POSES",
-    "MAX_CONTINUED",
-    "SearchResult",
-    "defect_free_linkages",
-    "driving_sides",
-    "middle_input",
-    "on_more_poses",
-    "refined_on_branch",
-]
-
 # Linkages are refined under constraints on at most so many poses, evenly thinned, and by their last
 # steps on so many.
 FEW_POSES, MORE_POSES, MORE_STEPS = 14, 60, 20

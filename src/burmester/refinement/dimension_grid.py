@@ -14,8 +14,6 @@ from numpy.typing import NDArray
 from burmester.fourbar.linkage_batch import DIMENSIONS
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Grid", "multiple"]
-
 SIZE = 2 * DIMENSIONS
 # A rounded value differs from the dimension by at most MAX_STEPS_OFF steps or MAX_SIZES_OFF sizes
 # of the motion (radians for lines), whichever is more.

@@ -16,8 +16,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.refinement.constraints import QUOTIENTS, ConstraintSlopes, FromSlopes
 from burmester.tasks.limits import Limits
 
-__all__ = ["DyadLimitsConstraint", "KeptPivot"]
-
 
 class KeptPivot(NamedTuple):
     """A pivot's region, in canonical frames.

@@ -16,8 +16,6 @@ from burmester.refinement.kept_limits import KeptPivot
 from burmester.tasks.limits import Limits
 from burmester.tasks.rails import Rail
 
-__all__ = ["RailConstraint"]
-
 PR_KIND, RP_KIND = 1, 2  # numbers of the kinds in a batch
 
 

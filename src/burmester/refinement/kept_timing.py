@@ -15,8 +15,6 @@ from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.refinement.constraints import ConstraintSlopes, ConstraintValues
 from burmester.tasks.crank_timing import CrankTiming
 
-__all__ = ["TimingConstraint"]
-
 PHASES = 9  # angles, by which all stated ones are shifted, that are tried at once
 ROUNDS = 8  # of such trials, each over a quarter of the range of the one before
 

@@ -43,8 +43,6 @@ from burmester.refinement.under_constraints import (
     refine_constrained,
 )
 
-__all__ = ["Refined", "refine"]
-
 MAX_STEPS = 60  # number of steps without constraints at most
 MAX_CONSTRAINED_STEPS = 120  # number of steps with constraints at most
 # Exponents of the distances in the sums that are minimised one after the other; the minimum of the

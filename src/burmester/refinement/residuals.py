@@ -20,17 +20,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec
 from burmester.refinement.constraints import Constraints
 
-__all__ = [
-    "SIZE",
-    "Linearisation",
-    "Problem",
-    "State",
-    "all_constraints",
-    "linearised",
-    "power_ratio",
-    "secant",
-]
-
 SIZE = 2 * DIMENSIONS
 MAX_NEWTON_STEPS = 6  # number of steps to the nearest places at most
 CLOSE_STEP = 1e-6  # lengths; after a smaller step the next would be rounding

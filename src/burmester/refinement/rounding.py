@@ -45,8 +45,6 @@ from burmester.refinement.defect_free_search import middle_input
 from burmester.refinement.dimension_grid import Grid
 from burmester.refinement.target import Target
 
-__all__ = ["rounded"]
-
 SIZE = 2 * DIMENSIONS
 QUOTIENTS = DifferenceQuotients(stride=1e-4, central=True)  # of places, by rounding steps
 PULL_TO_START = 0.01  # weight of a step away from the start, relative to a dimension's rms effect

@@ -26,15 +26,6 @@ from burmester.numerics.weights import shares, weights_of_mean_one
 from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 
-__all__ = [
-    "best_sliders",
-    "distinct",
-    "first_order_miss",
-    "links_of_pivot_map",
-    "projected",
-    "varied",
-]
-
 PROJECTION_STEPS = 12  # number of Newton's steps from the poses onto a linkage
 ON_LINKAGE = 1e-9  # residual, in lengths, of a place on the linkage
 MAP_POINTS, MAP_REACH = 17, 3.0  # pivot maps: points in each direction, half-width in motion sizes

@@ -30,8 +30,6 @@ from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
 
-__all__ = ["ONE_CIRCUIT_RATIO", "Target"]
-
 # Stay on one circuit if its worst error is at most this many times the unrestricted one.
 ONE_CIRCUIT_RATIO = 2.0
 

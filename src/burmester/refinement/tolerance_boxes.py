@@ -22,8 +22,6 @@ from burmester.refinement.constraints import ConstraintSlopes, FromSlopes
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 
-__all__ = ["EXACT_ROUNDING", "ToleranceBoxes", "counted_error", "poses_counted", "shares_used"]
-
 EXACT_ROUNDING = 1e-7  # motion sizes and radians; an exact component missed by less is met
 INSIDE_MARGIN = 1e-6  # relative; kept from the border of a tolerance
 WEIGHT_RANGE = 1e3  # of the metric: least and greatest weight over the median one

@@ -30,8 +30,6 @@ from burmester.refinement.residuals import (
 )
 from burmester.refinement.starts import distinct
 
-__all__ = ["Selection", "refine_constrained"]
-
 # Relative, of the Hessian's scaled diagonal: first value, floor, and the value that ends a descent.
 START_DAMPING, MIN_DAMPING, MAX_DAMPING = 1e-4, 1e-14, 1e8
 CONVERGED_STEP = 1e-13  # relative; a smaller step is rounding and ends the descent

@@ -15,8 +15,6 @@ from burmester.web.data import report_data
 from burmester.web.function_data import function_report
 from burmester.web.six_bar_data import six_bar_report
 
-__all__ = ["page", "page_of"]
-
 
 def page(synthesis: Synthesis | FunctionSynthesis, title: str) -> str:
     """The report of a synthesis: a whole HTML document, scripts, styles and data within.

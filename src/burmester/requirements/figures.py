@@ -11,8 +11,6 @@ import numpy as np
 from burmester.fourbar.linkage import TYPES
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Figures", "Values"]
-
 Values: TypeAlias = Any  # a number, or an array (*,) of them
 
 

@@ -12,8 +12,6 @@ if TYPE_CHECKING:
     from burmester.geometry.regions import Polygon
     from burmester.requirements.figures import Figures
 
-__all__ = ["FOOTPRINT"]
-
 
 def _checked(value: object) -> Polygon:
     # Options are told without NumPy.

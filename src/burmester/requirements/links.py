@@ -19,8 +19,6 @@ from burmester.wording import figure
 if TYPE_CHECKING:
     from burmester.requirements.figures import Figures
 
-__all__ = ["CHANGE_POINT", "EXTENT", "LINK_RATIO", "LONGEST_LINK", "SHORTEST_LINK"]
-
 
 def _said(figures: Figures, bound: float, _unit: str) -> str:
     ratio = f"{figures.ratio:.3g}"

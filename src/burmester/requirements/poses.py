@@ -8,8 +8,6 @@ from typing import Final
 from burmester.errors import InputError
 from burmester.requirements.requirement import Requirement, checked_number, shown
 
-__all__ = ["ANY_ORDER", "WITHIN", "WITHIN_ANGLE"]
-
 
 def _flag(value: object) -> bool:
     if type(value).__name__ not in ("bool", "bool_"):  # Python's, or NumPy's

@@ -17,16 +17,6 @@ if TYPE_CHECKING:  # options are told without NumPy
     from burmester.numerics.arrays import FloatArray
     from burmester.requirements.figures import Figures
 
-__all__ = [
-    "Bounds",
-    "Form",
-    "Looser",
-    "Requirement",
-    "above",
-    "checked_number",
-    "shown",
-]
-
 Form: TypeAlias = Literal["number", "names", "choice", "area", "flag"]
 
 

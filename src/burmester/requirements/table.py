@@ -26,20 +26,6 @@ if TYPE_CHECKING:
     from burmester.numerics.arrays import FloatArray
     from burmester.requirements.figures import Figures
 
-__all__ = [
-    "ASKED",
-    "NOT_ASKED",
-    "REQUIREMENTS",
-    "Violation",
-    "cured",
-    "excess",
-    "keeps",
-    "shortcomings",
-    "standard",
-    "violations",
-    "without",
-]
-
 REQUIREMENTS: Final[tuple[Requirement, ...]] = (
     TRANSMISSION,
     TYPE,

@@ -11,8 +11,6 @@ from burmester.wording import least_angle
 if TYPE_CHECKING:
     from burmester.requirements.figures import Figures
 
-__all__ = ["TRANSMISSION"]
-
 SHOWN_ANGLE = 1e-6  # degrees; a message writes a smaller angle as 0
 
 

@@ -12,17 +12,6 @@ from burmester.wording import listed, with_article
 if TYPE_CHECKING:
     from burmester.requirements.figures import Figures
 
-__all__ = [
-    "DRIVER",
-    "DRIVERS",
-    "GROUPS",
-    "TYPE",
-    "TYPES",
-    "Driver",
-    "allowed_types",
-    "types_in_words",
-]
-
 Driver: TypeAlias = Literal["any", "first", "second", "crank"]
 DRIVERS: Final[tuple[Driver, ...]] = get_args(Driver)
 DyadKind: TypeAlias = Literal["RR", "PR", "RP"]

@@ -20,8 +20,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
-__all__ = ["Pivot", "Scene", "Shape", "longest", "own_circuit", "path_of", "scene_of", "scene_with"]
-
 MARGIN = 0.28  # of the linkage's size: half of a rail's or slot's length beyond the travel
 SAMPLES = 361  # points of the body's path
 REACH = 1.2  # sizes of what is drawn beside it, from which on a path is cut off

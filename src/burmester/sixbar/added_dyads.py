@@ -23,17 +23,6 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.numerics.bundles import take
 from burmester.sixbar.watt import WattLinkage
 
-__all__ = [
-    "Added",
-    "FourBars",
-    "ThreeRChain",
-    "added_dyads",
-    "dyads_but",
-    "size_of",
-    "with_first_dyad",
-    "with_second_dyad",
-]
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)

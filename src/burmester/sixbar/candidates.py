@@ -21,17 +21,6 @@ from burmester.sixbar.kinds import SixBar
 from burmester.sixbar.travel import first_loop_works, least_transmission, travel
 from burmester.sixbar.watt import WATT_I, Sides, WattLinkage, joints_at, sides_of
 
-__all__ = [
-    "Candidates",
-    "Conditions",
-    "box_diagonal",
-    "extent_of",
-    "figures_of",
-    "merit_of",
-    "steps_along",
-    "watt_candidates",
-]
-
 PLACES = 33  # along the range, at which the extent is looked at
 
 

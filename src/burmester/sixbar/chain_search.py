@@ -30,8 +30,6 @@ from burmester.sixbar.stephenson_candidates import (
 )
 from burmester.verdicts.quality import best_first
 
-__all__ = ["SEARCHED", "ChainSearch", "is_sound", "search"]
-
 # How the six-bars of a class are worked out of chains, by the name of the class.
 Recipe: TypeAlias = Callable[[ThreeRChain, Displacement, FloatArray, Conditions], Candidates]
 SEARCHED: Final[Mapping[str, tuple[Recipe, ...]]] = {

@@ -18,8 +18,6 @@ from burmester.tasks.motion_task import Task
 from burmester.verdicts.explanation import too_far_from
 from burmester.verdicts.tolerance_words import outside
 
-__all__ = ["Course", "defects_of"]
-
 ELSEWHERE: Final = {"branch": 1, "circuit": 2}  # where a pose is met that is missed here
 
 

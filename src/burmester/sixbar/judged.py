@@ -44,8 +44,6 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import too_short
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
 
-__all__ = ["judged_six_bar"]
-
 SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
 ALIKE = 1e-6  # sizes of the motion; errors that differ by less are one
 MERIT_DIGITS = 6  # decimals of a degree by which branches are compared

@@ -21,8 +21,6 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import least_cranks, least_link
 from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside, wrong_length
 
-__all__ = ["least_bars", "shortcomings", "violations"]
-
 
 def violations(linkage: SixBar, figures: Figures, task: Task, size: float) -> tuple[Violation, ...]:
     """The limits and requirements of a task that a six-bar does not keep; size: of the motion."""

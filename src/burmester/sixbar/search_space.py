@@ -21,8 +21,6 @@ from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import listed
 
-__all__ = ["FEWEST", "POSES", "REACH", "SearchSpace", "require_kept"]
-
 POSES: Final = 5  # that a 3R chain with two added dyads meets
 FEWEST: Final = 2
 REACH: Final = 1.0  # motion sizes; how far pivots may lie from the poses where the task is silent

@@ -18,8 +18,6 @@ from burmester.values import shown
 from burmester.verdicts.quality import best_first
 from burmester.wording import listed
 
-__all__ = ["CHAINS", "CHOICES", "RULE", "SixBarOptions", "SixBars", "best_six_bars"]
-
 CHAINS: Final = 20_000  # that are worked out where nobody says otherwise
 MOST_CHAINS: Final = 10_000_000
 SHOWN: Final = 8  # six-bars of an answer, at most

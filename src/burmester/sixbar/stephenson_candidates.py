@@ -30,8 +30,6 @@ from burmester.sixbar.travel import along
 from burmester.stephenson.chain import Chain
 from burmester.stephenson.linkage import CLASSES, StephensonLinkage, dead_angles
 
-__all__ = ["driven_four_bar_candidates", "first_class_candidates", "third_class_candidates"]
-
 THIRD: Final = CLASSES["Stephenson III six-bar"].skeleton
 FIRST: Final = CLASSES["Stephenson I six-bar"].skeleton
 PLACES: Final = 65  # of a four-bar, at which a dyad is looked at that drives it

@@ -27,8 +27,6 @@ from burmester.sixbar.watt import (
     turning_points,
 )
 
-__all__ = ["Travel", "along", "first_loop_works", "least_transmission", "travel"]
-
 TURN = 2 * np.pi
 CLOSE = 1e-9  # radians; a pose as near to a dead point is at it
 

@@ -30,16 +30,6 @@ from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.numerics.bundles import take
 
-__all__ = [
-    "WATT_I",
-    "Sides",
-    "WattLinkage",
-    "dead_points",
-    "joints_at",
-    "sides_of",
-    "turning_points",
-]
-
 
 class Sides(NamedTuple):
     """On which side both loops are closed, +1 or -1 each: (*,).

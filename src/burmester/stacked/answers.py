@@ -13,8 +13,6 @@ from burmester.fourbar.linkage import TYPES
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate
 
-__all__ = ["Depth", "DyadRows", "LinkageRows", "Outcome", "StackedAnswers", "Status", "joined"]
-
 Codes = NDArray[np.int8]
 Indices = NDArray[np.intp]
 

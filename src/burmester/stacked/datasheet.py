@@ -15,8 +15,6 @@ from burmester.stacked.random_linkages import (
 )
 from burmester.wording import listed
 
-__all__ = ["datasheet"]
-
 WIDTH = 100  # characters of a line of the page
 
 

@@ -17,8 +17,6 @@ from burmester.stacked.pair_linkages import USABLE, Scales, pair_linkages
 from burmester.stacked.task_stack import TaskStack
 from burmester.tasks.motion_task import CONDITIONS
 
-__all__ = ["stacked_answers"]
-
 # Poses of the tasks that are computed together: bounds the memory, and fits a cache.  The ways down
 # to best dyads need more room.
 POSES_AT_ONCE, POSES_DOWN_AT_ONCE = 20_000, 4_000

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.critical_points import COUNT
+from burmester.dyads.critical_search import COUNT
 from burmester.dyads.local_minima import ManyBestDyads
 from burmester.dyads.long_links import OUT_OF_SIGHT, nearly_sliders
 from burmester.dyads.pencil import MIN_POSES, fit_pencil
@@ -38,11 +38,10 @@ from burmester.synthesis.outcome import NEAR_DIGITS, dyad_advice
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import Undetermined
 from burmester.tasks.motion_task import CONDITIONS
-from burmester.tasks.options import Method, SynthesisOptions
+from burmester.tasks.option_table import Method
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.plain_motions import plain_motions
 from burmester.tasks.problem import SynthesisProblem
-
-__all__ = ["Group", "groups_of"]
 
 Indices = NDArray[np.intp]
 SOLVED = StackedAnswers.OUTCOMES.index("solved")

@@ -30,8 +30,6 @@ from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
 from burmester.verdicts.tolerances import sensitivity_bound
 
-__all__ = ["USABLE", "Scales", "pair_linkages"]
-
 PLACES_AT_ONCE = 1500  # of linkages computed together; their samples fit a cache
 RADIAN = 1.0  # in its own unit
 USABLE, DEGENERATE = map(LinkageRows.VERDICTS.index, ("usable", "degenerate"))

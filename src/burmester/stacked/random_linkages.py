@@ -28,8 +28,6 @@ from burmester.numerics.counted_draws import normal_draws, uniform_draws
 from burmester.stacked.task_stack import TaskStack
 from burmester.wording import listed
 
-__all__ = ["RandomLinkages", "SampleOptions", "random_linkages"]
-
 MAX_ATTEMPTS = 2000  # for each linkage; one in some ten is usable
 LEAST_ARC = math.radians(40)  # of the driver, from the first pose to the last
 SHORTEST = 0.15  # of the longest link

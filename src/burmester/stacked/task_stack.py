@@ -15,8 +15,6 @@ from burmester.numerics.bundles import take
 from burmester.tasks.motion_task import MOST, MOST_RATIO, MOST_TURN, Task
 from burmester.values import real_numbers
 
-__all__ = ["TaskStack"]
-
 SAFE = 1.001  # by which a task has to keep off the border of what can be computed with
 
 

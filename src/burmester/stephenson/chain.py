@@ -21,8 +21,6 @@ from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.stephenson.triad import triad
 
-__all__ = ["EXCHANGED", "JOINTS", "TURNED_OVER", "Chain", "inserted"]
-
 JOINTS: Final = "ABCDEFG"
 EXCHANGED: Final = "BADCEFG"  # the joints of the exchanged chain, in the order of `JOINTS`
 TURNED_OVER: Final = "CDABFEG"

@@ -19,8 +19,6 @@ from burmester.numerics.bundles import take
 from burmester.stephenson.chain import EXCHANGED, JOINTS, TURNED_OVER, Chain, inserted
 from burmester.stephenson.standstill import standstill
 
-__all__ = ["CLASSES", "StephensonClass", "StephensonLinkage"]
-
 OF_LOOP: Final = 4  # dead points of the loop A, C, D, B; those of the other one follow them
 
 

@@ -16,8 +16,6 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.stephenson.chain import EXCHANGED, Chain, inserted
 from burmester.stephenson.triad import laurent_roots, solved_three
 
-__all__ = ["standstill"]
-
 NEAR_CIRCLE = 1e-2  # of the unit circle: roots that Newton's method starts from
 STEPS = 12
 EXACT = 1e-10  # a residual, in sizes

@@ -10,8 +10,6 @@ import numpy as np
 
 from burmester.numerics.arrays import ComplexArray, FloatArray
 
-__all__ = ["laurent_roots", "solved_three", "triad"]
-
 NEARLY_REAL = 1e-6  # from the unit circle: the root of a place before Newton's method
 NEWTON_STEPS = 3
 EXACT = 1e-9  # of the size: a place that misses a circle by more is none

@@ -17,8 +17,6 @@ from typing import Any, Final, TypeAlias
 from burmester.errors import BurmesterError
 from burmester.studio.message import as_json
 
-__all__ = ["MOST_BYTES", "PROTOCOL", "TOKEN_S", "Access", "is_loopback", "refusal"]
-
 Headers: TypeAlias = list[tuple[bytes, bytes]]
 
 TOKEN_S: Final = 300.0  # that an address opens the page

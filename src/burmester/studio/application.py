@@ -24,8 +24,6 @@ from burmester.studio.server_state import ServerState
 from burmester.studio.session import Session
 from burmester.studio.workers import WorkerEndedError
 
-__all__ = ["application"]
-
 OF_TASK = ("read", "outline", "check", "task")
 OF_RESULT = ("export", "result", "report", "improve")
 _STATIC = {

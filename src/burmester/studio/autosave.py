@@ -16,8 +16,6 @@ from typing import Any, Final
 from burmester.io.files import open_plain, write
 from burmester.studio.message import as_json, from_json
 
-__all__ = ["folder", "last", "save"]
-
 MOST_FILES: Final = 20
 
 

@@ -20,8 +20,6 @@ from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import linkage_report
 
-__all__ = ["cognate_reports"]
-
 FRAMES: Final = 181  # along each way of a cognate
 
 

@@ -5,8 +5,6 @@ from __future__ import annotations
 import re
 from typing import Any, Final
 
-__all__ = ["commands", "plain_name"]
-
 MOST_LETTERS: Final = 60  # of the name of a file
 
 # Options of `burmester export` by their names in the page.

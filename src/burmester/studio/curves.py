@@ -12,8 +12,6 @@ from burmester.families.pair_verdicts import CLASS_WORDS
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 
-__all__ = ["curves"]
-
 SAMPLES: Final = 100  # dyads on all loops together, where they are judged: pairs are their square
 DRAWN: Final = 200  # the same where they are only drawn
 

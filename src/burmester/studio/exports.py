@@ -18,8 +18,6 @@ from burmester.report.page import page_of
 from burmester.studio.commands import plain_name
 from burmester.values import real_numbers
 
-__all__ = ["dyads_of", "exported", "formats", "report_page"]
-
 _TYPES: Final = {  # of the options of an export, as JSON has them
     "float | None": (int, float, type(None)),
     "str | None": (str, type(None)),

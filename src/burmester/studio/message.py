@@ -10,8 +10,6 @@ import json
 import struct
 from typing import Any, Final, Protocol
 
-__all__ = ["LENGTHS", "Stream", "as_json", "from_json", "lengths", "packed", "read_message"]
-
 _LENGTHS = struct.Struct("<II")
 LENGTHS = _LENGTHS.size
 MOST_DEPTH: Final = 100  # of what the page sends; Python's own limit may be reached anywhere

@@ -9,8 +9,6 @@ from burmester.io import templates
 from burmester.io.reading.poses import read_task
 from burmester.live.document import document_of, read_file
 
-__all__ = ["opening", "template"]
-
 
 def opening(head: dict[str, Any], data: bytes) -> dict[str, Any]:
     """A file of this machine by its "path", or a "template"; data: of standard input ("-").

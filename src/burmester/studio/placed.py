@@ -29,8 +29,6 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.values import real_numbers
 from burmester.web.data import linkage_report
 
-__all__ = ["placed"]
-
 PLANES: Final = ("F", "M")
 
 

@@ -25,8 +25,6 @@ from burmester.errors import InputError
 from burmester.io import templates
 from burmester.studio.server_state import ServerState
 
-__all__ = ["Opening", "serve"]
-
 # The task of a studio that is given none.  The lid hinge and the chest lid are solved equally fast;
 # the hinge has eight poses, and its answers follow a hand in half the time.
 TEMPLATE = "lid-hinge"

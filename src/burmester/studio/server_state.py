@@ -18,8 +18,6 @@ from burmester.live.plain import plain
 from burmester.studio.message import as_json
 from burmester.studio.workers import Message, Turns, Worker, WorkerEndedError, Workers
 
-__all__ = ["Answer", "ServerState"]
-
 ANSWER_BYTES = 64_000_000  # of all answers that are kept
 SPARE = 2  # workers that are there before they are asked for
 DESK_S = 60.0  # for what is asked over HTTP, such as a solid part

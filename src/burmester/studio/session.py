@@ -24,8 +24,6 @@ from burmester.studio.workers import Message, Worker, WorkerEndedError
 if TYPE_CHECKING:
     from burmester.studio.server_state import ServerState
 
-__all__ = ["HAND", "SEARCH", "Kind", "Session"]
-
 HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53
 HAND = ("follow", "place", "curve", "cognates")

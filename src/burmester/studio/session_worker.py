@@ -40,8 +40,6 @@ from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import report_data
 
-__all__ = ["HANDLERS", "SessionWorker"]
-
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
 
 NEVER: Final = "this synthesis cannot be followed"

@@ -20,8 +20,6 @@ from typing import Any, BinaryIO
 from burmester.live.fault import fault_data
 from burmester.studio.message import as_json, packed, read_message
 
-__all__ = ["main"]
-
 PROGRESS_S = 0.1  # between two words of progress
 
 

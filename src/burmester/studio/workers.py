@@ -19,8 +19,6 @@ from typing import Any, TypeAlias
 from burmester.errors import BurmesterError
 from burmester.studio.message import LENGTHS, lengths, packed
 
-__all__ = ["Message", "Turns", "Worker", "WorkerEndedError", "Workers"]
-
 Message: TypeAlias = tuple[dict[str, Any], bytes]
 
 SHORT_S = 0.002  # between two looks whether a worker is free

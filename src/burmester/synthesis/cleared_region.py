@@ -21,8 +21,6 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.surroundings import KeepOut
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["bars_clear", "cleared", "swept_pivots"]
-
 PLACES: Final = 181  # number of places between the poses at which pivots, body and links are
 DIRECTIONS: Final = 8  # number of directions in which a region is moved out of the way
 HALVINGS: Final = 30  # number of steps that find how far

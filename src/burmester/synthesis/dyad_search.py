@@ -33,20 +33,9 @@ from burmester.numerics.bundles import take
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_kinds import MotionKind
 from burmester.tasks.motion_task import CONDITIONS, Task
-from burmester.tasks.options import Method
+from burmester.tasks.option_table import Method
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import Pair
-
-__all__ = [
-    "LINKAGE_QUADRICS",
-    "DyadSearch",
-    "Searched",
-    "dyads_of_motion",
-    "dyads_of_tasks",
-    "exact_dyads",
-    "search_dyads",
-    "with_method",
-]
 
 MEETING = 2  # dyads that make a linkage
 LINKAGE_QUADRICS = 2  # that hold all poses of a four-bar; poses of no linkage have none

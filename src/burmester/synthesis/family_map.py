@@ -8,8 +8,6 @@ from burmester.fourbar.linkage import Linkage
 from burmester.synthesis.result import Synthesis
 from burmester.verdicts.assumptions import Assumptions
 
-__all__ = ["family_map_of", "recommended"]
-
 
 def recommended(synthesis: Synthesis) -> Linkage | None:
     """The linkage that stands first, if it works."""

@@ -40,14 +40,6 @@ from burmester.tasks.requirements import Requirements
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import count, figure, listed
 
-__all__ = [
-    "FunctionSynthesis",
-    "coupler_synthesis",
-    "generate_function",
-    "judge_generator",
-    "judge_links",
-]
-
 LEAST_PAIRS: Final = 3
 LEAST_TIMES, MOST_TIMES = 1.05, 1000.0  # the nearest one's error; prices outside are not told
 SAME_ANGLE: Final = 1e-9  # radians; outputs that turn with the input but for less do so exactly

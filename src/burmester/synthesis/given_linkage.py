@@ -24,8 +24,6 @@ from burmester.tasks.motion_task import MOST, Task, characteristic_length
 from burmester.tasks.notation import length_of, span
 from burmester.wording import figure
 
-__all__ = ["GivenDyad", "OpenLink", "dyads_at_poses", "require_linkage"]
-
 SAME_PIVOT = 1e-6  # sizes of the motion; pivots that are nearer to each other are one
 FARTHEST = 1e6  # sizes of the motion; of what is farther away rounding takes too many digits
 # Share of a length; it is said where the poses put the pivots apart by lengths that differ more.

@@ -40,8 +40,6 @@ from burmester.verdicts.explanation import hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.wording import count, listed
 
-__all__ = ["exact_note", "judge_linkage", "judged_again"]
-
 EXACT_SHARE = 1e-4  # motion sizes; it is said where a pose to be met exactly is missed by more
 
 

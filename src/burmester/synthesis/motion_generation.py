@@ -48,8 +48,6 @@ from burmester.verdicts.ranking import ranked
 if TYPE_CHECKING:  # loaded where a task asks for it
     from burmester.certificates.certificate import Certificate
 
-__all__ = ["synthesize", "tolerances_of_digits"]
-
 FEW_POSES = 2  # a rail or slot leaves so many to be met exactly, or not at all
 # Outcomes that a limit may be to blame for: nothing works, or nothing but what falls short.
 MAY_BE_BARRED = ("R301", "R302", "R306", "R308", "R309")

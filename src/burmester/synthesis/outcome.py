@@ -6,7 +6,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from burmester.dyads.critical_points import COUNT, CriticalDyads
+from burmester.dyads.critical_points import CriticalDyads
+from burmester.dyads.critical_search import COUNT
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.long_links import nearly_sliders, swing
@@ -19,13 +20,16 @@ from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
 from burmester.synthesis.point_conditions import point_conditions
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
-from burmester.tasks.notation import least_angle, length_of, span
+from burmester.tasks.notation import (
+    length_of,
+    span,
+)
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.verdicts.explanation import by_nearness, hints, in_short, nearness
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import only_too_far
-from burmester.wording import count, figure, listed
+from burmester.wording import count, figure, least_angle, listed
 
 BETTER = 1.2  # ratio of two least transmission angles; from it on the better linkage is named
 LITTLE = math.radians(30)  # rotation of the body below which the outcome says "only"

@@ -54,8 +54,6 @@ from burmester.verdicts.ranking import (
 from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
 from burmester.wording import count, figure
 
-__all__ = ["different", "near_points", "with_tolerance"]
-
 # A sound linkage sets it if it misses by no more than that share of the path's span, or by no more
 # than ERROR_RATIO times as much as the nearest one; never by more than DEFAULT_TOLERANCE.
 SOUND_SHARE = 0.03

@@ -42,8 +42,6 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
 
-__all__ = ["PathLinkages", "is_timed_exactly", "linkages_near", "nine_point_starts"]
-
 NINE = 9
 
 CURVES = 16  # different curves that are looked at; each with its other linkage that has a crank

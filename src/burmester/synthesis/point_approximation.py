@@ -37,8 +37,6 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import worst_miss
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["ASSUMED_RATIO", "LEAST_ASSUMED", "nearest_linkage", "with_nearest_angles"]
-
 ASSUMED_RATIO = 2.0  # of the assumed tolerance to the worst error of the nearest linkage
 LEAST_ASSUMED = 1e-4  # motion sizes, or spans of a path; a smaller tolerance is not assumed
 MOST_CHOICES, PATHS = 10, 900  # of rows for one case, and paths that are followed for them all

@@ -26,14 +26,6 @@ from burmester.tasks.motion_task import CONDITIONS, MOST_POINTS, Task
 from burmester.tasks.repeated_poses import repeats_in_sequence
 from burmester.wording import count, listed
 
-__all__ = [
-    "PointConditions",
-    "each_once",
-    "given_pivots",
-    "point_conditions",
-    "special_curve",
-]
-
 LEAST_DIFFERENT = 3  # rows; where fewer differ, that is told of the task as given
 
 

@@ -31,8 +31,6 @@ from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.ranking import ranked
 from burmester.wording import count
 
-__all__ = ["is_traced_by_crank", "missed_on_curve", "none_on_curve", "through_points"]
-
 
 def through_points(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
     """All four-bars through poses and points; None where they are not finitely many.

@@ -11,7 +11,8 @@ from burmester.errors import Advice, InputError
 from burmester.progress import Watch
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
-from burmester.tasks.options import Method, SynthesisOptions
+from burmester.tasks.option_table import Method
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import listed

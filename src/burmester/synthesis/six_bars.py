@@ -10,12 +10,9 @@ from burmester.sixbar.search_space import POSES
 from burmester.sixbar.six_bars import SixBarOptions, SixBars, best_six_bars
 from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
 from burmester.tasks.motion_task import Task
-from burmester.tasks.notation import least_angle
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.wording import count, listed
-
-__all__ = ["synthesize_six_bars"]
+from burmester.wording import count, least_angle, listed
 
 MORE = 10  # times as many chains are proposed where none was found
 

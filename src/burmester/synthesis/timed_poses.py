@@ -38,8 +38,6 @@ from burmester.verdicts.explanation import hints, in_short, meets_exactly
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.wording import count, figure
 
-__all__ = ["near_timed_poses", "of_timed_drivers"]
-
 MOST_DRIVERS, MOST_OTHERS, MOST_PAIRS = 12, 16, 60  # dyads that are paired, and pairs refined
 SAME = 0.01  # motion sizes; linkages whose pivots and links differ by less are listed once
 SHOWN = 12  # number of linkages that are told at most

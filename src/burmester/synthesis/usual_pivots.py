@@ -28,8 +28,6 @@ from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside
 from burmester.verdicts.ranking import closest_usable, digits_leave_open, ranked, states_tolerance
 from burmester.wording import figure, listed
 
-__all__ = ["with_usual_pivots"]
-
 ERROR_RATIO = 1.5  # a linkage with usual pivots comes first up to this many times the first's error
 
 

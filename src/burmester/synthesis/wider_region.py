@@ -14,8 +14,6 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.wording import listed
 
-__all__ = ["DIGITS", "WiderRegion", "plain", "region_text", "wider", "wider_all_around"]
-
 ROUNDING: Final = 1e-10  # of the coordinates; points farther out by less are inside
 DIGITS: Final = 2  # with which an amount is told; the wider limit is rounded by as many
 HERE: Final = Polygon(

@@ -14,8 +14,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, median, wrapped_angle
 from burmester.values import real_numbers
 
-__all__ = ["CrankTiming"]
-
 USUAL_SHARE: Final = 0.05  # of the range of crank angles; what they may be missed by, if unstated
 SAME_ANGLE: Final = 1e-9  # radians; angles that differ by less are the same
 

@@ -16,8 +16,6 @@ from burmester.geometry.regions import Line, Point, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
 
-__all__ = ["require_feasible", "spans"]
-
 CONTRADICTION_MARGIN = 1e-6  # share of the greatest length; a smaller gap is no contradiction
 
 

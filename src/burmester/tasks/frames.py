@@ -18,8 +18,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.limits import Limits
 from burmester.tasks.rails import moved_region
 
-__all__ = ["frames_of", "limits_in"]
-
 FEW_POSES = 2  # as many poses at most share a pole
 
 

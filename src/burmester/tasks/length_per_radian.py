@@ -17,8 +17,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
 from burmester.tasks.motion_task import Task
 
-__all__ = ["default_length_per_radian", "lengths_per_radian"]
-
 # Of the travel per radian; bodies between a tenth and six tenths of it lose least by this share
 # (`python -m benchmarks.angle_weight`).
 TRAVEL_SHARE = 1 / 3

@@ -16,8 +16,6 @@ from burmester.geometry.regions import Region, require_searchable
 from burmester.tasks.rails import Rail
 from burmester.values import real_numbers, require_instance, shown
 
-__all__ = ["KINDS", "Kind", "Limits"]
-
 Kind: TypeAlias = Literal["RR", "PR", "RP", "PP"]
 KINDS: Final[tuple[Kind, ...]] = get_args(Kind)
 

@@ -61,8 +61,6 @@ from burmester.tasks.special_motions import (
     TwoSliders,
 )
 
-__all__ = ["MAX_COUNTED_POSES", "MotionClass", "classify_motion"]
-
 MIN_NEXT_TERM_ERRORS = 100.0  # pose errors that one more term of a model makes, where it is sure
 # Pose errors, the same where it is claimed within the digits, and the rms residual of such a model.
 # By `benchmarks.two_slider_motions` up to 1 % of general motions are then taken for two sliders.

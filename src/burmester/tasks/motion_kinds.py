@@ -35,20 +35,6 @@ from burmester.tasks.special_motions import (
 )
 from burmester.wording import listed
 
-__all__ = [
-    "CircularTranslation",
-    "FewPoses",
-    "FreeTranslation",
-    "General",
-    "MotionKind",
-    "Rest",
-    "Rotation",
-    "StraightTranslation",
-    "TwoOrientations",
-    "TwoSliders",
-    "Undetermined",
-]
-
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)

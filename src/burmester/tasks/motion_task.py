@@ -24,18 +24,6 @@ from burmester.tasks.traced_path import TracedPath
 from burmester.values import real_numbers, require_instance, shown
 from burmester.wording import count as count_of
 
-__all__ = [
-    "COARSE",
-    "CONDITIONS",
-    "MOST",
-    "MOST_NAME",
-    "MOST_UNIT",
-    "AngleUnit",
-    "Task",
-    "characteristic_length",
-    "require_angle_unit",
-]
-
 COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
 
 AngleUnit: TypeAlias = Literal["deg", "rad"]

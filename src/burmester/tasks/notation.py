@@ -8,16 +8,7 @@ from typing import Literal, TypeAlias
 import numpy as np
 
 from burmester.tasks.motion_task import Task
-from burmester.wording import figure, in_runs, least_angle
-
-__all__ = [
-    "PoseFormat",
-    "least_angle",
-    "length_of",
-    "pose_labels",
-    "poses_in_words",
-    "span",
-]
+from burmester.wording import figure, in_runs
 
 # "name": its name, or its number where it has none; "number and name": "3 (open)", or "3".
 MOST_NAMES = 6  # poses, or ranges of poses, that one phrase lists

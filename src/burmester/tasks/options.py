@@ -15,8 +15,6 @@ from burmester.tasks.option_table import OPTIONS, Method, Norm, Preference
 from burmester.values import shown
 from burmester.wording import listed
 
-__all__ = ["Method", "Norm", "Preference", "SynthesisOptions"]
-
 
 @final
 @dataclass(frozen=True, slots=True)

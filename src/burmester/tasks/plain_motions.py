@@ -23,8 +23,6 @@ from burmester.tasks.scatter import (
     odd_one,
 )
 
-__all__ = ["plain_motions"]
-
 # Times the tolerance of a singular value: with a third one above it no special model holds, as
 # three quadrics hold the poses of each of these within their errors.
 FAR_FROM_SPECIAL = 1e3

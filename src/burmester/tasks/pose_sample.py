@@ -13,8 +13,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import weights_or_ones
 from burmester.tasks.motion_task import Task
 
-__all__ = ["PoseSample"]
-
 # Of the way of a motion, measured between the means of so many runs of poses: errors of single
 # poses make a way of their own, which grows with their number.
 RUNS = 500

@@ -19,8 +19,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.values import real_numbers, require_instance, shown
 
-__all__ = ["COMPONENTS", "Component", "PoseTolerances", "ToleranceAxes", "nominal_values"]
-
 Component: TypeAlias = Literal["x", "y", "angle"]
 COMPONENTS: Final[tuple[Component, ...]] = get_args(Component)
 

@@ -20,8 +20,6 @@ from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.thin_regions import with_limits_to_search
 from burmester.wording import listed
 
-__all__ = ["SynthesisProblem", "driving_side"]
-
 SAME_TURN = 1e-9  # radians; a crank and a body whose turns differ by less turn alike
 
 

@@ -20,8 +20,6 @@ from burmester.geometry.regions import Line, Point, Polygon, Region, Segment
 from burmester.numerics.arrays import FloatArray
 from burmester.values import real_numbers, require_instance
 
-__all__ = ["Rail", "moved_region"]
-
 ROUNDING = 1e-9  # share of coordinates by which a line may miss its travel
 DIRECTIONS = 181  # number of directions in which a line may meet its travel
 HALF_TURN = 180.0  # degrees, after which a line has the same direction

@@ -8,17 +8,6 @@ from numpy.typing import NDArray
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "COORDINATE_ROUNDING",
-    "distinguishable",
-    "exact_repeats",
-    "orientation_arc",
-    "orientation_arcs",
-    "repeats_in_sequence",
-    "rotation_range",
-    "spanning",
-]
-
 Indices = NDArray[np.int_]
 
 COORDINATE_ROUNDING = 8 * float(np.finfo(np.float64).eps)  # share of the greatest coordinate

@@ -16,8 +16,6 @@ from burmester.requirements.types import TYPES, Driver, allowed_types, types_in_
 from burmester.tasks.limits import Kind, Limits
 from burmester.wording import with_article
 
-__all__ = ["Requirements", "require_possible"]
-
 TYPES_WITHOUT_CRANK = frozenset({"double-rocker", "triple-rocker", "double slider"})
 TURNING_KINDS: frozenset[Kind] = frozenset({"RR", "RP"})  # a PR dyad slides on the ground
 FOOTPRINT_MARGIN = 1e-9  # share of a footprint's diagonal; rounding may put a point as far outside

@@ -14,8 +14,6 @@ from burmester.tasks.motion_task import COARSE
 from burmester.tasks.repeated_poses import COORDINATE_ROUNDING
 from burmester.tasks.scatter import MAX_RESIDUAL_ERRORS, max_residual_errors
 
-__all__ = ["LARGE_ROTATION", "RotationFit", "residual_of_turn", "rms"]
-
 LARGE_ROTATION = 0.1  # radians, rms; as large a one shows by itself whether it is about a point
 
 Mask = NDArray[np.bool_]

@@ -13,18 +13,6 @@ from numpy.typing import NDArray
 from burmester.numerics.arrays import ROUNDING, ComplexArray, FloatArray
 from burmester.tasks.motion_task import Task
 
-__all__ = [
-    "MAX_RESIDUAL_ERRORS",
-    "SLIDERS",
-    "TURN",
-    "is_scatter",
-    "is_steady",
-    "last_digit",
-    "max_residual_errors",
-    "max_scatter",
-    "odd_one",
-]
-
 MAX_RESIDUAL_ERRORS = 2.0  # pose errors; a model with a greater residual does not hold
 
 # Powers of exp(i angle) in the model of a motion, then the next ones, by which linkages differ.

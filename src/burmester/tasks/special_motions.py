@@ -16,17 +16,6 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "CircularTranslation",
-    "FreeTranslation",
-    "MotionKindBase",
-    "Rotation",
-    "StraightTranslation",
-    "TwoSliders",
-    "in_degrees",
-    "rounded_length",
-]
-
 SIGNIFICANT_DIGITS = 6  # of the motion's size, in messages
 
 

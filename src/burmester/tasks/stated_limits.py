@@ -12,8 +12,6 @@ import numpy as np
 from burmester.geometry.regions import Polygon, Region
 from burmester.tasks.motion_task import Task
 
-__all__ = ["PIVOTS", "StatedLimit", "stated_limits", "with_limits", "without"]
-
 PIVOTS: Final = ("fixed pivot", "moving pivot")
 
 

@@ -14,8 +14,6 @@ from burmester.geometry.regions import Polygon
 from burmester.printable import printable
 from burmester.values import real_numbers, require_instance, shown
 
-__all__ = ["KeepOut", "Surroundings", "require_clear_at_poses"]
-
 MAX_REGIONS = 100  # keep-out regions of a task; each is compared with body and links
 POSES_AT_ONCE = 1000  # poses whose outlines are compared at once
 MAX_NAME = 100  # characters of the name of a region, which messages repeat

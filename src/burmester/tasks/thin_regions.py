@@ -13,8 +13,6 @@ from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import CONDITIONS, Task
 
-__all__ = ["with_limits_to_search", "without_thin_regions"]
-
 # Characteristic lengths, or a share of the way to a farther corner.  Four times the distance at
 # which a descent takes a pivot for one that lies on an edge (`face_descent`).
 LEAST_WIDTH = 4e-8

@@ -12,8 +12,6 @@ from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
 from burmester.values import real_numbers
 
-__all__ = ["LEAST_TIMED", "TracedPath"]
-
 LEAST_TIMED: Final = 5  # points; fewer of them with crank angles leave infinitely many linkages
 
 

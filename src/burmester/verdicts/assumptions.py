@@ -22,8 +22,6 @@ from burmester.tasks.notation import length_of, span
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.requirement_check import not_asked
 
-__all__ = ["FAR", "Assumptions", "Bound"]
-
 REACH: Final = 1.0  # motion sizes; how far pivots may lie from the body's places where none says
 WIDE: Final = 3.0  # the same, where nothing works within that
 FAR: Final = 12.0  # the same, where nothing works at all; poses that hardly turn need it

@@ -27,8 +27,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.verdicts.uncertainty import line_middle
 
-__all__ = ["DRAWS", "Built", "BuiltLinkages", "dimensions_by_errors", "percentile_95"]
-
 DRAWS = 1000  # number of linkages built at random
 PERCENTILE = 95.0  # per cent of the built linkages within `greatest_95`
 TAIL = 0.2  # share of the linkages drawn whose places are searched on whole circuits, at least

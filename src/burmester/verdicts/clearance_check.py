@@ -17,8 +17,6 @@ from burmester.wording import figure
 if TYPE_CHECKING:
     from burmester.clearance.least_clearance import Clearance
 
-__all__ = ["clearance_in_words", "clearance_of", "too_close"]
-
 
 def clearance_of(
     linkage: Linkage, verdict: Verdict, driver: Side, problem: SynthesisProblem

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from burmester.fourbar.defects import Defect
+from burmester.fourbar.defect_messages import Defect
 from burmester.fourbar.linkage_batch import LinkageBatch, pin_distances
 from burmester.geometry.regions import Point, Region
 from burmester.numerics.arrays import FloatArray
@@ -19,16 +19,6 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.problem import SynthesisProblem
 from burmester.wording import figure
-
-__all__ = [
-    "MAX_SENSITIVITY",
-    "MIN_LINK_SHARE",
-    "degenerate_defects",
-    "least_cranks",
-    "least_link",
-    "least_links",
-    "too_short",
-]
 
 MIN_LINK_SHARE: Final = 1 / 200  # spans of the motion; a shorter link makes no usable linkage
 # Position error at a pose per unit of error in all dimensions; a linkage above it is not usable.

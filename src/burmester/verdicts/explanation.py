@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from burmester.fourbar.defects import Defect
+from burmester.fourbar.defect_messages import Defect
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import ROUNDING
 from burmester.requirements.requirement import above

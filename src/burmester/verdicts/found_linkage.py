@@ -6,7 +6,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.defects import Defect, Driven, Verdict
+from burmester.fourbar.defect_messages import Defect
+from burmester.fourbar.defects import (
+    Driven,
+    Verdict,
+)
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import FloatArray

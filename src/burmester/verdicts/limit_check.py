@@ -16,8 +16,6 @@ from burmester.requirements.table import Violation
 from burmester.tasks.limits import KINDS, Limits
 from burmester.wording import figure, listed
 
-__all__ = ["LIMIT_TOLERANCE", "limit_violations", "outside", "wrong_length"]
-
 LIMIT_TOLERANCE = 1e-6  # motion sizes; a limit missed by less is met
 
 

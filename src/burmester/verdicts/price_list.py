@@ -15,8 +15,6 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["MET", "Price", "price_list"]
-
 MET = 1e-7  # spans of the path; points that are missed by less are met
 ANGLES_DEG = (0.0, 20.0, 30.0, 40.0, 60.0)  # least transmission angles; more runs no better
 RATIOS = (math.inf, 10.0, 5.0)  # of the longest link to the shortest

@@ -25,17 +25,6 @@ from burmester.fourbar.pivot_box import extent, reserve
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "ENOUGH_TRANSMISSION",
-    "PROPORTIONS",
-    "SAME_TRANSMISSION",
-    "Quality",
-    "best_first",
-    "enough_transmission",
-    "proportions",
-    "rule",
-]
-
 SAME_TRANSMISSION = math.radians(0.5)  # an angle lower by no more counts as good
 ENOUGH_TRANSMISSION = math.radians(60)  # beyond it a linkage runs no better
 LEAST_EXTENT = 1.0  # spans of the motion; a smaller linkage is no better to build

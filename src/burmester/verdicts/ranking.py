@@ -24,20 +24,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.quality import best_first, enough_transmission
 from burmester.verdicts.uncertainty import DyadUncertainty
 
-__all__ = [
-    "DEFAULT_TOLERANCE",
-    "ERROR_RATIO",
-    "TRADE_GAIN",
-    "by_quality",
-    "closest_usable",
-    "digits_leave_open",
-    "farthest_recommended",
-    "is_trade",
-    "only_too_far",
-    "ranked",
-    "states_tolerance",
-]
-
 # A linkage that meets the standard comes first if its error is at most this many times the least.
 ERROR_RATIO = 3.0
 # Sizes of the motion; a pose that is missed by more, or by as much in its angle, is not met, where

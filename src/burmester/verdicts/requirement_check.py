@@ -26,18 +26,6 @@ from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.requirements import Requirements
 from burmester.wording import figure
 
-__all__ = [
-    "figures_of",
-    "four_bar_figures",
-    "mistimed",
-    "not_asked",
-    "outside",
-    "places_between",
-    "standard_of",
-    "timing_error",
-    "violations",
-]
-
 SAME_ANGLE = 1e-9  # radians; a body that turns by less has nothing but parallelograms
 FOOTPRINT_SAMPLES = 181  # number of places between the poses checked against the footprint
 

@@ -41,8 +41,6 @@ from burmester.verdicts.built_linkages import (
 )
 from burmester.verdicts.uncertainty import line_middle
 
-__all__ = ["Spread", "sensitivity", "sensitivity_bound", "spread"]
-
 EXACT_GAP = 1e-9  # lengths; poses that are missed by less are met
 NORMAL_NUDGE = 1e-7  # radians beside a normal; vectors nearer to parallel are as one
 TANGENT_STEP = 1e-5  # lengths along the coupler's curve, of the forces' difference quotients

@@ -16,22 +16,17 @@ from typing import Final, final
 import numpy as np
 
 from burmester.fourbar.circuits import Circuits
-from burmester.fourbar.defects import Defect, Driven, Verdict
+from burmester.fourbar.defect_messages import Defect
+from burmester.fourbar.defects import (
+    Driven,
+    Verdict,
+)
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.path_gaps import PathGaps, are_drawing
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, pose_labels
 from burmester.verdicts.found_linkage import FoundLinkage
-
-__all__ = [
-    "Tracing",
-    "is_drawn",
-    "nearest_both_ways",
-    "stray_defects",
-    "stray_shortcomings",
-    "strays",
-]
 
 COMPARED: Final = 100  # points at equal steps of arc length, of path and curve, that are compared
 FULL_TURN: Final = 2 * math.pi

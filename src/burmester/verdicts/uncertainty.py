@@ -30,19 +30,6 @@ from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.numerics.weights import weights_or_ones
 from burmester.tasks.motion_task import Task
 
-__all__ = [
-    "DETERMINED_SHARE",
-    "DyadUncertainty",
-    "LineRegion",
-    "PivotRegion",
-    "covariance",
-    "line_middle",
-    "links_covariance",
-    "pose_sigma",
-    "possible_types",
-    "uncertainties",
-]
-
 POSSIBLE_DEVIATIONS = 2.0  # standard deviations; a type farther off is taken as excluded
 
 LEAST_VARIANCE = 1e-12  # of all variances together; a smaller one is rounding

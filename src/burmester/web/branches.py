@@ -22,8 +22,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["Branches", "branches_of"]
-
 REACH = 1.2  # scenes from the middle of the poses: how far an endless way is followed
 REACH_WITHOUT_POSES = 3.0  # the same for a way on which no pose is
 SAMPLES = 2001  # along an endless way, to find where it leaves the scene

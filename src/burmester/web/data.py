@@ -35,9 +35,7 @@ from burmester.web.branches import Branches, branches_of
 from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of
 from burmester.web.pivot_map import pivot_map
-from burmester.wording import figure
-
-__all__ = ["linkage_report", "poses_report", "report_data", "scene_of", "transmission_limit"]
+from burmester.wording import figure, least_angle
 
 SCHEMA = "burmester.report/2"
 KINDS = (
@@ -184,7 +182,7 @@ def _linkage(
     free = task.angles_are_free
     turn = "free" if free else digits.angle_error(float(np.sqrt((found.error.angle**2).mean())))
     rms = digits.position_error(synthesis, found.error.rms)
-    least = notation.least_angle(found.driven.least_over_range)
+    least = least_angle(found.driven.least_over_range)
     quality = quality_words.facts(found, task)
     links = _links(synthesis, found)
     freedom = _freedom(synthesis, found)

@@ -17,8 +17,6 @@ from burmester.synthesis.family_map import family_map_of
 from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["family_map"]
-
 SAMPLES: Final = 120  # dyads along the curve of four poses
 COLUMNS, ROWS = 96, 72  # fixed pivots of the plane of three
 SCALE_STEP: Final = 5.0  # degrees; the scale of colours ends at a multiple of it

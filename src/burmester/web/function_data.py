@@ -23,8 +23,6 @@ from burmester.web.data import linkage_report, scene_of, transmission_limit
 from burmester.web.image_space import chart_of
 from burmester.wording import figure, with_article
 
-__all__ = ["function_report"]
-
 SCHEMA: Final = "burmester.function-report/2"
 MOST: Final = 8  # generators that are shown
 FRAMES: Final = 361  # along the way of each

@@ -17,8 +17,6 @@ from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["chart_of", "space_of"]
-
 MARGIN = 1.3  # size of the box, in sizes of what it holds
 WIDEST = 2.0  # sizes of the poses' own box: the motion's curve widens it no further
 STEEPEST = np.tan(np.radians(80))  # Z3 = tan(half the angle): a place beyond it is not shown

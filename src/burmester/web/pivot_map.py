@@ -14,8 +14,6 @@ from burmester.fourbar.dyad import RP, RR
 from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["pivot_map"]
-
 FEWEST_POSES = 4  # three poses are met exactly from every pivot
 COLUMNS, ROWS = 96, 72  # pivots of the grid
 BORDER = 0.6  # scenes: the map is wider than poses and pivots by half of that on each side

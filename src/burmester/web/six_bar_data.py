@@ -16,15 +16,13 @@ from burmester.mechanisms.transmission import transmission_angles
 from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.sixbar.six_bars import RULE, SixBars
 from burmester.synthesis.result import Synthesis
-from burmester.tasks.notation import least_angle, length_of
+from burmester.tasks.notation import length_of
 from burmester.web.data import poses_report, scene_of, transmission_limit
 from burmester.web.image_space import chart_of
-from burmester.wording import figure
+from burmester.wording import figure, least_angle
 
 if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
-
-__all__ = ["six_bar_report"]
 
 SCHEMA: Final = "burmester.six-bar-report/2"
 LINKS: Final = (

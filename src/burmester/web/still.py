@@ -18,8 +18,6 @@ from burmester.synthesis.result import Candidate
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.found_linkage import FoundLinkage
 
-__all__ = ["POSE", "still"]
-
 SIZE_PX = 420.0  # the longer side of the picture
 MARGIN = 0.07  # share of the drawing's size that stays free on each side
 LINK, COUPLER, POSE, CURVE = "#5d6b7a", "#3f86d8", "#d0493c", "#8796a8"

@@ -21,8 +21,6 @@ from burmester.export.parts.plate import Plate, moved
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["LETTER_WIDTH", "DimensionLine", "dimension_lines"]
-
 LETTER_WIDTH = 0.68  # of the height of text: mean width of a letter, with room to spare
 # All others are shares of the height of text.
 ARROW = 0.8  # length of an arrow

@@ -29,8 +29,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
-__all__ = ["Drawing", "Item", "Kind", "Role", "halved", "require_drawing"]
-
 MAX_BULGE = 0.57  # bulge above which an arc is drawn as two
 TICK = 0.3  # of the height of text: half of a mark's arms
 

@@ -31,8 +31,6 @@ from burmester.export.parts.stock import stock_for
 from burmester.export.reference import require_equal
 from burmester.synthesis.result import Candidate
 
-__all__ = ["check", "write"]
-
 ezdxf: Any = import_module("ezdxf")
 
 DIGITS = 15  # of each number, those that survive arithmetic; the file has them all

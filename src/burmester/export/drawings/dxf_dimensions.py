@@ -16,8 +16,6 @@ from burmester.export.drawings.sheet import Sheet
 from burmester.export.reference import require_equal
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["add_dimension", "add_style", "read_dimensions"]
-
 DIMENSION_STYLE = "BURMESTER"
 DIAMETER_TYPE = 3  # of dimension entities
 

@@ -16,8 +16,6 @@ from burmester.geometry.inner_point import inner_point
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 
-__all__ = ["Outlines", "hatch", "name_start"]
-
 HATCH_SPACING: Final = 1.6  # of the text's height: between the lines of a hatch, at least
 MOST_LINES: Final = 60  # of a hatch, about; over a large region they are farther apart
 

@@ -23,8 +23,6 @@ from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import INCH, stock_for
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["LETTERS", "MARGIN", "Page", "Pages", "pages_of"]
-
 PAPERS: Final = {  # by whether the task's lengths are in inches or feet: width and height, mm
     False: ("A4", (210.0, 297.0)),
     True: ("Letter", (8.5 * INCH, 11 * INCH)),

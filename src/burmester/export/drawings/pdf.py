@@ -36,8 +36,6 @@ from burmester.export.reference import require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
-__all__ = ["check", "write"]
-
 POINT: Final = 25.4 / 72  # mm
 TOLERANCE_MM: Final = 1e-5  # largest deviation of what is read back; written to 1e-6 points
 FONT: Final = 1.15  # of the height of text: size of the font whose capitals have about that height

@@ -17,8 +17,6 @@ import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["PagePaths", "read_pages"]
-
 POINT: Final = 25.4 / 72  # mm
 TOKEN: Final = re.compile(rb"\((?:\\.|[^\\)])*\)|<[^>]*>|\[|\]|/[^\s/<>\[\]()]+|[^\s/<>\[\]()]+")
 

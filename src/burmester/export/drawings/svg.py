@@ -27,8 +27,6 @@ from burmester.export.reference import require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
-__all__ = ["check", "write"]
-
 DIGITS = 15  # of each number
 LINE_WIDTH_MM = 0.1  # at most, and no more than a share of the link width
 OF_WIDTH = 0.02

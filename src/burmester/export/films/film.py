@@ -25,19 +25,6 @@ from burmester.tasks.motion_task import Task
 if TYPE_CHECKING:
     from burmester.synthesis.result import Candidate
 
-__all__ = [
-    "DPI",
-    "MARK_COLOUR",
-    "MARK_POINTS",
-    "TALLEST",
-    "Film",
-    "Picture",
-    "blob",
-    "looks_of",
-    "require_film",
-    "there_and_back",
-]
-
 Picture = NDArray[np.uint8]
 
 

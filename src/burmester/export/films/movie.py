@@ -31,8 +31,6 @@ from burmester.synthesis.result import Candidate
 if TYPE_CHECKING:
     from burmester.export.options import Options
 
-__all__ = ["check_gif", "check_mp4", "write_gif", "write_mp4"]
-
 
 MAX_GIF_RATE: Final = 25.0  # pictures a second; more would only make the file larger
 MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back

@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["marks", "pictures"]
-
 FITTED_PLACES: Final = 25  # places whose drawing has to fit into the picture
 MARGIN: Final = (0.62, 0.12, 0.48, 0.34)  # inches left, right, below and above the axes
 TALL, FLAT = TALLEST, 0.5  # the height of a picture at most and at least, in shares of its width

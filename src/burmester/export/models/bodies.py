@@ -18,17 +18,6 @@ from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.plates import Assembly
 from burmester.numerics.arrays import FloatArray
 
-__all__ = [
-    "INSET",
-    "METRES",
-    "BodyParts",
-    "Shape",
-    "heights_of",
-    "parts_of_bodies",
-    "rim",
-    "shapes",
-]
-
 METRES = 1e-3  # metres in a millimetre
 INSET = 0.02  # of the thickness: each shape is lower by this, half at each end, than its part
 

@@ -12,8 +12,6 @@ from burmester.export.reference import ORIGIN, Limb
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Body", "Loop", "Site", "Tree", "tree_of"]
-
 
 class Site(NamedTuple):
     """A point (2,) of a body; name: empty where it is only to be seen."""

@@ -17,8 +17,6 @@ from burmester.export.models.mass_properties import MassProperties
 from burmester.export.reference import Reference
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
-__all__ = ["DIRECTIONS", "STANDARD_GRAVITY", "DriverLoad", "require_up"]
-
 STANDARD_GRAVITY: Final = 9.80665  # m/s²
 LOCKED: Final = 1e14  # condition of the equations of motion from which on a linkage is locked
 DIRECTIONS: Final[Mapping[str, FloatArray]] = {

@@ -24,8 +24,6 @@ from burmester.export.reference import ORIGIN, PRECISION, Reference, require_equ
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
-__all__ = ["DAMPING_RATE", "DynamicModel"]
-
 HINGE_MARGIN: Final = math.radians(5)  # by which a hinge may leave the range used, at each end
 DAMPING_RATE: Final = 0.1  # 1/s: a link alone on its joint loses its speed at this rate
 MATERIALS: Final = {2700.0: "aluminium", 7850.0: "steel"}

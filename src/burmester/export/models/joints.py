@@ -19,8 +19,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
-__all__ = ["JointMotion"]
-
 LOOKS: Final = 721  # places along the motion at which the joints' range is found
 TURN: Final = 2 * np.pi
 

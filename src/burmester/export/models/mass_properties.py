@@ -18,8 +18,6 @@ from burmester.export.parts.outlines import rounded_hull, slot_outline
 from burmester.export.parts.plates import Assembly
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["MassProperties", "outline_moments", "require_density"]
-
 NODES: Final = 24  # of Gauss's rule on a side: arcs up to half a circle exact but for rounding
 LIGHTEST, HEAVIEST = 10.0, 25000.0  # kg/m³: a foam, and more than osmium; others are slips of unit
 

@@ -31,8 +31,6 @@ from burmester.export.reference import PRECISION, as_rows, require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
-__all__ = ["check", "write"]
-
 LEAST = 1e-14  # kg and kg m²: smaller ones of a body are raised to it, for MuJoCo needs 1e-15
 SITE_SIZE = 0.02  # of the span: marks of pivots
 GROUND_COLOUR, OUTLINE_COLOUR = ".4 .4 .4 1", "0 .47 .35 1"

@@ -8,8 +8,6 @@ from xml.etree import ElementTree
 
 from burmester.export.numbers import numbers_in
 
-__all__ = ["Frames", "frames_at"]
-
 
 class Frames(NamedTuple):
     """The world coordinates of sites (complex) and the angles of bodies (radians), by name."""

@@ -15,8 +15,6 @@ from burmester.export.models.driver_load import STANDARD_GRAVITY
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Servo"]
-
 LONGEST_STEP: Final = 1e-3  # seconds: time step, shorter for linkages below 10 cm
 STEP_SHARE: Final = 0.01  # of sqrt(span / g), the time of a fall: longest time step
 FREQUENCY: Final = 0.3  # radians a time step: natural frequency

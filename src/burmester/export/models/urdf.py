@@ -30,8 +30,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 from burmester.wording import listed
 
-__all__ = ["check", "write"]
-
 EFFORT = 1000.0  # N m or newton: limit of joints, required by the format
 SPEED = 10.0  # radians, or spans of a slide, a second: limit of joints, required by the format
 TILT = {  # roll, pitch, yaw by which the ground stands in a world with z upwards

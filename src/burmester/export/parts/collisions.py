@@ -9,8 +9,6 @@ import numpy as np
 
 from burmester.export.parts.plates import Assembly
 
-__all__ = ["collision"]
-
 TOUCHING_VOLUME: Final = 1e-6  # of a hole's volume: common volume up to which parts only touch
 SAME_HEIGHT: Final = 1e-6  # mm: heights closer than this are equal
 PLACES: Final = 12  # places along the motion at which parts are compared

@@ -17,8 +17,6 @@ from burmester.export.options import Options
 from burmester.export.parts.links import Links, Spacing
 from burmester.export.parts.stock import INCH, Stock, nearest
 
-__all__ = ["PIN_CLEARANCE", "WALL", "Dimensions", "dimensions_of"]
-
 WIDTH = 0.12  # of the median link length: width of links
 MAX_WIDTH = 0.6  # of the shortest distance between two holes: largest width and hole
 HOLE = 0.4  # of the width: diameter of holes

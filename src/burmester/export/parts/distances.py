@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["distance", "distances"]
-
 
 def distance(one: FloatArray, two: FloatArray) -> float:
     """The distance of two features: points (1, 2) or segments (2, 2)."""

@@ -12,8 +12,6 @@ import numpy as np
 from burmester.export.parts.plates import Assembly
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Pivot", "axes_of", "axis_away", "pivots_of", "rim_away"]
-
 RING_SHARE: Final = 0.2  # of a hole's radius: band in which its facets are searched
 
 

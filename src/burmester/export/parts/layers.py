@@ -25,8 +25,6 @@ from burmester.export.parts.plate import Pin, Plate, plate_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["arranged"]
-
 CLEARANCE = 0.05  # of the width: least distance between plates of one layer
 
 

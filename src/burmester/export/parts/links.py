@@ -21,8 +21,6 @@ from burmester.export.reference import Reference
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
-__all__ = ["Arrangement", "Links", "Spacing"]
-
 
 class Spacing(NamedTuple):
     """How far two holes or slots of one moving link are apart, and what they are called."""

@@ -12,8 +12,6 @@ import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["angle_outline", "convex_hull", "points_on", "rounded_hull", "slot_outline"]
-
 
 def convex_hull(points: FloatArray) -> FloatArray:
     """The corners (n, 2) of the convex hull of points (m, 2), counter-clockwise."""

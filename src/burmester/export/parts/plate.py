@@ -19,8 +19,6 @@ from burmester.export.parts.outlines import (
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["Pin", "Plate", "moved", "outline_points", "plate_of"]
-
 ARMS_APART = 2.5  # radii: least distance of an arm's end from the other arm of an angle
 SLOT_RUN_OUT = 0.5  # of a hole's diameter: slot beyond each end of the pin's travel
 

@@ -16,21 +16,10 @@ from burmester.export.options import Options, unit_of
 from burmester.export.parts.dimensions import Dimensions, dimensions_of
 from burmester.export.parts.layers import arranged
 from burmester.export.parts.links import Links
-from burmester.export.parts.outlines import slot_outline
-from burmester.export.parts.plate import Pin, Plate, outline_points
+from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.stock import stock_for
 from burmester.export.reference import Reference
 from burmester.synthesis.result import Candidate
-
-__all__ = [
-    "Assembly",
-    "Dimensions",
-    "Pin",
-    "Plate",
-    "assembly_of",
-    "outline_points",
-    "slot_outline",
-]
 
 
 @final

@@ -15,8 +15,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Final, final
 
-__all__ = ["INCH", "INCHES", "METRIC", "Stock", "nearest", "stock_for"]
-
 NEAR: Final = 1.5  # largest ratio of a size in stock and the one that is wanted
 INCH: Final = 25.4  # mm
 GAUGES: Final = {  # inches

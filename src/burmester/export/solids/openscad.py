@@ -28,8 +28,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
-__all__ = ["check", "write"]
-
 NUMBERS = re.compile(r"^(\w+) = ([-+.\d\[][^;a-z]*(?:e[-+]?\d[^;a-z]*)*);", re.MULTILINE)
 MOTION_ROWS = 121  # rows of the motion
 GROUNDS = {"ground": "DimGray", "ground_2": "DarkGray"}

@@ -30,15 +30,6 @@ from burmester.export.solids.step_order import settle
 from burmester.export.solids.stl import Triangles, read_stl, shells_of, volume_of
 from burmester.synthesis.result import Candidate
 
-__all__ = [
-    "check_flat",
-    "check_step",
-    "check_stl",
-    "write_flat",
-    "write_step",
-    "write_stl",
-]
-
 FACET_ANGLE: Final = 0.1  # radians of an arc per facet of an STL: 0.13% of the radius off, at most
 FACET_LENGTH: Final = (
     0.1  # of an edge's length: the tolerance as a length, large enough not to decide

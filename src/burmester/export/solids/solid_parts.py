@@ -13,11 +13,11 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from burmester.export.link_places import GROUND
-from burmester.export.parts.plates import Assembly, Plate, slot_outline
+from burmester.export.parts.outlines import slot_outline
+from burmester.export.parts.plate import Plate
+from burmester.export.parts.plates import Assembly
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-
-__all__ = ["Part", "area_of", "laid", "parts_of", "placed"]
 
 MIN_EDGE: Final = 1e-4  # of a plate: shorter pieces of its outline are left out
 FLAT_SPACING: Final = 2.0  # widths of a link between parts that are laid flat

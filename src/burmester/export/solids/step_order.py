@@ -10,8 +10,6 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-__all__ = ["settle"]
-
 NEXT_TO_NOTHING = 1e-12  # millimetres or a share of a unit vector; less is the rounding of a zero
 
 # An entity, whose texts may hold any sign: "#12 = COLOUR_RGB('',0.5,0.5,0.5);"

@@ -8,8 +8,6 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Triangles", "read_stl", "shells_of", "volume_of"]
-
 Triangles: TypeAlias = NDArray[np.float64]
 
 SAME: Final = 1e-6  # of the greatest coordinate: distance below which two corners are one

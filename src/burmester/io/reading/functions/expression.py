@@ -20,8 +20,6 @@ from burmester.errors import InputError
 from burmester.io.reading.pose_table import Source, is_held
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["CONSTANTS", "FUNCTIONS", "read_expression", "read_number"]
-
 MOST_CHARACTERS: Final = 500
 MOST_DEPTH: Final = 60  # operations within operations
 CONSTANTS: Final[Mapping[str, float]] = MappingProxyType({"pi": math.pi, "e": math.e})

@@ -12,8 +12,6 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["FLATNESS", "JOINT", "Curve", "Drawing", "OpenEnds", "extent", "joined", "unreadable"]
-
 FLATNESS: Final = 2e-4  # of the drawing's extent; chords leave arcs and splines by no more
 JOINT: Final = 1e-4  # of the drawing's extent; ends no farther apart are joined
 

@@ -26,8 +26,6 @@ from burmester.printable import printable
 from burmester.tasks.traced_path import TracedPath
 from burmester.wording import count
 
-__all__ = ["drawing_named", "read_drawn_path"]
-
 POINTS: Final = 60  # taken of a curve, at equal steps along it
 
 

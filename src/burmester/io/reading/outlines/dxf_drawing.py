@@ -17,8 +17,6 @@ import numpy as np
 from burmester.errors import InputError, library
 from burmester.io.reading.outlines.curves import FLATNESS, Curve, Drawing, unreadable
 
-__all__ = ["read_dxf"]
-
 UNITS: Final = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 13: "um", 14: "dm"}  # of $INSUNITS
 FAR: Final = 1e60  # no length of a drawing is as great
 MAX_ENTITIES: Final = 20_000  # those of blocks counted at each place

@@ -36,16 +36,6 @@ from burmester.io.reading.pose_table import shown
 from burmester.printable import printable
 from burmester.wording import count, figure, in_unit, listed
 
-__all__ = [
-    "FROM_PAGE",
-    "OutlineFile",
-    "drawing_in",
-    "folder_of",
-    "only_closed_curve",
-    "outline_named",
-    "read_outline",
-]
-
 FROM_PAGE: Final = "<page>/"  # in front of the name of a task that a page sent
 
 MAX_BYTES: Final = 8_000_000  # of a drawing: some 60,000 lines, ten seconds

@@ -21,8 +21,6 @@ from burmester.errors import library
 from burmester.io.reading.outlines.curves import FLATNESS, Curve, Drawing, unreadable
 from burmester.numerics.arrays import FloatArray
 
-__all__ = ["read_svg"]
-
 PER_INCH: Final = 96.0  # pixels, as CSS has them
 MILLIMETRES: Final = {"mm": 1.0, "cm": 10.0, "q": 0.25, "in": 25.4, "pt": 25.4 / 72, "pc": 25.4 / 6}
 FAR: Final = 1e60  # pixels; no coordinate of a drawing is as great
