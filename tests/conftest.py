@@ -52,7 +52,7 @@ def pytest_collect_file():
     return [each for each in (yield) if not isinstance(each, DoctestModule)]
 
 
-@pytest.hookimpl(trylast=True)
+@pytest.hookimpl(tryfirst=True)  # before pytest leaves out those without an asked marker
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark the layers, leave out all but a sample of each campaign, and put heavy files first."""
     weights = json.loads(WEIGHTS.read_text())

@@ -16,7 +16,8 @@ from shapely import LineString, MultiPoint, Point, Polygon
 
 from burmester.errors import InputError
 from burmester.export import SIX_BAR_FORMATS, Options, export
-from burmester.export.parts.plates import assembly_of, outline_points
+from burmester.export.parts.plate import outline_points
+from burmester.export.parts.plates import assembly_of
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.synthesis.six_bars import synthesize_six_bars
 from tests.oracles.six_bars import dimensions, driven

@@ -53,7 +53,11 @@ from tests.oracles.ten_poses import ROWS, TEN
 
 NARROW, WIDE_ENOUGH = 60, 10_000  # columns
 ROOT = Path(burmester.__file__).parent
-SCHEMA = Draft202012Validator(json.loads((ROOT / "io" / "synthesis.schema.json").read_text()))
+SCHEMAS = [
+    json.loads((ROOT / "io" / f"{name}.schema.json").read_text())
+    for name in ("synthesis", "function")
+]
+SCHEMA_OF = {each["properties"]["schema"]["const"]: Draft202012Validator(each) for each in SCHEMAS}
 
 
 class Args(NamedTuple):
@@ -1807,7 +1811,7 @@ def in_json(case, run, done):
     assert case.exit < 2 or told.err == done.err
     data = json.loads(told.out)
     if case.run.startswith(SOLVED_BY):
-        SCHEMA.validate(data)
+        SCHEMA_OF[data["schema"]].validate(data)
     return data
 
 

@@ -10,8 +10,8 @@ import pytest
 from burmester import Task, read_task, synthesize
 from burmester.dyads.pivot_map import fixed_pivot_map, moving_pivot_map
 from burmester.geometry.displacement import Displacement
-from burmester.tasks.notation import least_angle
 from burmester.web.data import report_data
+from burmester.wording import least_angle
 from tests.oracles.page_modules import value
 
 FOUR = np.array([(0, 0, 0), (30, 12, 20), (55, 40, 45), (60, 75, 80)], dtype=float)
