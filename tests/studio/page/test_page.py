@@ -348,6 +348,7 @@ def test_an_empty_task_shows_nothing_of_the_one_before(page):
     rows = ["x\ty\tangle", "0\t0\t0", "30\t20\t30", "60\t25\t60", "90\t10\t100"]
     paste(page, "\n".join(rows) + "\n")
     has_poses(page, 4)
+    page.wait_for_selector("[data-linkage]", timeout=60_000)  # the page asks a moment later
     solved(page)
     curves = page.locator(".bs-burmester")
     assert curves.get_attribute("visibility") == "visible"
@@ -361,6 +362,7 @@ def test_an_empty_task_shows_nothing_of_the_one_before(page):
     assert "Two poses or more" in page.locator(".bs-results-status").inner_text()
     page.locator("[data-do=undo]").click()
     has_poses(page, 4)
+    page.wait_for_selector("[data-linkage]", timeout=60_000)  # the page asks a moment later
     solved(page)
     assert page.locator("[data-linkage]").count() == count
     assert curves.get_attribute("visibility") == "visible"
