@@ -3,8 +3,8 @@
 Tables: `file_content` (bytes and text), `workbook` and `parquet` (as text), `grid` (cells with
 their places), `header`, `columns` (by `column_words`), `cell_numbers`, `pose_rows`, `cad_rows`,
 `pose_table` (numbers as printed), `tracked_points`.
-JSON and TOML: `documents`, `pose_tree`, `plain_poses`, `pose_model`, `locations` (in the text),
-`syntax_faults` (with `syntax_checks`, `parser_stop`).  Limits and requirements: `specification` and
+JSON and TOML: `documents`, `node` (a value with its place), `pose_tree` and the other trees,
+`locations` (in the text), `syntax_faults`.  Limits and requirements: `specification` and
 `stated_requirements`, as text (`limits_text`, `requirements_text`) and in files (`limits_tree`,
 `requirements_tree`).
 """
