@@ -18,7 +18,7 @@ from burmester.api.python_words import in_python_words
 from burmester.api.table import as_line, dimensions_as_html, plain_html
 from burmester.describe import six_bar_words
 from burmester.errors import InputError
-from burmester.fourbar.circuits import circuit_of
+from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Configuration
 from burmester.geometry.displacement import Displacement
@@ -219,12 +219,11 @@ class ResultLinkage(FoundLinkage, Chosen):
         >>> here.body.translation.shape, here.joints["follower_moving"].shape
         ((3, 2), (3, 2))
         """
-        from burmester.export.coupler_motion import CouplerMotion  # noqa: PLC0415
+        from burmester.export.motion import Motion  # noqa: PLC0415
 
         given = real_numbers(driver, (...,), "the driver")
-        motion = CouplerMotion.of(self, 3)
-        middle = circuit_of(self.driver_first, motion.places[1], as_given=True)
-        own = motion.circuit
+        middle = circuit_of(self.driver_first, Motion.of(self, 3).places[1], as_given=True)
+        own = Circuits.of(self.driver_first, as_given=True)[int(middle.circuit)]
         inputs = np.radians(given) if own.turns else given
         places = own.reached_at(np.ravel(inputs), int(middle.branch))
         shaped = Displacement(
@@ -237,11 +236,10 @@ class ResultLinkage(FoundLinkage, Chosen):
 
         See `at`.  Raises InputError E163 where it goes from no pose to another.
         """
-        from burmester.export.coupler_motion import CouplerMotion  # noqa: PLC0415
+        from burmester.export.motion import Motion  # noqa: PLC0415
 
-        motion = CouplerMotion.of(self, count)
-        turns = motion.circuit.turns
-        driver = np.degrees(motion.driver_coordinate) if turns else motion.driver_coordinate
+        motion = Motion.of(self, count)
+        driver = np.degrees(motion.drive) if motion.in_turns else motion.drive
         return self._configuration(driver, motion.places)
 
     def _configuration(self, driver: FloatArray, places: Displacement) -> Configuration:

@@ -22,6 +22,7 @@ from burmester.verdicts.requirement_check import figures_of
 from burmester.wording import figure, in_runs
 
 CLOSE: Final = 3.0  # times the least error; a sound linkage as close as this comes first
+ROUNDING: Final = 1e-9  # radians; an output error below is none
 MET: Final = 1e-7  # radians; a pair missed by less is met exactly
 SAME_EXACT: Final = 1e-6  # of the logarithm of a link, and radians, through exact pairs
 SAME_VALLEY: Final = 0.25  # the same of linkages downhill of starts
@@ -57,6 +58,18 @@ class FoundGenerator:
     shortcomings: tuple[str, ...]
     least_transmission: float
     extent: float
+
+    @property
+    def is_exact(self) -> bool:
+        """Whether the output is nowhere off by more than rounding."""
+        return self.max_error < ROUNDING
+
+    def lengths(self, ground: float) -> dict[str, float]:
+        """The lengths of the links by name, in the unit of the ground link's."""
+        one = self.generator
+        links = ground * np.array([1.0, one.input_link, one.coupler, one.output_link])
+        names = "ground link", "input link", "coupler", "output link"
+        return dict(zip(names, links.tolist(), strict=True))
 
     @property
     def violations(self) -> tuple[Violation, ...]:

@@ -11,7 +11,7 @@ from rich.console import Console
 from rich.text import Text
 
 from burmester.errors import Advice
-from burmester.functions.found_generator import FoundGenerator
+from burmester.functions.found_generator import ROUNDING, FoundGenerator
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.pair_checks import reversals
 from burmester.io.function_result import function_task_data
@@ -26,7 +26,6 @@ CHECK_SCHEMA: Final = "burmester.function-check/1"
 NARROW = 76  # columns; in a narrower terminal the table has fewer
 MOST_PAIRS = 20  # in a table; of more there is none
 MOST_ROWS = 8  # linkages in the table where not all are asked for
-EXACT = 1e-9  # radians; an error below is rounding
 
 
 def show_function(
@@ -63,16 +62,14 @@ def _best(found: FoundGenerator, task: FunctionTask, console: Console, named: st
     where = "over the range" if task.function else "at the pairs"
     error = (
         "meets all pairs exactly"
-        if found.max_error < EXACT
+        if found.is_exact
         else f"misses by {_degrees(found.max_error)} deg at most {where} "
         f"({figure(100 * found.max_error / task.output_span)} % of the output's range), "
         f"{_degrees(found.rms_error)} deg rms"
     )
     head = f"{named or f'Build {found.id}:'} {kind} that {error}."
     print_trimmed(Text(head, style="bold"), console)
-    one, ground = found.generator, task.ground
-    lengths = (1.0, float(one.input_link), float(one.coupler), float(one.output_link))
-    names = ("ground link", "input link", "coupler", "output link")
+    one = found.generator
     table = new_table(gap=1)
     table.show_header = False
     for _ in range(2):
@@ -83,19 +80,19 @@ def _best(found: FoundGenerator, task: FunctionTask, console: Console, named: st
         "input link": (one.input_phase, "where the input is 0"),
         "output link": (one.output_phase, "where the output is 0"),
     }
-    for name, length in zip(names, lengths, strict=True):
+    for name, length in found.lengths(task.ground).items():
         phase = at.get(name)
         text = (
             "" if phase is None else f"at {math.degrees(float(phase[0])) % 360:.4f} deg {phase[1]}"
         )
-        table.add_row("", name, f"{length * ground:.6g}", text)
+        table.add_row("", name, f"{length:.6g}", text)
     print_trimmed(table, console)
     side = "left" if float(one.side) > 0 else "right"
     notes = [
         "Angles are from the ground link, counter-clockwise. Seen from the input link's pin to "
         f"the output's pivot, the coupler's other pin lies on the {side}.",
         f"Least transmission angle over the range: {math.degrees(found.least_transmission):.1f} "
-        f"deg. The box of all pivots has a diagonal of {figure(found.extent * ground)}.",
+        f"deg. The box of all pivots has a diagonal of {figure(found.extent * task.ground)}.",
     ]
     if found.shortcomings:
         notes.append(f"It {listed(found.shortcomings)}.")
@@ -126,10 +123,8 @@ def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) ->
     for name in ("max error", "%", "rms", "transm.")[:: 1 if wide else 3]:
         table.add_column(name, justify="right", no_wrap=True)
     for each in shown:
-        one = each.generator
-        lengths = (one.input_link, one.coupler, one.output_link)
-        exact = each.max_error < EXACT
-        percent = "0" if exact else figure(100 * each.max_error / task.output_span)
+        _, *lengths = each.lengths(task.ground).values()
+        percent = "0" if each.is_exact else figure(100 * each.max_error / task.output_span)
         figures = [
             f"{_degrees(each.max_error)}°",
             percent,
@@ -141,7 +136,7 @@ def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) ->
         table.add_row(
             each.id,
             each.type,
-            *(f"{float(v) * task.ground:.4g}" for v in lengths),
+            *(f"{length:.4g}" for length in lengths),
             *figures[:: 1 if wide else 3],
         )
     print_trimmed(table, console)
@@ -159,7 +154,7 @@ def _degrees(angle: float) -> str:
     """An error in degrees, "exact" where it is rounding, "open" where there is none."""
     if not math.isfinite(angle):
         return "-"
-    return "0" if abs(angle) < EXACT else figure(math.degrees(angle))
+    return "0" if abs(angle) < ROUNDING else figure(math.degrees(angle))
 
 
 # --- before anything is solved

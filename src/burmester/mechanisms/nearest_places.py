@@ -25,7 +25,7 @@ REFINED = 4  # of the places that are nearer than both neighbours, so many on ea
 AT_ONCE = 1_000_000  # places times poses looked at in one go; bounds the memory
 ALONG = 721  # places along a range of a branch
 END = 2e-5  # of a piece; nearer to a dead point its angle hardly tells a place
-SAME = 1e-9  # shares nearer than this are one
+SAME_SHARE = 1e-9  # of a piece; places that are nearer to each other are one
 SMOOTH = 22  # steps towards a minimum of which the value counts only
 
 
@@ -104,12 +104,12 @@ def nearest_shares(
     measure: BodyMeasure,
     poses: int,
     *,
-    alike: float = 0.0,
+    tie: float = 0.0,
 ) -> tuple[FloatArray, FloatArray]:
     """The shares (k, N) of branches (k,) at which the body is nearest to poses, and how near.
 
     A branch may hold the body at one place twice, with its other links elsewhere.  Of places whose
-    distances differ by `alike` at most those are taken that come in the order of the poses, if any.
+    distances differ by `tie` at most, those that come in the order of the poses are taken.
     """
     shares, least = np.empty((len(branches), poses)), np.empty((len(branches), poses))
     numbers = np.arange(poses)
@@ -127,30 +127,31 @@ def nearest_shares(
         off = np.concatenate([minima.off[own], at_ends])
         order = np.lexsort((off, pose))
         first = order[np.searchsorted(pose[order], numbers)]
-        near = order[off[order] <= off[first][pose[order]] + alike]
+        near = order[off[order] <= off[first][pose[order]] + tie]
         if len(near) > poses:
-            several = np.split(near, np.searchsorted(pose[near], numbers[1:]))
-            chosen = _one_way([share[each] for each in several], branch, length)
-            first = first if chosen is None else np.array([*map(np.take, several, chosen)])
+            candidates = np.split(near, np.searchsorted(pose[near], numbers[1:]))
+            chosen = _in_order([share[each] for each in candidates], branch, length)
+            first = first if chosen is None else np.array([*map(np.take, candidates, chosen)])
         shares[row], least[row] = share[first], off[first]
     return shares, least
 
 
-def _one_way(several: Sequence[FloatArray], branch: Branch, length: float) -> list[int] | None:
-    """Which of several shares for each pose come in order along a branch, over the least of it.
+def _in_order(candidates: Sequence[FloatArray], branch: Branch, length: float) -> list[int] | None:
+    """Which of the candidate shares of each pose come in order, over the shortest range.
 
-    None where none do.  length: of the circuit.
+    Either way along the branch; None if none do.  length: of the circuit.
     """
-    best, least = None, np.inf
-    for way, end in ((1, branch.high), (-1, branch.low)):
-        for number, start in enumerate(several[0]):
-            at, over, chosen = start, 0.0, [number]
-            for shares in several[1:]:
-                steps = np.mod(way * (shares - at) + SAME, length) - SAME
+    best, shortest = None, np.inf
+    for direction, end in ((1, branch.high), (-1, branch.low)):
+        for number, start in enumerate(candidates[0]):
+            share, travelled, chosen = start, 0.0, [number]
+            for shares in candidates[1:]:
+                steps = np.mod(direction * (shares - share) + SAME_SHARE, length) - SAME_SHARE
                 chosen.append(int(steps.argmin()))
-                at, over = shares[chosen[-1]], over + steps.min()
-            if over < min(least, length if branch.turns else way * (end - start)):
-                best, least = chosen, over
+                share, travelled = shares[chosen[-1]], travelled + steps.min()
+            room = length if branch.turns else direction * (end - start)
+            if travelled < min(shortest, room):
+                best, shortest = chosen, travelled
     return best
 
 

@@ -115,7 +115,7 @@ def judged_six_bar(
     for pivot in linkage.skeleton.drivers if pivots is None else pivots:
         branches = branches_of(linkage, circuits, pivot)
         if branches:
-            near = nearest_shares(linkage, branches, minima, measure, number, alike=_alike(problem))
+            near = nearest_shares(linkage, branches, minima, measure, number, tie=_tie(problem))
             driven = _driven(linkage, branches, *near, problem)
             every += [_verdict(linkage, driven, k, problem) for k in range(len(branches))]
     return _found(linkage, _best(every, problem), problem)
@@ -125,7 +125,7 @@ def _best(every: list[_Verdict], problem: SynthesisProblem) -> _Verdict:
     """The branch to tell of."""
     good = [each for each in every if not (each.defects or each.violations)]
     if good:
-        most = min(each.combined for each in good) + _alike(problem)
+        most = min(each.combined for each in good) + _tie(problem)
         near = [each for each in good if each.combined <= most]
         return max(near, key=lambda each: round(each.merit, MERIT_DIGITS))  # of equals the first
 
@@ -322,7 +322,7 @@ def _by_tolerances(problem: SynthesisProblem) -> bool:
     return tolerances is not None and tolerances.gives_room
 
 
-def _alike(problem: SynthesisProblem) -> float:
+def _tie(problem: SynthesisProblem) -> float:
     """The difference below which distances from poses are one."""
     return ALIKE * (1.0 if _by_tolerances(problem) else problem.motion_size)
 

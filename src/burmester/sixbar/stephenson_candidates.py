@@ -42,10 +42,11 @@ def third_class_candidates(
 
     The body is the link EG.  As `watt_candidates`.
     """
-    bars, own = with_first_dyad(chains, poses, side), _body_dyads(poses)
-    row, dyad = _pairs(bars.task, own[0])
+    bars, (own, number) = with_first_dyad(chains, poses, side), _distinct(poses)
+    of, body_dyads = _dyads_of(own)
+    row, dyad = _pairs(number[bars.task], of)
     chain = bars.task[row]
-    links, loop, last = chains[chain], bars.dyad[row], own[1][dyad]
+    links, loop, last = chains[chain], bars.dyad[row], body_dyads[dyad]
     f, g = _ends(last, poses[chain])
     joints = np.concatenate([bars.joints[row], np.stack([f, g], axis=-1)], axis=-1)
     a, b = joints[:, 0, 0], joints[:, 0, 1]
@@ -78,10 +79,11 @@ def first_class_candidates(
     """
     elbow = chains.elbows(poses, side)
     reached = np.flatnonzero(np.isfinite(elbow).all(axis=-1))
-    own = _body_dyads(poses)
-    row, dyad = _pairs(reached, own[0])
+    own, number = _distinct(poses)
+    of, body_dyads = _dyads_of(own)
+    row, dyad = _pairs(number[reached], of)
     chain = reached[row]
-    links, last, c = chains[chain], own[1][dyad], elbow[chain]
+    links, last, c = chains[chain], body_dyads[dyad], elbow[chain]
     a = complex_of(links.fixed_pivot)[:, None] + 0 * c
     f, g = _ends(last, poses[chain])
     first, second = _crank(a, c), _crank(f, g)
@@ -123,15 +125,10 @@ def driven_four_bar_candidates(
     The body is the coupler.  Whether F turns one way is seen at places along the range, so that a
     short turn back between two of them is missed.
     """
-    once = _all_alike(poses)
-    task, first, second, parameter = _four_bars(poses[:1] if once else poses, conditions)
-    if once:
-        chain = np.repeat(np.arange(len(side)), len(task))
-        bar = np.tile(np.arange(len(task)), len(side))
-    else:
-        chain, bar = _pairs(np.arange(len(side)), task)
-    circuits, low, high = parameter
-    steps = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, PLACES)
+    own, number = _distinct(poses)
+    of, first, second, circuits, ends = _four_bars(own, conditions)
+    chain, bar = _pairs(number, of)
+    steps = ends[:, :1] + np.diff(ends) * np.linspace(0, 1, PLACES)
     body = circuits.couplers(steps)
     one, other, links = first[bar], second[bar], chains[chain]
     f = complex_of(links.fixed_pivot)
@@ -158,13 +155,13 @@ def driven_four_bar_candidates(
     drive = np.unwrap(np.angle(there[..., 6] - there[..., 5]), axis=-1)
     turn = np.diff(drive, axis=-1)
     good = np.flatnonzero((turn > 0).all(axis=-1) | (turn < 0).all(axis=-1))  # nan is neither
-    there, number = there[good], THIRD.drivers.index("F")
+    there = there[good]
     return Candidates(
         chain=chain[good],
         design=good,
         linkages=linkage[good],
         joints=joints(poses[chain[good]], good),
-        driver=np.full(len(good), number),
+        driver=np.full(len(good), THIRD.drivers.index("F")),
         transmission=least_transmission_angle(THIRD, there, "F").min(axis=-1, initial=np.pi / 2),
         extent=box_diagonal(there),
         designs=len(chain),
@@ -173,16 +170,16 @@ def driven_four_bar_candidates(
 
 def _four_bars(
     poses: Displacement, conditions: Conditions
-) -> tuple[NDArray[np.intp], RR, RR, tuple[Circuits, FloatArray, FloatArray]]:
-    """The four-bars (m,) through poses (k, 5), all on one circuit and in order.
+) -> tuple[NDArray[np.intp], RR, RR, Circuits, FloatArray]:
+    """The four-bars (m,) that meet poses (k, 5) on one circuit and in order.
 
-    Of which poses, their dyads, and the range of the circuit: as its parameter goes on, the poses
-    come in their order or in the reverse one; all round where the driver must turn fully.
+    The number of their poses, both dyads, the circuit, and the range (m, 2) of its parameter from
+    the first pose to the last; all round where the driver must turn fully.
     """
     task, dyad = _dyads_of(poses)
     one, other = _pairs(task, task)
-    twice = one < other
-    one, other = one[twice], other[twice]
+    each_pair_once = one < other
+    one, other = one[each_pair_once], other[each_pair_once]
     task, first, second = task[one], dyad[one], dyad[other]
     circuits = Circuits.of(Linkage(first, second))
     where = circuits.locate(poses[task])
@@ -193,8 +190,8 @@ def _four_bars(
     low, high = way.drive[at].min(axis=-1), way.drive[at].max(axis=-1)
     if conditions.crank:
         high = low + 2 * np.pi
-    own = circuits[at, where.circuit[at, 0]]
-    return task[at], first[at], second[at], (own, low, high)
+    ends = np.stack([low, high], axis=-1)
+    return task[at], first[at], second[at], circuits[at, where.circuit[at, 0]], ends
 
 
 def _chain_of(one: RR, other: RR, links: ThreeRChain) -> Chain:
@@ -263,21 +260,16 @@ def _driven(
     return concatenate(parts)
 
 
-def _body_dyads(poses: Displacement) -> tuple[NDArray[np.intp], RR]:
-    """The dyads from the ground to the body through poses (k, 5): of which poses, and they."""
-    once = _all_alike(poses)
-    task, dyad = _dyads_of(poses[:1] if once else poses)
-    if once:
-        count = poses.shape[0]
-        task = np.repeat(np.arange(count), len(dyad.radius))
-        dyad = dyad[np.tile(np.arange(len(dyad.radius)), count)]
-    return task, dyad
+def _distinct(poses: Displacement) -> tuple[Displacement, NDArray[np.intp]]:
+    """The distinct sets among poses (k, 5), and the number of each set among them: (k,).
 
-
-def _all_alike(poses: Displacement) -> bool:
-    """Whether poses (k, 5) are the same k times: none of the five is free."""
+    One set where none of the five poses is free, else all of them.
+    """
+    count = poses.shape[0]
     rows = np.concatenate([poses.translation, poses.angle[..., None]], axis=-1)
-    return bool((rows == rows[:1]).all())
+    if (rows == rows[:1]).all():
+        return poses[:1], np.zeros(count, dtype=np.intp)
+    return poses, np.arange(count)
 
 
 def _dyads_of(poses: Displacement) -> tuple[NDArray[np.intp], RR]:

@@ -24,6 +24,7 @@ from burmester.io.pose_data import poses_data
 from burmester.io.result import message_data
 from burmester.linkages.evaluation import transmission_at_given_poses
 from burmester.refinement.tolerance_boxes import poses_counted
+from burmester.requirements.transmission import TRANSMISSION
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
@@ -44,6 +45,7 @@ KINDS = (
 )
 KEYS = [("side0", "driver (filled)"), ("side1", "follower (hollow)")]  # how links are drawn
 USUAL_LIMIT = (40.0, "a usual limit")  # degrees: where designers begin to hesitate
+SOUND = (TRANSMISSION.standard, "of a sound linkage")
 LINKS = ("ground", "driver", "coupler", "follower")
 FRAMES = 24_000  # frames of all linkages together
 MOST_FRAMES, LEAST_FRAMES = 361, 61  # frames along a way
@@ -102,7 +104,9 @@ def linkage_report(synthesis: Synthesis, found: FoundLinkage, frames: int) -> di
     return _linkage(synthesis, found, scene, frames, chart)
 
 
-def transmission_limit(requirements: Requirements, usual: tuple[float, str]) -> dict[str, Any]:
+def transmission_limit(
+    requirements: Requirements, usual: tuple[float, str] = SOUND
+) -> dict[str, Any]:
     """The transmission angle that a plot marks: the one that is asked for, or else a usual one."""
     asked = requirements.transmission_deg
     degrees, said = (asked, "asked") if asked else usual

@@ -12,7 +12,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.functions.found_generator import FoundGenerator
+from burmester.functions.found_generator import ROUNDING, FoundGenerator
 from burmester.functions.function_task import FunctionTask
 from burmester.io.linkage_data import number
 from burmester.io.pose_data import poses_data
@@ -28,13 +28,11 @@ MOST: Final = 8  # generators that are shown
 FRAMES: Final = 361  # along the way of each
 MOST_DOTS: Final = 40  # pairs whose dots stand on a curve
 MOST_ROWS: Final = 30  # pairs; more of them are there to unfold
-SOUND: Final = (30.0, "of a sound linkage")  # degrees of the transmission angle
 HEADS: Final = (
     *("", "verdict", "type", "ground link", "input link", "coupler link", "output link"),
     *("greatest error", "of the range", "rms error", "least transm.", "why not"),
 )
 MOST_STOPS: Final = 13  # pairs that the player stops at; of more, even places
-EXACT: Final = 1e-9  # radians; an error below is rounding
 
 
 def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
@@ -52,7 +50,7 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
         "kind": "function report",
         "whole": True,
         "stop": "place",
-        "transmission_limit": transmission_limit(task.requirements, SOUND),
+        "transmission_limit": transmission_limit(task.requirements),
         "keys": [("side0", "input link (filled)"), ("side1", "output link (hollow)")],
         "linkages": linkages,
         "table": {
@@ -94,7 +92,7 @@ def _miss(found: FoundGenerator, task: FunctionTask) -> str:
     where = "over the range" if task.function else "at the pairs"
     if not math.isfinite(found.max_error):
         return "cannot be assembled everywhere"
-    if found.max_error < EXACT:
+    if found.is_exact:
         return "meets all pairs exactly"
     share = figure(100 * found.max_error / task.output_span)
     return f"misses by {_angle(found.max_error)} at most {where}, {share} % of the output's range"
@@ -185,28 +183,23 @@ def _angle(angle: float) -> str:
     """An angle in degrees, to two digits."""
     if not math.isfinite(angle):
         return "–"
-    return "exact" if abs(angle) < EXACT else f"{figure(math.degrees(angle))}°"
+    return "exact" if abs(angle) < ROUNDING else f"{figure(math.degrees(angle))}°"
 
 
 def _said(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
     """The figures of a generator in words."""
     one, ground = found.generator, task.ground
-    names = ("ground link", "input link", "coupler", "output link")
-    lengths = (1.0, float(one.input_link), float(one.coupler), float(one.output_link))
     least = found.least_transmission
     transmission = f"{math.degrees(least):.0f}°" if math.isfinite(least) else "–"
     percent = 100 * found.max_error / task.output_span
     share = f"{figure(percent)} %" if math.isfinite(percent) else "–"
-    share = "0 %" if found.max_error < EXACT else share
+    share = "0 %" if found.is_exact else share
     reasons = [each.message for each in found.defects]
     story = f"Usable: it {_miss(found, task)}." if found.usable else f"It {'; '.join(reasons)}."
-    lengths_told = [
-        (name, f"{length * ground:.6g}") for name, length in zip(names, lengths, strict=True)
-    ]
     return {
         "story": story,
         "facts": [
-            *lengths_told,
+            *((name, f"{length:.6g}") for name, length in found.lengths(ground).items()),
             ("input link, at input 0", f"{math.degrees(float(one.input_phase)) % 360:.4f}°"),
             ("output link, at output 0", f"{math.degrees(float(one.output_phase)) % 360:.4f}°"),
             ("output pin, from input pin to output pivot", "left" if one.side > 0 else "right"),

@@ -32,7 +32,6 @@ LINKS: Final = (
 )
 FRAMES: Final = 360  # for each turn of the driver
 DIGITS: Final = 10  # significant ones of a place, counted from the size of the scene
-SOUND: Final = (30.0, "of a sound linkage")  # degrees of the transmission angle
 END: Final = 2e-5  # of a branch; nearer to a dead point rounding decides whether loops are closed
 
 
@@ -52,7 +51,7 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
         "scene": scene,
         "whole": True,
         "chart": chart_of(task.poses, synthesis.length or scene),
-        "transmission_limit": transmission_limit(task.requirements, SOUND),
+        "transmission_limit": transmission_limit(task.requirements),
         "keys": _keys(found),
         "linkages": [_six_bar(synthesis, each, scene) for each in found],
         "table": {
