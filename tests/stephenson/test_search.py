@@ -19,7 +19,7 @@ from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from tests.sixbar.tasks import REACH, TURNING, task, wandering
-from tests.stephenson.made import MANY, linkage
+from tests.stephenson.made import CRANK_ROCKER, MANY, linkage
 
 
 def signs_of_the_drive(found, drives):
@@ -132,6 +132,24 @@ def test_a_linkage_driven_over_more_than_a_turn_is_judged_at_its_third_crank():
     assert np.ptp(found.drive) == pytest.approx(np.ptp(drives), abs=1e-6)
     assert found.error.position.max() < 1e-9
     assert not first.usable
+
+
+@pytest.mark.parametrize("own", [CRANK_ROCKER, MANY], ids=["crank-rocker", "many branches"])
+def test_places_that_a_branch_holds_twice_are_taken_in_order(own):
+    """A coupler is at one place with G on either side; poses all along a branch are in order."""
+    made = linkage(own, carries="coupler")
+    wide = [b for b in branches_of(made, circuits_of(made), "F") if not b.turns]
+    for branch in wide:
+        for ends in ((0.04, 0.96), (0.96, 0.04)):
+            drives = branch.drives.min() + np.ptp(branch.drives) * np.linspace(*ends, 9)
+            places = body_of(made, branch.at(made, drives))
+            rows = np.column_stack([places.translation, np.degrees(places.angle)])
+            problem = SynthesisProblem.of(task(rows), None, SynthesisOptions())
+            found = judged_six_bar(made, problem, ["F"])
+            assert found.defects == ()
+            assert found.error.position.max() < 1e-9
+            there = found.body(found.drive).translation
+            assert np.abs(there - places.translation).max() < 1e-8
 
 
 def test_files_hold_it(tmp_path):
