@@ -99,7 +99,7 @@ def test_a_path_asks_for_no_angles_at_all(browser, path, tmp_path):
         drawn = page.evaluate(DRAWN)
         assert drawn["wanted"] == [{"axes": 0, "dots": 1}] * 30
         assert "wanted pose" not in drawn["key"]
-        assert drawn["heads"][:4] == ["point", "wanted x", "y (mm)", "coupler x"]
+        assert drawn["heads"][:4] == ["point", "wanted x", "y (mm)", "body x"]
         assert "turned by" not in drawn["heads"]
         assert not any("angle error" in each for each in drawn["panels"])
         line = page.locator(".bm-plane .bm-wanted-path").get_attribute("d")

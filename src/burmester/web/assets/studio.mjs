@@ -193,20 +193,20 @@ const uncertain=linkage.said.dimensions.some(row=>row.give);let last=null;return
 dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{},h("th",{scope:"row",class:name?`bm-side${side}`:null},name),h("td",{class:"bm-w\
 ords"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){return table(`Dimensions of ${linkage.id}${inUnit(
 data)}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data),noun=nounOf(data),turned=noun!=="point";const ifTurned=value=>turned?[value]:[];
-const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];if(linkage)heads.push("coupler x",`y${unit2}`,"angle","off by",...ifTurned("turned by"),...linkage.
-columns?.map(([head])=>head)??["transm."],{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exact)":""),
-fixed(pose.x,digits),fixed(pose.y,digits),...ifTurned(isPoint2(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];values.
-push(fixed(row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,...ifTurned(row.said.turned),...linkage.
-columns?.map(([,texts])=>texts[k])??[row.said.transmission],row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,
-[heads.length-1]))});const what=turned?"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.poses.
-some(pose=>pose.label!==pose.name)?"bm-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.
-filter(pose=>!isPoint2(pose)).map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.
-x*c+pose.y*d)/2,d,c];return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image points of the\
- poses${unitOf(data)}, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells(
-[dyad.id,...linkage.said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4\
- Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.
-ways.map(each=>each.circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.
-branch}`);return parts.join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
+const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];if(linkage)heads.push("body x",`y${unit2}`,"angle","off by",...ifTurned("turned by"),...linkage.columns?.
+map(([head])=>head)??["transm."],{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exact)":""),fixed(pose.
+x,digits),fixed(pose.y,digits),...ifTurned(isPoint2(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(
+row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,...ifTurned(row.said.turned),...linkage.columns?.map(
+([,texts])=>texts[k])??[row.said.transmission],row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,[heads.
+length-1]))});const what=turned?"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.poses.some(pose=>pose.
+label!==pose.name)?"bm-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.filter(pose=>!isPoint2(
+pose)).map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];
+return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image points of the poses${unitOf(data)}\
+, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.
+said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + \
+p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.
+circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.
+join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
 x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
 poses.flatMap((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return isPoint2(at)?[]:[{x:at.x,y:at.y,a:radians(at.angle_deg),k}]});function ghosts(data,linkage,view){
 const group=s("g",{class:"bm-ghosts"});if(!data.body){for(const row of linkage?.drawn?linkage.pose_errors:[])group.append(plate(placeAt(linkage,linkage.ways[row.

@@ -171,7 +171,7 @@ function poseTable(data, linkage) {
   const digits = decimalsOf(data), unit2 = unitOf(data), noun = nounOf(data), turned = noun !== "point";
   const ifTurned = (value) => turned ? [value] : [];
   const heads = [noun, `wanted x`, `y${unit2}`, ...ifTurned("angle")];
-  if (linkage) heads.push("coupler x", `y${unit2}`, "angle", "off by", ...ifTurned("turned by"), ...linkage.columns?.map(([head]) => head) ?? ["transm."], { name: "where", text: true });
+  if (linkage) heads.push("body x", `y${unit2}`, "angle", "off by", ...ifTurned("turned by"), ...linkage.columns?.map(([head]) => head) ?? ["transm."], { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
       poseName(pose) + (pose.exact ? " (exact)" : ""),

@@ -131,7 +131,7 @@ export function poseTable(data, linkage) {
   const digits = decimalsOf(data), unit = unitOf(data), noun = nounOf(data), turned = noun !== "point";
   const ifTurned = (value) => (turned ? [value] : []);
   const heads = [noun, `wanted x`, `y${unit}`, ...ifTurned("angle")];
-  if (linkage) heads.push("coupler x", `y${unit}`, "angle", "off by", ...ifTurned("turned by"), ...(linkage.columns?.map(([head]) => head) ?? ["transm."]), { name: "where", text: true });
+  if (linkage) heads.push("body x", `y${unit}`, "angle", "off by", ...ifTurned("turned by"), ...(linkage.columns?.map(([head]) => head) ?? ["transm."]), { name: "where", text: true });
   const rows = data.poses.map((pose, k) => {
     const values = [
       poseName(pose) + (pose.exact ? " (exact)" : ""), fixed(pose.x, digits), fixed(pose.y, digits), ...ifTurned(isPoint(pose) ? "free" : `${fixed(pose.angle_deg, 2)}°`),
