@@ -15,8 +15,9 @@ def with_article(noun: str) -> str:
 
 
 def count(number: int, noun: str) -> str:
-    """A number of things: "no dyads", "1 dyad", "2 dyads"."""
-    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
+    """A number of things: "no dyads", "1 dyad", "2 dyads", "5,000 dyads"."""
+    amount = f"{number:,}" if number else "no"
+    return f"{amount} {noun}{'' if number == 1 else 's'}"
 
 
 def listed(names: Sequence[str], last: str = "and") -> str:

@@ -213,7 +213,7 @@ def _require_poses(
         else:
             if direction:
                 help = "name the columns x, y, cos and sin, for the cosine and sine of the angle"
-            help += "".join(f"; {role} may be {WORDS[role]}" for role in missing if role != "y")
+            help += "; `burmester explain E105` lists the names that are understood"
             help = f"pass {option} if that is their order, or {help}" if option else help
         if of_unit := next(filter(None, (_units(names[i]) for i in unknown[:MAX_NAMES])), None):
             why += f"; {of_unit}"
