@@ -6,7 +6,7 @@ import pytest
 from burmester import Displacement, Task, synthesize
 from burmester.linkages.evaluation import Evaluation
 from burmester.linkages.from_dyads import target_of
-from burmester.linkages.sound_linkages import trades
+from burmester.linkages.sound_linkages import trade_offs
 from tests.oracles.hard_tasks import noisy_task
 
 
@@ -17,7 +17,7 @@ def test_a_trade_gains_in_one_error(seed):
     synthesis = synthesize(Task(Displacement.from_poses(rows)))
     best = synthesis.usable[0]
     target = target_of(synthesis.problem)
-    found = trades(best, Evaluation(synthesis.problem, target))
+    found = trade_offs(best, Evaluation(synthesis.problem, target))
     assert found
     poses = synthesis.problem.task.poses
     for each in found:

@@ -120,7 +120,7 @@ class BatchOptions:
         if not isinstance(given, dict):
             raise node.fault("E107", "is no table", key=True)
         values = node.table(dict.fromkeys(OF_SIX_BARS, Field(lambda each: each.value)))
-        return node.made(SixBarOptions, **values)
+        return node.build(SixBarOptions, **values)
 
     @property
     def beside(self) -> PoseTable:

@@ -130,7 +130,7 @@ def _tree(data: bytes) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise InputError("E109", "this is not JSON", why=printable(str(error)), help=HELP) from None
     if not isinstance(tree, dict):
-        raise _unlike("this is no result of synthesize")
+        raise _bad_result("this is no result of synthesize")
     return tree
 
 
@@ -146,18 +146,18 @@ def _finite(digits: str) -> float:
     return value
 
 
-def _unlike(message: str, why: str | None = None) -> InputError:
+def _bad_result(message: str, why: str | None = None) -> InputError:
     return InputError("E150", message, why=why, help=HELP)
 
 
 def _synthesis(tree: dict[str, Any], data: bytes, refused: dict[str, InputError]) -> Synthesis:
     """All that a file says of a task, with what its dimensions give; refused: see `SavedResult`."""
     if tree.get("schema") != SCHEMA:
-        raise _unlike(f"this is no result of synthesize: its schema is not {SCHEMA}")
+        raise _bad_result(f"this is no result of synthesize: its schema is not {SCHEMA}")
     if tree.get("task") is None:
-        raise _unlike("this result has no task: the poses could not be used")
+        raise _bad_result("this result has no task: the poses could not be used")
     if "poses" in tree:
-        raise _unlike("$.poses stands beside the task of this result")
+        raise _bad_result("$.poses stands beside the task of this result")
     task = read_task("-", data=data)
     motion = None
     if task.path is None and task.poses.shape[0] > 1:
@@ -195,16 +195,16 @@ def _functions(tree: dict[str, Any], refused: dict[str, InputError]) -> Function
     from burmester.synthesis.function_generation import FunctionMethod, FunctionSynthesis
 
     if tree.get("schema") != FUNCTION_SCHEMA:
-        raise _unlike(f"this is no result of function: its schema is not {FUNCTION_SCHEMA}")
+        raise _bad_result(f"this is no result of function: its schema is not {FUNCTION_SCHEMA}")
     stated = tree.get("task")
     if not isinstance(stated, dict) or not isinstance(tree.get("linkages"), list):
-        raise _unlike("this result has no task, or no linkages")
+        raise _bad_result("this result has no task, or no linkages")
     method: FunctionMethod | None = next(
         (each for each in get_args(FunctionMethod) if each == tree.get("method")), None
     )
     if method is None:
         why = f"it is {shown(tree.get('method'))}"
-        raise _unlike("$.method of this result cannot be used", why)
+        raise _bad_result("$.method of this result cannot be used", why)
     task = task_of(Node(Document(Source("the result", ""), "JSON", ("task",)), (), stated))
     found: list[FoundGenerator] = []
     others = list[str]()
@@ -212,11 +212,11 @@ def _functions(tree: dict[str, Any], refused: dict[str, InputError]) -> Function
         try:
             one = generator_of(each, task)
         except ValueError as error:
-            refused[id] = _unlike(str(error))
+            refused[id] = _bad_result(str(error))
             continue
         (judged,) = found_generators(one, task, exact=method in ("exact", "phases"))
         found.append(replace(judged, id=id, rank=len(found) + 1))
-        others += _usable_differs(found[-1], each)
+        others += _changed_verdict(found[-1], each)
     if refused and not found:
         raise next(iter(refused.values()))
     search = tree.get("search")
@@ -247,7 +247,7 @@ def _six_bars(
             found = judged_at_poses(six_bar_of(each), problem, each.get("driver"))
         except InputError as error:
             why = f"{error.message}{(error.why and f': {error.why}') or ''}"
-            refused[id] = _unlike(f"$.six_bars.found[{k}] of this result cannot be used", why)
+            refused[id] = _bad_result(f"$.six_bars.found[{k}] of this result cannot be used", why)
             continue
         chain = each.get("chain")
         out.append(replace(found, id=id, chain=chain if isinstance(chain, int) else found.chain))
@@ -283,7 +283,7 @@ def _list(tree: Mapping[str, Any], key: str, within: str = "") -> list[Any]:
     given = tree.get(key, [])
     if not isinstance(given, list):
         why = f"it is {shown(given)}, not a list"
-        raise _unlike(f"$.{within}{key} of this result cannot be used", why)
+        raise _bad_result(f"$.{within}{key} of this result cannot be used", why)
     return given
 
 
@@ -297,7 +297,7 @@ def _message(given: Any, code: re.Pattern[str]) -> tuple[str, str, str | None, s
 
 def _outcome(tree: dict[str, Any]) -> Outcome:
     if (parts := _message(tree.get("outcome"), OUTCOME_CODE)) is None:
-        raise _unlike("$.outcome of this result cannot be used")
+        raise _bad_result("$.outcome of this result cannot be used")
     return Outcome(*parts)
 
 
@@ -314,7 +314,7 @@ def _options(tree: dict[str, Any]) -> SynthesisOptions:
     """How the task was solved; of a file of before these were written, as far as it says."""
     given = tree.get("options", {})
     if not isinstance(given, dict):
-        raise _unlike("$.options of this result cannot be used", f"it is {shown(given)}")
+        raise _bad_result("$.options of this result cannot be used", f"it is {shown(given)}")
     known = {each.name for each in fields(SynthesisOptions)}
     given = {name: value for name, value in given.items() if name in known}
     if "length_per_radian" not in given:
@@ -322,7 +322,7 @@ def _options(tree: dict[str, Any]) -> SynthesisOptions:
     try:
         return SynthesisOptions(**given)
     except InputError as error:
-        raise _unlike("$.options of this result cannot be used", error.message) from None
+        raise _bad_result("$.options of this result cannot be used", error.message) from None
 
 
 def _dyad(given: Any, where: str) -> FoundDyad:
@@ -330,10 +330,10 @@ def _dyad(given: Any, where: str) -> FoundDyad:
     try:
         dyad = _dimensions(given, where)
     except InputError as error:
-        raise _unlike(f"$.{error.message}", error.why) from None
+        raise _bad_result(f"$.{error.message}", error.why) from None
     id = given.get("id")
     if not isinstance(id, str) or not DYAD_ID.fullmatch(id):
-        raise _unlike(f"$.{where}.id is {shown(id)}, and burmester writes ids such as D1")
+        raise _bad_result(f"$.{where}.id is {shown(id)}, and burmester writes ids such as D1")
     limits = given.get("limits", 0)
     minimum = given.get("minimum", True)
     return FoundDyad(id, dyad, 0.0, 0.0, minimum is True, limits if limits in (1, 2) else 0)
@@ -341,13 +341,13 @@ def _dyad(given: Any, where: str) -> FoundDyad:
 
 def _dimensions(given: Any, where: str) -> Dyad:
     if not isinstance(given, dict):
-        raise _unlike(f"{where} is {shown(given)}, not an object")
+        raise _bad_result(f"{where} is {shown(given)}, not an object")
     if given.get("kind") == "PP":
         angle = number(given.get("angle_deg"), f"{where}.angle_deg")
         return PP(np.asarray(math.radians(angle)))
     dyad = dyad_of(given, where, HELP)
     if isinstance(dyad, OpenLink):
-        raise _unlike(f"{where}.radius is missing")
+        raise _bad_result(f"{where}.radius is missing")
     return dyad
 
 
@@ -377,7 +377,7 @@ def _linkages(
     out, others = list[FoundLinkage](), list[str]()
     for (id, each), found in zip(stated, judged_again(problem, pairs, searched), strict=True):
         if found is None:
-            refused[id] = _unlike(f"linkage {id} has a link without length")
+            refused[id] = _bad_result(f"linkage {id} has a link without length")
             continue
         found = _as_made(replace(found, id=id), each, problem.given)  # noqa: PLW2901
         out.append(replace(found, rank=len(out) + 1))
@@ -394,7 +394,7 @@ def _by_id(tree: dict[str, Any], key: str, within: str = "") -> list[tuple[str, 
         id = each.get("id") if isinstance(each, dict) else None
         if not isinstance(id, str) or not LINKAGE_ID.fullmatch(id) or id in out:
             why = f"it is {shown(id)}, and each linkage has an id of its own, such as L1"
-            raise _unlike(f"$.{within}{key}[{k}].id of this result cannot be used", why)
+            raise _bad_result(f"$.{within}{key}[{k}].id of this result cannot be used", why)
         out[id] = each
     return list(out.items())
 
@@ -403,14 +403,14 @@ def _pair(given: dict[str, Any], number: int, task: Task) -> Pair:
     """The dyads of a linkage, which make one; raises E150."""
     where, dyads = f"linkages[{number}].dyads", given.get("dyads")
     if not isinstance(dyads, list) or len(dyads) != 2:
-        raise _unlike(f"$.{where} is {shown(dyads)}, not two dyads")
+        raise _bad_result(f"$.{where} is {shown(dyads)}, not two dyads")
     first, second = (_dyad(each, f"{where}[{k}]") for k, each in enumerate(dyads))
     if first.id == second.id:
-        raise _unlike(f"$.{where} has {first.id} twice")
+        raise _bad_result(f"$.{where} has {first.id} twice")
     try:
         require_linkage((first.dyad, second.dyad), task)
     except InputError as error:
-        raise _unlike(f"$.{where}: {error.message}", error.why) from None
+        raise _bad_result(f"$.{where}: {error.message}", error.why) from None
     return first, second
 
 
@@ -433,7 +433,7 @@ def _as_made(found: FoundLinkage, given: dict[str, Any], task: Task) -> FoundLin
     return found
 
 
-def _usable_differs(found: Candidate | FoundGenerator, given: dict[str, Any]) -> list[str]:
+def _changed_verdict(found: Candidate | FoundGenerator, given: dict[str, Any]) -> list[str]:
     """What the file says otherwise of a linkage: whether it is usable."""
     stated = given.get("usable")
     if not isinstance(stated, bool) or stated is found.usable:
@@ -446,7 +446,7 @@ def _usable_differs(found: Candidate | FoundGenerator, given: dict[str, Any]) ->
 
 def _differences(found: Candidate, given: dict[str, Any], problem: SynthesisProblem) -> list[str]:
     """The same, and how near it comes; of one that is not usable how near its first dyad comes."""
-    if differs := _usable_differs(found, given):
+    if differs := _changed_verdict(found, given):
         return differs
     errors = given.get("position_error")
     stated = _number(errors.get("max") if isinstance(errors, dict) else None)

@@ -102,7 +102,7 @@ class Candidates(NamedTuple):
     drivers: NDArray[np.intp] | None = None
 
     @classmethod
-    def alone(
+    def of_own_dyads(
         cls, batch: LinkageBatch, rows: FloatArray, own: LinkageBatch, *, from_search: bool
     ) -> Self:
         """Linkages (k,), also in the task's own frames, of dyads that no other one has: D1, ..."""

@@ -28,7 +28,7 @@ from burmester.linkages.further_pairs import (
     closer_linkages,
 )
 from burmester.linkages.judged_places import NearestPlaces
-from burmester.linkages.sound_linkages import sound_linkages, trades
+from burmester.linkages.sound_linkages import sound_linkages, trade_offs
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.numerics.bundles import replaced, take
 from burmester.progress import goes_on, step, time_for
@@ -132,7 +132,7 @@ def _by_sample(
         found = _with_search(start, pairs, evaluation, found)
         if found and found[0].usable:
             if not states_tolerance(problem.task):
-                better = trades(found[0], evaluation)
+                better = trade_offs(found[0], evaluation)
             elif time_for("looking for the best within the tolerance"):
                 better = best_within(found, evaluation)
             else:

@@ -82,7 +82,7 @@ def sound_linkages(
     ]
 
 
-def trades(best: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
+def trade_offs(best: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
     """Linkages near a usable one that are truer in one error, as usable, and not much worse."""
     problem, target = evaluation.problem, evaluation.target
     if target.boxes is not None:  # the tolerances say what an angle counts as

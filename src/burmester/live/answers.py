@@ -46,7 +46,7 @@ class LiveAnswers:
         if synthesis is not None:
             self._drawn = drawn_of(synthesis.problem, synthesis.linkages)
 
-    def again(self) -> None:
+    def restore(self) -> None:
         """Back to the last synthesis, wherever its answers have been followed to."""
         if self._synthesis is not None:
             self.begin_at(self._synthesis)

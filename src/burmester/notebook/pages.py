@@ -179,7 +179,7 @@ class Pages:
             if (older := self._waiting.pop(view, None)) is not None:
                 self._tell(view, n=older["n"], kind="superseded", by=n)
             with self._lock:
-                self._live.again()
+                self._live.restore()
             self._tell_solved(view, n)
             self._tell(view, kind="chosen", id=self._studio.selected)
             if self._result is not None:  # the hand is back where it was

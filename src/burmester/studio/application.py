@@ -55,7 +55,7 @@ def application(state: ServerState, door: Access) -> Starlette:
 
     async def template(request: Request) -> Response:
         body = as_json({"name": request.path_params["name"]})
-        return await _of_desk(state, {"do": "template"}, body)
+        return await _answer_of_worker(state, {"do": "template"}, body)
 
     async def command(request: Request) -> Response:
         told = commands(await _given(request))
@@ -81,8 +81,8 @@ def application(state: ServerState, door: Access) -> Starlette:
         Route("/template/{name}", template),
         Route("/command", command, methods=["POST"]),
         Route("/autosave", save, methods=["PUT"]),
-        *(Route(f"/{do}", _desk(state, do, False), methods=["POST"]) for do in OF_TASK),
-        *(Route(f"/{do}", _desk(state, do, True), methods=["POST"]) for do in OF_RESULT),
+        *(Route(f"/{do}", _asks_worker(state, do, False), methods=["POST"]) for do in OF_TASK),
+        *(Route(f"/{do}", _asks_worker(state, do, True), methods=["POST"]) for do in OF_RESULT),
     ]
     handlers: dict[Any, Any] = {404: _missing, 405: _missing, Exception: _failed}
     handlers[_NotTakenError] = _not_taken
@@ -99,18 +99,20 @@ def _static(name: str, kind: str) -> Callable[[Request], Awaitable[Response]]:
     return sent
 
 
-def _desk(state: ServerState, do: str, of_result: bool) -> Callable[[Request], Awaitable[Response]]:
+def _asks_worker(
+    state: ServerState, do: str, of_result: bool
+) -> Callable[[Request], Awaitable[Response]]:
     """What a worker does; of_result: whether with the answer to the task, if it is known."""
 
     async def done(request: Request) -> Response:
         given = await _given(request)
         key = state.key_of(given) if of_result else None
-        return await _of_desk(state, {"do": do}, await request.body(), key)
+        return await _answer_of_worker(state, {"do": do}, await request.body(), key)
 
     return done
 
 
-async def _of_desk(
+async def _answer_of_worker(
     state: ServerState, head: dict[str, Any], body: bytes, key: str | None = None
 ) -> Response:
     try:

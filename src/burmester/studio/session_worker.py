@@ -175,7 +175,7 @@ class SessionWorker:
 
     def again(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Back to the last synthesis, wherever its answers have been followed to."""
-        self._live.again()
+        self._live.restore()
         return _json({})
 
     def follow(self, head: dict[str, Any], given: Any, job: Job) -> Answer:

@@ -200,7 +200,7 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
         return None
     evaluation = Evaluation(problem, target)
     own = found.batch.from_canonical(target.frames)
-    some = Candidates.alone(found.batch, found.rows, own, from_search=True)
+    some = Candidates.of_own_dyads(found.batch, found.rows, own, from_search=True)
     members = evaluation.members(some._replace(drivers=found.drivers))
     if problem.options.rounds:
         members = recommended_first(evaluation.rounded(members), problem)

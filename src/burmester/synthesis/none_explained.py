@@ -55,9 +55,9 @@ def explained(synthesis: Synthesis, solve: Solve) -> Synthesis:
     search = _search(synthesis, solve)
     if search is None:
         return synthesis
-    causes = sorted(search.alone(), key=lambda each: each.size)
+    causes = sorted(search.loosened_alone(), key=lambda each: each.size)
     if not causes:
-        causes = search.together()
+        causes = search.loosened_together()
         return (
             _with_causes(synthesis, causes, alone=False) if causes else _no_cause(synthesis, search)
         )
@@ -102,7 +102,7 @@ class _Search:
         """Linkages (k,) at their rows (k, N, 3), judged by the task as stated."""
         target = target_of(self.problem)
         own = batch.from_canonical(target.frames)
-        candidates = Candidates.alone(batch, rows, own, from_search=True)
+        candidates = Candidates.of_own_dyads(batch, rows, own, from_search=True)
         return Evaluation(self.problem, target).members(candidates)
 
     def sound(self, task: Task) -> list[FoundLinkage]:
@@ -169,7 +169,7 @@ class _FewPoses(_Search):
         far = assumed_to_build(problem, FAR)
         return cls(problem, solve, assumed, far, stated, linkages_within_limits(stated))
 
-    def alone(self) -> Iterator[Loosening]:
+    def loosened_alone(self) -> Iterator[Loosening]:
         """Each limit loosened alone, where that is enough."""
         for limit in stated_limits(self.task):
             if not time_for(f"looking without the limit on {limit.kind}"):
@@ -215,7 +215,7 @@ class _FewPoses(_Search):
         at = poses_in_words(self.task, [pose])
         return f" ({few:,} of {count:,} links clear it at all poses, {which} touch it at {at})"
 
-    def together(self) -> list[Loosening]:
+    def loosened_together(self) -> list[Loosening]:
         """Limits that have to be loosened together: those of the dyads, or else all."""
         every = list(stated_limits(self.task))
         of_dyads = [each for each in every if each.kind in DYADS]
@@ -282,7 +282,7 @@ class _FewPoses(_Search):
 class _ManyPoses(_Search):
     """Five poses and more: the linkages of the task without the limit, nearest to keeping it."""
 
-    def alone(self) -> Iterator[Loosening]:
+    def loosened_alone(self) -> Iterator[Loosening]:
         """Each limit loosened alone, where that is enough."""
         for limit in stated_limits(self.task):
             if not time_for(f"looking without the limit on {limit.kind}"):
@@ -292,7 +292,7 @@ class _ManyPoses(_Search):
             if told is not None:
                 yield told if limit.kind in ON_OFF else self._least(limit, told)
 
-    def together(self) -> list[Loosening]:
+    def loosened_together(self) -> list[Loosening]:
         """Nothing: what lies beyond two limits is not looked for."""
         return []
 

@@ -114,7 +114,7 @@ def _best(evaluation: Evaluation, batch: LinkageBatch, rows: FloatArray) -> Foun
     if not len(batch):
         return None
     own = batch.from_canonical(evaluation.target.frames)
-    candidates = Candidates.alone(batch, rows, own, from_search=False)
+    candidates = Candidates.of_own_dyads(batch, rows, own, from_search=False)
     judged = evaluation.members(candidates, quality=False)
     first = min(judged, key=lambda each: (not each.usable, each.combined_error), default=None)
     sound = [

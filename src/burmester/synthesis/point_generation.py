@@ -69,7 +69,7 @@ def _judged(
     own, places = _in_order_of_limits(found.batch, asked, problem), found.places
     rows = target.rows_at(Displacement(places[..., :2], places[..., 2]))
     batch = own.to_canonical(target.frames)
-    candidates = Candidates.alone(batch, rows, own, from_search=False)
+    candidates = Candidates.of_own_dyads(batch, rows, own, from_search=False)
     members = ranked(evaluation.members(candidates), problem)
     if problem.options.rounds:
         members = evaluation.rounded(members)

@@ -96,7 +96,7 @@ class Drawing:
         dimensions = [(part.plate.name, line) for part in sheet.parts for line in part.lines]
         return cls(assembly, sheet, notes, tuple(items), tuple(dimensions))
 
-    def told(self) -> list[Item]:
+    def dimension_items(self) -> list[Item]:
         """The items of all dimension lines."""
         found = list[Item]()
         for plate, line in self.dimensions:
@@ -182,7 +182,7 @@ def require_drawing(
     Every item is there and no other one, in the order of its role; and the holes of the assembly
     are at the pivots of the linkage.  escaped: how the format writes a text.
     """
-    wanted = [*drawing.items, *drawing.told()]
+    wanted = [*drawing.items, *drawing.dimension_items()]
     for role in dict.fromkeys(each.role for each in (*wanted, *read)):
         one, two = ([each for each in items if each.role == role] for items in (read, wanted))
         require_equal(f"how many items there are of {role}", len(one), len(two), 0)

@@ -28,7 +28,7 @@ from burmester.export.drawings.pdf_paths import read_pages
 from burmester.export.drawings.sheet import notes_on
 from burmester.export.escaping import pdf_text
 from burmester.export.options import Options
-from burmester.export.parts.holes import axis_away, pivots_of
+from burmester.export.parts.holes import axis_deviation, pivots_of
 from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import assembly_of
@@ -253,7 +253,7 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
                     require_equal(f"a dimension of {part.plate.name}", off, 0, TOLERANCE_MM)
     for joint in pivots_of(assembly):
         if joint.point is not None:
-            gaps = [axis_away(joint, each) for name in joint.plates for each in holes[name]]
+            gaps = [axis_deviation(joint, each) for name in joint.plates for each in holes[name]]
             require_equal(f"a pivot in the {joint.plates[0]}", min(gaps), 0, TOLERANCE_MM)
 
 

@@ -62,7 +62,7 @@ def axes_of(part: Any, radius: float) -> FloatArray:
     return np.reshape(np.array(centres), (-1, 2))
 
 
-def axis_away(joint: Pivot, axes: FloatArray) -> float:
+def axis_deviation(joint: Pivot, axes: FloatArray) -> float:
     """How far a joint's axis is from the nearest one centres; both of a slot from their line."""
     if joint.point is not None:
         away = np.linalg.norm(axes - joint.point, axis=1)
@@ -73,7 +73,7 @@ def axis_away(joint: Pivot, axes: FloatArray) -> float:
     return float(away[1]) if len(away) > 1 else math.inf
 
 
-def rim_away(joint: Pivot, points: FloatArray, radius: float) -> float:
+def rim_deviation(joint: Pivot, points: FloatArray, radius: float) -> float:
     """How far the middle of a hole's rim, of points (n, 2) by least squares, is from its pivot.
 
     Of a slot, how far the sides that run along its line are from the radius, on both sides.

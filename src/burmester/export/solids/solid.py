@@ -22,7 +22,7 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export.escaping import step_text
 from burmester.export.options import Options
 from burmester.export.parts.collisions import collision
-from burmester.export.parts.holes import axes_of, axis_away, pivots_of, rim_away
+from burmester.export.parts.holes import axes_of, axis_deviation, pivots_of, rim_deviation
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION
 from burmester.export.solids.solid_parts import Part, area_of, laid, parts_of, placed
@@ -79,7 +79,7 @@ def check_step(chosen: Candidate, path: Path, options: Options) -> None:
             raise _off(f"the {name} has {read[name].volume:.9g} mm³, not {volume:.9g} mm³")
     radius = made.dimensions.hole / 2
     for joint in pivots_of(made):
-        away = min(axis_away(joint, axes_of(read[each], radius)) for each in joint.plates)
+        away = min(axis_deviation(joint, axes_of(read[each], radius)) for each in joint.plates)
         if not away <= PRECISION * made.reference.span:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
     clash = collision(cad, read, made)
@@ -108,7 +108,7 @@ def check_stl(chosen: Candidate, path: Path, options: Options) -> None:
         ]
         rims[name] = np.concatenate([np.zeros((0, 3)), *(each.reshape(-1, 3) for each in own)])
     for joint in pivots_of(made):
-        away = min(rim_away(joint, rims[each][:, :2], radius) for each in joint.plates)
+        away = min(rim_deviation(joint, rims[each][:, :2], radius) for each in joint.plates)
         if not away <= tolerance:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
 
@@ -134,7 +134,9 @@ def check_flat(chosen: Candidate, path: Path, options: Options) -> None:
         if part.name in plates
     }
     for joint in pivots_of(made):
-        away = min(rim_away(joint, rims[each], made.dimensions.hole / 2) for each in joint.plates)
+        away = min(
+            rim_deviation(joint, rims[each], made.dimensions.hole / 2) for each in joint.plates
+        )
         if not away <= 2 * tolerance:
             raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
 

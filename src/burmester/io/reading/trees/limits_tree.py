@@ -31,7 +31,7 @@ SHAPE_FIELDS: Final[Fields] = {
 def read_region(node: Node, fields: Fields = SHAPE_FIELDS) -> Region:
     """The region in a table of one shape; raises E105, E108, E131 and E132."""
     shape, points = node.only(node.table(fields))
-    return node.at(shape).made(SHAPES[shape][1], np.array(points))
+    return node.at(shape).build(SHAPES[shape][1], np.array(points))
 
 
 def _length(node: Node) -> LengthRange:
@@ -41,7 +41,7 @@ def _length(node: Node) -> LengthRange:
 
 def _kinds(node: Node) -> frozenset[str]:
     kinds = [(each, each.text()) for each in node.items()]
-    return frozenset(each.made(Limits, kinds={kind}) and kind for each, kind in kinds)
+    return frozenset(each.build(Limits, kinds={kind}) and kind for each, kind in kinds)
 
 
 _REGION = (
@@ -57,7 +57,7 @@ _RAIL_FIELDS: Final[Fields] = {
 
 
 def _rail(node: Node) -> Rail:
-    return node.made(Rail, **node.table(_RAIL_FIELDS))
+    return node.build(Rail, **node.table(_RAIL_FIELDS))
 
 
 _RAIL = (
@@ -102,6 +102,6 @@ def _of_dyad(table: Node) -> dict[str, Any]:
     """The limits in one table; contradictions are refused here, where its location is known."""
     limits = table.table(_FIELDS)
     for name, value in limits.items():
-        table.at(name).made(Limits, **{name: value})
-    table.made(Limits, **limits)
+        table.at(name).build(Limits, **{name: value})
+    table.build(Limits, **limits)
     return limits

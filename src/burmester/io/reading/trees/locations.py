@@ -66,7 +66,7 @@ class Document(NamedTuple):
             return shown(value)
         return piece if len(piece) <= 40 else f"{piece[:37]}..."
 
-    def again(self, error: InputError, *path: str | int) -> InputError:
+    def located(self, error: InputError, *path: str | int) -> InputError:
         """An error that knows nothing of files, with the path and the place of its cause."""
         message = f"{self.named(*path)}: {error.message}"
         where = self.where(*path)

@@ -63,16 +63,16 @@ class Node(NamedTuple):
         """The value as a message shows it."""
         return self.document.shown(self.value, *self.path)
 
-    def again(self, error: InputError) -> InputError:
+    def located(self, error: InputError) -> InputError:
         """An error that knows nothing of files, with this place."""
-        return self.document.again(error, *self.path)
+        return self.document.located(error, *self.path)
 
-    def made(self, make: Callable[..., T], *values: Any, **named: Any) -> T:
+    def build(self, make: Callable[..., T], *values: Any, **named: Any) -> T:
         """What a maker makes; its errors, which know nothing of files, get this place."""
         try:
             return make(*values, **named)
         except InputError as error:
-            raise self.again(error) from None
+            raise self.located(error) from None
 
     def missing(self, key: str, help: str = "") -> InputError:
         """E105, for a key that this table lacks."""

@@ -190,8 +190,8 @@ def _path(node: Node) -> TracedPath:
     """How points are traced; raises E186."""
     help = "write path = { closed = true }, or path = { crank_deg = [0, 20, 40, ...] } in TOML"
     angles = Field(lambda node: np.radians([each.number() for each in node.items()]))
-    given = _table_186(node._replace(help=help), {"closed": Field(Node.flag), "crank_deg": angles})
-    return node.made(TracedPath, given.get("closed", False), given.get("crank_deg"))
+    given = _path_table(node._replace(help=help), {"closed": Field(Node.flag), "crank_deg": angles})
+    return node.build(TracedPath, given.get("closed", False), given.get("crank_deg"))
 
 
 def _crank(node: Node) -> CrankOptions:
@@ -199,14 +199,14 @@ def _crank(node: Node) -> CrankOptions:
     help = "write crank = { absolute = true, within_deg = 0.5 }, or one of the two"
     node = node._replace(help=help)
     fields = {"absolute": Field(Node.flag), "within_deg": Field(Node.number)}
-    given = _table_186(node, fields)
+    given = _path_table(node, fields)
     within = given.get("within_deg")
     if within is not None and within <= 0:
         raise node.at("within_deg").fault("E186", "is no angle above zero")
     return CrankOptions(given.get("absolute", False), within and math.radians(within))
 
 
-def _table_186(node: Node, fields: Fields) -> dict[str, Any]:
+def _path_table(node: Node, fields: Fields) -> dict[str, Any]:
     try:
         return node.table(fields)
     except InputError as error:
@@ -389,7 +389,7 @@ def _tolerances(
             COMPONENTS, TOLERANCE_ROLES, bounds_of(given, unit), strict=True
         ):
             if name in pose.get("free", ()) and math.isfinite(bound):
-                raise node.at("tolerance").again(
+                raise node.at("tolerance").located(
                     InputError(
                         "E136",
                         f"a tolerance of {bound:g} for {name}, which free names",

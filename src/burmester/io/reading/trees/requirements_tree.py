@@ -32,12 +32,12 @@ def _stated(asked: Requirement, node: Node) -> StatedRequirement:
         value = _READ[asked.form](node)
     else:
         names = [
-            each.made(checked_requirement, asked.name, [each.text()], "")
+            each.build(checked_requirement, asked.name, [each.text()], "")
             for each in node.one_or_more()
         ]
         value = frozenset(name for each in names for name in each.value)
     where = node.document.where(*node.path, key=True)
-    return node.made(checked_requirement, asked.name, value, "")._replace(where=where)
+    return node.build(checked_requirement, asked.name, value, "")._replace(where=where)
 
 
 REQUIREMENT_FIELDS: Final[Fields] = {

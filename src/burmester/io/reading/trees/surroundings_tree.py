@@ -54,7 +54,7 @@ def read_body(node: Node, length_unit: str | None) -> tuple[Polygon, tuple[Advic
     """
     node = node._replace(help=_BODY_HELP)
     if isinstance(node.value, list):
-        return node.made(Polygon, node.points(3)), ()
+        return node.build(Polygon, node.points(3)), ()
     if isinstance(node.value, str):
         return _drawn(node, {"file": node.text()}, node, length_unit)
     given = node.table({key: _OUTLINE[key] for key in ("file", "layer", "id")})
@@ -80,7 +80,7 @@ def read_surroundings(
     if around is not None:
         values = around._replace(help=_SURROUNDINGS_HELP).table(_SURROUNDINGS)
         for key, value in values.items():
-            around.at(key).made(Surroundings, **{key: value})
+            around.at(key).build(Surroundings, **{key: value})
     where = place.document.where(*place.path, key=True) if place else ""
     return StatedSurroundings(tuple(regions), values, where), notes
 
@@ -101,9 +101,9 @@ def _keep_out(node: Node, length_unit: str | None) -> tuple[KeepOut, tuple[Advic
         if not isinstance(region, Polygon):
             why, help = f"it is {region}", "give it a width and a height"
             no_inside = InputError("E176", "a keep-out box has no inside", why=why, help=help)
-            raise node.document.again(no_inside, *node.path, shape)
+            raise node.document.located(no_inside, *node.path, shape)
         polygon = region
-    return node.made(KeepOut, polygon, given.get("name")), notes
+    return node.build(KeepOut, polygon, given.get("name")), notes
 
 
 def _drawn(
@@ -114,6 +114,6 @@ def _drawn(
         why, help = "a drawing in DXF has layers, one in SVG ids", "leave one of the two out"
         raise node.fault("E108", "has layer and id", help, why=why, key="id")
     file = OutlineFile(given["file"], given.get("layer", given.get("id")))
-    folder = at.made(folder_of, node.document.source.label)
-    outline, note = at.made(read_outline, file, folder, length_unit)
+    folder = at.build(folder_of, node.document.source.label)
+    outline, note = at.build(read_outline, file, folder, length_unit)
     return outline, (note,)
