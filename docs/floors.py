@@ -27,10 +27,10 @@ def floors(pyproject):
 
 
 def nouns(architecture):
-    """What each room is: the heading of its list, and the list of the ground."""
-    named = dict(re.findall(r"^### `(\w+)`: (.+)$", architecture, re.MULTILINE))
-    ground = architecture.partition("### `burmester`")[2].partition("\n## ")[0]
-    return {**dict(re.findall(r"^- `(\w+)`: (.+)$", ground, re.MULTILINE)), **named}
+    """What each room is: the first sentence of its line."""
+    rooms = architecture.partition("\n## The rooms\n")[2].partition("\n## ")[0]
+    lines = re.findall(r"^- `(\w+)`: (.+)$", rooms, re.MULTILINE)
+    return {room: says.partition(". ")[0].removesuffix(".") for room, says in lines}
 
 
 def lines(name, what, wide, size):

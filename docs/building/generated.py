@@ -1,6 +1,6 @@
 """Pages made of what the program says of itself.
 
-The command, messages, the JSON schema, the functions of the theory, the paper's tables.
+The command, messages, modules, the JSON schema, the functions of the theory, the paper's tables.
 """
 
 import json
@@ -10,6 +10,7 @@ from pathlib import Path
 
 import click
 from docs.building import GENERATED
+from docs.building.modules import modules_page
 from PIL import Image
 
 from burmester.cli import burmester as command
@@ -28,6 +29,7 @@ def write_pages(folder: Path, functions):
         "command": command_page(),
         "functions": functions_page(functions),
         "messages": messages_page(),
+        "modules": modules_page(),
         "paper-tables": paper_page(folder / "reference" / "paper"),
         "schema": schema_page(),
     }

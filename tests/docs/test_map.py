@@ -1,4 +1,4 @@
-"""ARCHITECTURE.md is a map of what is: rooms, modules and floors; and links lead somewhere."""
+"""ARCHITECTURE.md is a map of what is: rooms and floors; and links lead somewhere."""
 
 import re
 from collections import Counter
@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 from docs.building import GENERATED
+from docs.building.modules import modules
 
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "burmester"
@@ -17,26 +18,32 @@ ENDINGS = (".py", "", ".npz", ".md", ".json", ".mjs")
 
 
 def in_rooms(text):
-    """How often the map names each module: `room/module`, or one word on the ground."""
+    """How often the map names each room."""
     rooms = text.partition("\n## The rooms\n")[2].partition("\n## ")[0]
-    parts = re.split(r"^### `([\w/]+)`.*$", rooms, flags=re.MULTILINE)
-    named = Counter()
-    for room, table in zip(parts[1::2], parts[2::2], strict=True):
-        front = "" if room == "burmester" else f"{room}/"
-        named.update(front + row for row in re.findall(r"^- `(\w+)`: \S", table, re.MULTILINE))
-    return named
+    return Counter(re.findall(r"^- `([\w/]+)`: \S", rooms, re.MULTILINE))
 
 
-def in_tree():
-    files = (file.relative_to(SOURCE).with_suffix("") for file in SOURCE.rglob("*.py"))
-    return {file.as_posix() for file in files if not file.name.startswith("__")}
-
-
-def test_the_map_names_each_module_once_and_no_other():
+def test_the_map_names_each_room_once_and_no_other():
+    """The modules on the ground are rooms of their own there."""
     named = in_rooms(MAP.read_text(encoding="utf-8"))
+    there = modules()
     assert {name for name, times in named.items() if times > 1} == set()
-    assert in_tree() - set(named) == set(), "not on the map"
-    assert set(named) - in_tree() == set(), "on the map only"
+    assert set(named) == {room for room in there if room} | set(there[""])
+
+
+def test_the_map_is_short():
+    assert len(MAP.read_text(encoding="utf-8").splitlines()) <= 200
+
+
+def test_each_module_says_in_one_line_what_it_is():
+    rooms = modules()
+    wrong = [
+        f"{room}/{name}: {says}"
+        for room, names in rooms.items()
+        for name, says in names.items()
+        if not 10 < len(says) <= 100 or not says.endswith(".")
+    ]
+    assert wrong == []
 
 
 def unknown_paths(text):
@@ -88,6 +95,6 @@ def test_links_lead_somewhere(page):
 
 
 def test_the_map_reader_can_fail():
-    text = "\n## The rooms\n### `io/reading`: x\n\n- `a`: b\n### `burmester`: y\n- `c`: d\n\n"
-    assert in_rooms(text) == {"io/reading/a": 1, "c": 1}
+    text = "\n## The rooms\n\n- `io/reading`: x\n- `c`: d\n- `c`: e\n\n## Tests\n- `f`: g\n"
+    assert in_rooms(text) == {"io/reading": 1, "c": 2}
     assert unknown_paths("`fourbar/dyad`, `fourbar/no_such_noun`") == {"fourbar/no_such_noun"}

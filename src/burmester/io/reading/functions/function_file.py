@@ -1,5 +1,4 @@
-"""Function tasks in files: tables with the columns input_deg and output_deg, or a [function] in
-TOML and JSON.
+"""Function tasks in files: columns input_deg and output_deg, or a [function] in TOML and JSON.
 
 E101 to E108 as `pair_table` says    E109 not TOML or JSON
 E107 a key that is not known         E191, E192, E194 as `function_options` says
