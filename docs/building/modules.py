@@ -32,7 +32,7 @@ def modules_page():
     """All of them, a section a room."""
     parts = [
         "# Modules",
-        "Each with what it says of itself; the rooms are in [Architecture](../project/architecture.md).",
+        "What each says of itself. The rooms are in [Architecture](../project/architecture.md).",
     ]
     for room, names in modules().items():
         parts += [
