@@ -104,6 +104,32 @@ class Advice:
     why: str | None = None
 
 
+@final
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What is wrong with a linkage: a defect of its motion, or what it does not keep of a task.
+
+    kind: "assembly", "circuit", "branch", "order", "degenerate" or "stray" of a defect; else the
+        kind of a limit or a requirement.
+    message: in words that follow "it".
+    poses: the numbers, from 0, of the poses concerned: those missed (assembly), on the circuit with
+        fewer poses (circuit), on both sides of a dead point (branch), out of order (order), on
+        both sides of gaps in which the path is left (stray); none where the dimensions themselves
+        are at fault (degenerate).
+    certain: False where rounding or a nearby dead point leaves the verdict open.
+    """
+
+    kind: str
+    message: str
+    poses: tuple[int, ...] = ()
+    certain: bool = True
+
+    @property
+    def code(self) -> str:
+        """Its kind as a code."""
+        return self.kind.replace(" ", "-")
+
+
 def library(name: str, purpose: str, extra: str) -> Any:
     """A library that comes with an extra; raises E130 where it cannot be imported."""
     try:

@@ -3,43 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
-from typing import Final, Literal, NamedTuple, TypeAlias, final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.errors import Finding
 from burmester.fourbar.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP, BoolArray
 from burmester.fourbar.traversal import DEAD_POINT_ANGLE, PoseRange, Traversal
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import LEAST_RUN, count, figure, in_runs, listed, shortened
-
-DefectKind: TypeAlias = Literal["assembly", "circuit", "branch", "order", "degenerate", "stray"]
 
 MAX_NAMES: Final = 6  # poses, ranges of poses, or pairs of poses that one message lists
 MAX_ORDER: Final = 12  # poses whose order is told one by one; of more, runs in order are one
 # Degrees.  A smaller distance from a dead point is not worth a number in a message.
 SHOWN_ANGLE: Final = 1e-4
 UNSURE: Final = ": too close to call"  # the end of messages on defects that are not certain
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
-class Defect:
-    """A reason why a linkage does not lead through the poses.
-
-    poses: the numbers, from 0, of the poses concerned: those missed (assembly), on the circuit with
-        fewer poses (circuit), on both sides of a dead point (branch), out of order (order), on
-        both sides of gaps in which the path is left (stray); none where the dimensions themselves
-        are at fault (degenerate).
-    certain: False where rounding or a nearby dead point leaves the verdict open.
-    """
-
-    kind: DefectKind
-    message: str
-    poses: tuple[int, ...]
-    certain: bool = True
 
 
 class PoseNames(NamedTuple):
@@ -102,13 +82,13 @@ class PoseNames(NamedTuple):
 
 def assembly_defects(
     far: BoolArray, assembled: BoolArray, missed: FloatArray, names: PoseNames
-) -> list[Defect]:
+) -> list[Finding]:
     """The assembly defects of one linkage that is too far from poses `far` (N,)."""
     nowhere, near = _numbers(~assembled), _numbers(far & assembled)
     defects = []
     if nowhere:
         text = f"it cannot be assembled near {names.phrase(nowhere)}"
-        defects.append(Defect("assembly", text, nowhere))
+        defects.append(Finding("assembly", text, nowhere))
     if near:
         worst = max(near, key=lambda pose: missed[pose])
         text = (
@@ -117,7 +97,7 @@ def assembly_defects(
         others = [pose for pose in near if pose != worst]
         if others:
             text += f", and misses {names.phrase(others)} by {figure(min(missed[others]))} or more"
-        defects.append(Defect("assembly", text, near))
+        defects.append(Finding("assembly", text, near))
     return defects
 
 
@@ -129,7 +109,7 @@ def circuit_defect(
     change: bool,
     any_order: bool,
     names: PoseNames,
-) -> Defect:
+) -> Finding:
     """The defect of one linkage with clear poses (N,) on both circuits.
 
     labels: (N,), the circuits of the poses; main: the circuit with most of them.
@@ -144,10 +124,10 @@ def circuit_defect(
         text += ": it must be taken apart between them"
     else:
         text += f": it must be taken apart {names.between(_changes(labels, clear))}"
-    return Defect("circuit", text, _numbers(clear & (labels != main)), not change)
+    return Finding("circuit", text, _numbers(clear & (labels != main)), not change)
 
 
-def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseNames) -> Defect:
+def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseNames) -> Finding:
     """The defect of linkage k, whose poses are on two branches."""
     clear, key = traversal.clear[k], traversal.branch_key[k]
     change = bool(traversal.circuits.near_change_point[k])
@@ -162,12 +142,12 @@ def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseName
     else:
         points = "at a dead point" if len(pairs) == 1 else "at dead points"
         text = f"locks {names.between(pairs)}, {points}"
-    return Defect("branch", text + UNSURE * change, poses, not change)
+    return Finding("branch", text + UNSURE * change, poses, not change)
 
 
 def near_dead_point_defect(
     traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames
-) -> Defect:
+) -> Finding:
     """The uncertain defect of linkage k, whose range comes too near to a dead point."""
     at, worst, count = ranged.along[k], ranged.worst[k], traversal.on_circuit.shape[1]
     least = np.degrees(ranged.least_transmission[k])
@@ -185,10 +165,10 @@ def near_dead_point_defect(
     else:
         within = f"within {least:.1g}° of" if least > SHOWN_ANGLE else "to"
         text = f"comes {within} a dead point {place}"
-    return Defect("branch", text + UNSURE, poses, certain=False)
+    return Finding("branch", text + UNSURE, poses, certain=False)
 
 
-def order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames) -> Defect:
+def order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames) -> Finding:
     """The defect of linkage k, which meets its poses in another order."""
     on_circuit, order = traversal.on_circuit[k], traversal.order
     # At a change point the linkage may go either way: it passes one where the range comes to it,
@@ -207,16 +187,16 @@ def order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNam
     met = min(sequences)
     moved = tuple(a for a, b in zip(poses.tolist(), met, strict=True) if a != b)
     text = f"meets the poses in the order {names.in_order(met)}"
-    return Defect("order", text + UNSURE * (not certain), moved, bool(certain))
+    return Finding("order", text + UNSURE * (not certain), moved, bool(certain))
 
 
-def undetermined_defect(on: BoolArray) -> Defect:
+def undetermined_defect(on: BoolArray) -> Finding:
     """The uncertain defect of a linkage whose motion rounding leaves open; on: its poses (N,)."""
     text = (
         "its guides are parallel or a link has zero length, within rounding, "
         "so its motion cannot be determined"
     )
-    return Defect("branch", text, _numbers(on), certain=False)
+    return Finding("branch", text, _numbers(on), certain=False)
 
 
 def _numbers(mask: BoolArray) -> tuple[int, ...]:

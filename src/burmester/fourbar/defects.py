@@ -15,10 +15,9 @@ from typing import final
 
 import numpy as np
 
+from burmester.errors import Finding
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defect_messages import (
-    Defect,
-    DefectKind,
     PoseNames,
     assembly_defects,
     branch_defect,
@@ -44,8 +43,6 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate
 
 __all__ = [
-    "Defect",
-    "DefectKind",
     "Driven",
     "Verdict",
     "judge",
@@ -76,7 +73,7 @@ class Driven:
     range that stays clear of dead points is preferred.
     """
 
-    defects: tuple[Defect, ...]
+    defects: tuple[Finding, ...]
     circuit: int
     turns_fully: bool
     transmission: FloatArray
@@ -96,7 +93,7 @@ class Verdict:
     first, second: the motion driven by the first and by the second dyad.
     """
 
-    defects: tuple[Defect, ...]
+    defects: tuple[Finding, ...]
     first: Driven
     second: Driven
 
@@ -155,7 +152,7 @@ def judge(
     on = assembled & ((labels == main[:, None]) | weak)
 
     pose_names = PoseNames(names)
-    common: list[list[Defect]] = [[] for _ in assembled]
+    common: list[list[Finding]] = [[] for _ in assembled]
     far = ~(missed <= reach) | ~assembled
     for k in np.flatnonzero(far.any(axis=1)):
         common[k] += assembly_defects(far[k], assembled[k], missed[k], pose_names)
@@ -207,7 +204,7 @@ def _driven(
     turns_fully = circuits.closed & (circuits.branches == 1) & some
     lowest = np.fmin.reduce(view.transmission, axis=1)
 
-    defects: list[list[Defect]] = [[] for _ in range(len(on_circuit))]
+    defects: list[list[Finding]] = [[] for _ in range(len(on_circuit))]
     close = some & (ranged.least_transmission < DEAD_POINT_ANGLE)
     for k in np.flatnonzero(traversal.crosses_branches | close).tolist():
         if traversal.crosses_branches[k]:

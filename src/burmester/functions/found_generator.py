@@ -10,6 +10,7 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.errors import Finding
 from burmester.fourbar.linkage import Linkage
 from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
@@ -17,7 +18,7 @@ from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.functions.refinement import at_bounds
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.requirements.figures import Figures
-from burmester.requirements.table import NOT_ASKED, Violation, shortcomings, standard
+from burmester.requirements.table import NOT_ASKED, shortcomings, standard
 from burmester.verdicts.requirement_check import figures_of
 from burmester.wording import figure, in_runs
 
@@ -54,7 +55,7 @@ class FoundGenerator:
     errors: FloatArray
     range_errors: FloatArray
     usable: bool
-    defects: tuple[Violation, ...]
+    defects: tuple[Finding, ...]
     shortcomings: tuple[str, ...]
     least_transmission: float
     extent: float
@@ -72,7 +73,7 @@ class FoundGenerator:
         return dict(zip(names, links.tolist(), strict=True))
 
     @property
-    def violations(self) -> tuple[Violation, ...]:
+    def violations(self) -> tuple[Finding, ...]:
         """None: what it does not keep of the task stands among its defects."""
         return ()
 
@@ -210,22 +211,22 @@ def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGen
 
 def _defects(
     generator: Generator, task: FunctionTask, errors: FloatArray, *, exact: bool
-) -> tuple[Violation, ...]:
+) -> tuple[Finding, ...]:
     """Why the linkage does not go through the range and the pairs; kinds as codes."""
     out = []
     low, high = task.input_ends
     names = [str(k + 1) for k in range(len(errors))]
     open_at = np.flatnonzero(np.isnan(errors))
     if len(open_at):
-        out.append(Violation("assembly", f"cannot be assembled at {_pairs(open_at, names)}"))
+        out.append(Finding("assembly", f"cannot be assembled at {_pairs(open_at, names)}"))
     missed = np.flatnonzero(exact & (np.abs(errors) > MET))
     if len(missed):
-        out.append(Violation("branch", f"meets {_pairs(missed, names)} on another branch"))
+        out.append(Finding("branch", f"meets {_pairs(missed, names)} on another branch"))
     if not bool(generator.runs_through(low, high)):
         locks = _dead_inputs(generator, low, high)
         where = " and ".join(_degrees(each) for each in locks)
         message = f"locks at an input of {where}" if locks else "cannot be assembled over the range"
-        out.append(Violation("dead-point", message))
+        out.append(Finding("dead-point", message))
     return tuple(out)
 
 

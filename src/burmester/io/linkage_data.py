@@ -14,12 +14,12 @@ import numpy as np
 
 from burmester.describe.decimals import direction_deg
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.defects import Defect, Driven
+from burmester.errors import Finding
+from burmester.fourbar.defects import Driven
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.table import Violation
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.tolerances import Spread
@@ -178,7 +178,7 @@ def _shares(shares: FloatArray) -> list[dict[str, float | None]]:
     ]
 
 
-def _unmet(violations: Sequence[Violation]) -> list[dict[str, str]]:
+def _unmet(violations: Sequence[Finding]) -> list[dict[str, str]]:
     """Requirements that are not met."""
     return [{"kind": each.kind, "message": each.message} for each in violations]
 
@@ -188,7 +188,7 @@ def _errors(values: FloatArray) -> dict[str, float | None]:
     return {"rms": number(np.sqrt((values**2).mean())), "max": number(values.max())}
 
 
-def _defect(defect: Defect) -> dict[str, Any]:
+def _defect(defect: Finding) -> dict[str, Any]:
     """A defect, with the numbers of poses from 1."""
     return {
         "kind": defect.kind,

@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast, get_args
 import numpy as np
 
 from burmester.dyads.selection import FoundDyad
-from burmester.errors import Advice, InputError
+from burmester.errors import Advice, Finding, InputError
 from burmester.fourbar.dyad import PP, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_values import assumed_of, dyad_of, number, text_of
@@ -33,7 +33,6 @@ from burmester.io.reading.poses import read_task
 from burmester.io.result import FUNCTION_SCHEMA, SCHEMA, SEARCH_KEYS
 from burmester.printable import printable
 from burmester.refinement.tolerance_boxes import counted_error
-from burmester.requirements.table import Violation
 from burmester.synthesis.given_linkage import OpenLink, require_linkage
 from burmester.synthesis.judgement import judged_again
 from burmester.synthesis.result import Candidate, Outcome, Synthesis, chosen
@@ -418,7 +417,7 @@ def _as_made(found: FoundLinkage, given: dict[str, Any], task: Task) -> FoundLin
     """What a file says of how a linkage was made: whether it was rounded, and how it was before."""
     for each in given["unmet"] if isinstance(given.get("unmet"), list) else ():
         if isinstance(each, dict) and each.get("kind") == "rounding":
-            lost = Violation("rounding", text_of(each.get("message")) or "")
+            lost = Finding("rounding", text_of(each.get("message")) or "")
             found = replace(found, usable=False, violations=(*found.violations, lost))
     rounded = given.get("rounded")
     rows = rounded.get("coupler_before") if isinstance(rounded, dict) else None

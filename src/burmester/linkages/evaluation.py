@@ -12,12 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.defect_messages import Defect
-from burmester.fourbar.defects import (
-    Driven,
-    Verdict,
-    judge,
-)
+from burmester.errors import Finding
+from burmester.fourbar.defects import Driven, Verdict, judge
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
@@ -36,7 +32,7 @@ from burmester.refinement.tolerance_boxes import (
     poses_counted,
     shares_used,
 )
-from burmester.requirements.table import Violation, shortcomings
+from burmester.requirements.table import shortcomings
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.pose_sample import PoseSample
@@ -291,7 +287,7 @@ class Evaluation:
                 Candidates(own.to_canonical(frames), rows, [each.dyads], each.from_search, own)
             )
             if not new:
-                lost = Violation("rounding", "rounded so coarsely its pivots would fall together")
+                lost = Finding("rounding", "rounded so coarsely its pivots would fall together")
                 new = [replace(each, usable=False, violations=(*each.violations, lost))]
             # Rounded dimensions are exact, whatever the poses leave open; and what few poses leave
             # open of a family is no uncertainty, rounded or not.
@@ -403,7 +399,7 @@ class Evaluation:
 
     def driver(
         self, linkage: Linkage, verdict: Verdict, settled: Side | None = None
-    ) -> tuple[Side, tuple[Violation, ...], bool]:
+    ) -> tuple[Side, tuple[Finding, ...], bool]:
         """The preferred driver, what is violated, and whether the linkage is usable.
 
         Requirements depend on the driver, limits do not.
@@ -413,7 +409,7 @@ class Evaluation:
         if asked.driver in sides:
             sides = (asked.driver,)
 
-        def merit(side: Side) -> tuple[tuple[float, ...], tuple[Violation, ...]]:
+        def merit(side: Side) -> tuple[tuple[float, ...], tuple[Finding, ...]]:
             driven = verdict.first if side == "first" else verdict.second
             missing = violations(
                 with_driver_first(linkage, side), driven, stated, self.task.length_unit
@@ -626,7 +622,7 @@ def _all_round(linkage: Linkage, verdict: Verdict) -> Verdict:
 def _with_numbers(verdict: Verdict, numbers: Sequence[int]) -> Verdict:
     """With the poses' own numbers in the defects."""
 
-    def numbered(defects: tuple[Defect, ...]) -> tuple[Defect, ...]:
+    def numbered(defects: tuple[Finding, ...]) -> tuple[Finding, ...]:
         return tuple(replace(each, poses=tuple(numbers[i] for i in each.poses)) for each in defects)
 
     first, second = (

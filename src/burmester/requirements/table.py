@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Sequence
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Final, final
+from typing import TYPE_CHECKING, Any, Final
 
+from burmester.errors import Finding
 from burmester.requirements.footprint import FOOTPRINT
 from burmester.requirements.links import (
     CHANGE_POINT,
@@ -46,20 +46,6 @@ NOT_ASKED: Final = tuple(each for each in REQUIREMENTS if not each.form)
 ROUNDING: Final = 2e-8  # excess; a linkage that falls short of the standard by less meets it
 
 
-@final
-@dataclass(frozen=True, slots=True)
-class Violation:
-    """A requirement that a linkage does not meet, or where it falls short, and by how much."""
-
-    kind: str
-    message: str
-
-    @property
-    def code(self) -> str:
-        """Its kind as a code."""
-        return self.kind.replace(" ", "-")
-
-
 def _judged(bounds: Bounds) -> Iterator[tuple[Requirement, Any]]:
     return ((each, bounds[each]) for each in REQUIREMENTS if each in bounds)
 
@@ -90,16 +76,16 @@ def without(bounds: Bounds, kinds: Collection[str]) -> Bounds:
     }
 
 
-def violations(bounds: Bounds, figures: Figures, unit: str | None) -> tuple[Violation, ...]:
+def violations(bounds: Bounds, figures: Figures, unit: str | None) -> tuple[Finding, ...]:
     """The bounds that one linkage does not keep; unit: of lengths, for messages."""
     return tuple(
-        Violation(each.kind, each.said(figures, bound, unit or ""))
+        Finding(each.kind, each.said(figures, bound, unit or ""))
         for each, bound in _judged(bounds)
         if not keeps({each: bound}, figures)
     )
 
 
-def cured(violated: Sequence[Violation], asked: Bounds, figures: Figures) -> list[str] | None:
+def cured(violated: Sequence[Finding], asked: Bounds, figures: Figures) -> list[str] | None:
     """The options with which one linkage keeps what it violates; None where no option helps."""
     of_kind = {each.kind: each for each in asked}
     cures = [
@@ -126,7 +112,7 @@ def standard(asked: Bounds, span: float, beside: Collection[Requirement] = ()) -
 
 def shortcomings(
     bounds: Bounds, figures: Figures, length: Callable[[float], str]
-) -> tuple[Violation, ...]:
+) -> tuple[Finding, ...]:
     """Where one linkage falls short of bounds, in words that follow "it"; () is good.
 
     length: a length with its unit, in words.
@@ -135,4 +121,4 @@ def shortcomings(
     for each, bound in _judged(bounds):
         if not each.excess(figures, bound) <= ROUNDING:
             out.setdefault(each.kind, each.short(figures, length))
-    return tuple(Violation(*each) for each in out.items())
+    return tuple(Finding(*each) for each in out.items())

@@ -9,7 +9,8 @@ from typing import Final, NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.defect_messages import Defect, PoseNames
+from burmester.errors import Finding
+from burmester.fourbar.defect_messages import PoseNames
 from burmester.fourbar.pose_error import PoseError
 from burmester.fourbar.pose_order import REPEATED_POSE_STEP
 from burmester.fourbar.traversal import DEAD_POINT_ANGLE
@@ -42,7 +43,7 @@ class Course(NamedTuple):
 
 def defects_of(
     course: Course, error: PoseError, shares: FloatArray | None, task: Task, names: Sequence[str]
-) -> tuple[Defect, ...]:
+) -> tuple[Finding, ...]:
     """All of them, missed poses first; poses by their numbers from 0 among those of `task`.
 
     error: on the branch; shares: (N, 3), of the tolerances that are used, where these decide.
@@ -52,7 +53,7 @@ def defects_of(
     far = np.flatnonzero(course.missed & (course.elsewhere == 0)).tolist()
     if far:
         text = outside(far, shares, names) if shares is not None else too_far_from(far, error, task)
-        out.append(Defect("assembly", text, tuple(far)))
+        out.append(Finding("assembly", text, tuple(far)))
     here = ~course.missed
     away = course.missed & (course.elsewhere == ELSEWHERE["circuit"])
     if away.any():
@@ -63,7 +64,7 @@ def defects_of(
     stuck = np.flatnonzero(here & (course.transmission < DEAD_POINT_ANGLE)).tolist()
     if stuck:
         text = f"is at a dead point at {told.phrase(stuck)}"
-        out.append(Defect("branch", text, tuple(stuck), certain=False))
+        out.append(Finding("branch", text, tuple(stuck), certain=False))
     if course.out_of_order and not course.elsewhere.any():  # an order is that of one branch
         out.append(_order(course, told))
     return tuple(out)
@@ -71,27 +72,27 @@ def defects_of(
 
 def _circuit(
     here: NDArray[np.bool_], away: NDArray[np.bool_], names: PoseNames, *, any_order: bool
-) -> Defect:
+) -> Finding:
     one, other = _numbers(here), _numbers(away)
     verb = "is" if len(one) == 1 else "are"
     text = f"{names.phrase(one)} {verb} on one assembly, {names.listed(other)} on another"
     taken = "them" if any_order else names.between(_changes(here, away)).removeprefix("between ")
-    return Defect("circuit", f"{text}: it must be taken apart between {taken}", other)
+    return Finding("circuit", f"{text}: it must be taken apart between {taken}", other)
 
 
 def _branch(
     here: NDArray[np.bool_], away: NDArray[np.bool_], names: PoseNames, *, any_order: bool
-) -> Defect:
+) -> Finding:
     if any_order:
         one, other = names.phrase(_numbers(here)), names.listed(_numbers(away))
-        return Defect("branch", f"locks at a dead point between {one} and {other}", _numbers(away))
+        return Finding("branch", f"locks at a dead point between {one} and {other}", _numbers(away))
     pairs = _changes(here, away)
     points = "a dead point" if len(pairs) == 1 else "dead points"
     text = f"locks {names.between(pairs)}, at {points}"
-    return Defect("branch", text, tuple(sorted({pose for pair in pairs for pose in pair})))
+    return Finding("branch", text, tuple(sorted({pose for pair in pairs for pose in pair})))
 
 
-def _order(course: Course, names: PoseNames) -> Defect:
+def _order(course: Course, names: PoseNames) -> Finding:
     """The order in which the poses are met, of both senses the one with the lower number first."""
     poses = np.arange(len(course.along))
     steps = np.round(course.along / REPEATED_POSE_STEP)
@@ -102,7 +103,7 @@ def _order(course: Course, names: PoseNames) -> Defect:
         sequences.append(sequence[start:] + sequence[:start])
     met = min(sequences)
     moved = tuple(a for a, b in zip(poses.tolist(), met, strict=True) if a != b)
-    return Defect("order", f"meets the poses in the order {names.in_order(met)}", moved)
+    return Finding("order", f"meets the poses in the order {names.in_order(met)}", moved)
 
 
 def _changes(here: NDArray[np.bool_], away: NDArray[np.bool_]) -> list[tuple[int, int]]:

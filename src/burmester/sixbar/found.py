@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.fourbar.defect_messages import Defect
+from burmester.errors import Finding
 from burmester.fourbar.linkage import Configuration
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
@@ -16,7 +16,6 @@ from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.requirements.table import Violation
 from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
@@ -49,9 +48,9 @@ class FoundSixBar:
         Where it falls short of the standard, in words that follow "it"; () is good.
     chain : int
         The number of its chain in the search.
-    defects : tuple of Defect
+    defects : tuple of Finding
         Of one that was given: why it does not go through the poses on one branch and in order.
-    violations : tuple of Violation
+    violations : tuple of Finding
         The limits and requirements of the task that it does not keep.
     within_tolerance : (N, 3) array, optional
         How much of its tolerance each component of each pose uses, where the task has tolerances.
@@ -69,8 +68,8 @@ class FoundSixBar:
     error: PoseError
     shortcomings: tuple[str, ...]
     chain: int
-    defects: tuple[Defect, ...] = ()
-    violations: tuple[Violation, ...] = ()
+    defects: tuple[Finding, ...] = ()
+    violations: tuple[Finding, ...] = ()
     within_tolerance: FloatArray | None = None
     task: Task = field(kw_only=True)
 

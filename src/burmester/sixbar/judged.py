@@ -12,8 +12,7 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.errors import InputError
-from burmester.fourbar.defect_messages import Defect
+from burmester.errors import Finding, InputError
 from burmester.fourbar.pose_error import PoseError
 from burmester.fourbar.pose_order import (
     REPEATED_POSE_STEP,
@@ -33,7 +32,6 @@ from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray, wrapped_angle
 from burmester.numerics.weights import weights_or_ones
 from burmester.refinement.tolerance_boxes import EXACT_ROUNDING, counted_error, shares_used
-from burmester.requirements.table import Violation
 from burmester.sixbar.candidates import box_diagonal, figures_of, merit_of, steps_along
 from burmester.sixbar.defects import ELSEWHERE, Course, defects_of
 from burmester.sixbar.found import FoundSixBar
@@ -85,8 +83,8 @@ class _Verdict(NamedTuple):
     merit: float
     driven: _OneDriver
     branch: int
-    defects: tuple[Defect, ...]
-    violations: tuple[Violation, ...]
+    defects: tuple[Finding, ...]
+    violations: tuple[Finding, ...]
     shortcomings: tuple[str, ...]
 
 
@@ -282,7 +280,7 @@ def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProb
     )
 
 
-def _degenerate(linkage: SixBar, problem: SynthesisProblem) -> list[Defect]:
+def _degenerate(linkage: SixBar, problem: SynthesisProblem) -> list[Finding]:
     """That two joints of one link are too near to each other."""
     lengths, least = linkage.lengths(), least_bars(problem, linkage.skeleton)
     short = lengths < least
@@ -290,7 +288,7 @@ def _degenerate(linkage: SixBar, problem: SynthesisProblem) -> list[Defect]:
         return []
     at = int(np.where(short, lengths, np.inf).argmin())
     message = too_short(float(lengths[at]), float(least[at]), problem.given)
-    return [Defect("degenerate", message, ())]
+    return [Finding("degenerate", message, ())]
 
 
 def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundSixBar:

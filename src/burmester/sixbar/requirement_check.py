@@ -6,12 +6,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from burmester.errors import Finding
 from burmester.geometry.regions import Polygon, Region
 from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
-from burmester.requirements.table import Violation, standard
 from burmester.requirements.table import shortcomings as falls_short
+from burmester.requirements.table import standard
 from burmester.requirements.table import violations as violations_of
 from burmester.sixbar.kinds import SixBar
 from burmester.tasks.limits import Limits
@@ -22,13 +23,13 @@ from burmester.verdicts.degeneracy import least_cranks, least_link
 from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside, wrong_length
 
 
-def violations(linkage: SixBar, figures: Figures, task: Task, size: float) -> tuple[Violation, ...]:
+def violations(linkage: SixBar, figures: Figures, task: Task, size: float) -> tuple[Finding, ...]:
     """The limits and requirements of a task that a six-bar does not keep; size: of the motion."""
     out = list(violations_of(task.requirements.bounds, figures, task.length_unit))
     if task.limits:
         first, second = task.limits[0], task.limits[-1]
         broken = _broken(linkage, first, second, task, LIMIT_TOLERANCE * size)
-        out += [Violation("limit", message) for message in broken]
+        out += [Finding("limit", message) for message in broken]
     return tuple(out)
 
 

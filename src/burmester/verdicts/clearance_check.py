@@ -6,9 +6,9 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from burmester.errors import Finding
 from burmester.fourbar.defects import Verdict
 from burmester.fourbar.linkage import Linkage
-from burmester.requirements.table import Violation
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import Side, with_driver_first
@@ -40,14 +40,14 @@ def clearance_of(
     return replace(clearance, poses=(min(one, two), max(one, two)))
 
 
-def too_close(clearance: Clearance | None, problem: SynthesisProblem) -> tuple[Violation, ...]:
+def too_close(clearance: Clearance | None, problem: SynthesisProblem) -> tuple[Finding, ...]:
     """The violation where something touches, or comes nearer than the margin; else none."""
     around = problem.task.surroundings
     if clearance is None or around is None:
         return ()
     if clearance.least > 0 and clearance.least >= around.margin:
         return ()
-    return (Violation("clearance", clearance_in_words(clearance, problem)),)
+    return (Finding("clearance", clearance_in_words(clearance, problem)),)
 
 
 def clearance_in_words(clearance: Clearance, problem: SynthesisProblem) -> str:

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from burmester.fourbar.defect_messages import Defect
+from burmester.errors import Finding
 from burmester.fourbar.linkage_batch import LinkageBatch, pin_distances
 from burmester.geometry.regions import Point, Region
 from burmester.numerics.arrays import FloatArray
@@ -60,7 +60,7 @@ def _are_points(regions: Sequence[Region | None]) -> bool:
 
 def degenerate_defects(
     batch: LinkageBatch, sensitivity: FloatArray, problem: SynthesisProblem
-) -> list[tuple[Defect, ...]]:
+) -> list[tuple[Finding, ...]]:
     """For each of linkages (k,), in the task's own frames, why it is degenerate; () is sound.
 
     sensitivity: (k,), as `quality.Quality` has it; nan where there is none.
@@ -78,7 +78,7 @@ def degenerate_defects(
             # At a change point it is infinite but for rounding, and its digits say nothing.
             times = f"up to {figure(each)}" if each < 1e6 else "over a million"
             reasons.append(f"magnifies errors of its pivots and lengths {times} times at a pose")
-        out.append(tuple(Defect("degenerate", reason, ()) for reason in reasons))
+        out.append(tuple(Finding("degenerate", reason, ()) for reason in reasons))
     return out
 
 

@@ -8,7 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
-from burmester.fourbar.defect_messages import Defect
+from burmester.errors import Finding
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import ROUNDING
 from burmester.requirements.requirement import above
@@ -88,7 +88,7 @@ def in_short(found: FoundLinkage, task: Task, size: float) -> str:
     return f"{near}{':' if far else ' but'} {'; '.join(reasons(found, task))}"
 
 
-def _too_far(found: FoundLinkage, task: Task, defect: Defect) -> str | None:
+def _too_far(found: FoundLinkage, task: Task, defect: Finding) -> str | None:
     """An assembly defect in terms of the distance, if the linkage has places near those poses."""
     poses = list(defect.poses)
     if task.tolerances is not None:

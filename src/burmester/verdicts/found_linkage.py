@@ -6,16 +6,12 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.defect_messages import Defect
-from burmester.fourbar.defects import (
-    Driven,
-    Verdict,
-)
+from burmester.errors import Finding
+from burmester.fourbar.defects import Driven, Verdict
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
-from burmester.requirements.table import Violation
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.requirement_check import four_bar_figures
@@ -71,7 +67,7 @@ class FoundLinkage:
         The better driver, or the only one allowed.
     usable : bool
         Whether the linkage, with that driver, leads through all poses and meets all requirements.
-    violations : tuple of Violation
+    violations : tuple of Finding
         The requirements that it violates with that driver.
     shortcomings : tuple of str
         Where it falls short of what a linkage to build is to be, where the task asks for nothing
@@ -119,7 +115,7 @@ class FoundLinkage:
     verdict: Verdict
     preferred_driver: Side
     usable: bool
-    violations: tuple[Violation, ...] = ()
+    violations: tuple[Finding, ...] = ()
     shortcomings: tuple[str, ...] = ()
     quality: Quality | None = None
     from_search: bool = False
@@ -157,7 +153,7 @@ class FoundLinkage:
         return self.verdict.first if self.preferred_driver == "first" else self.verdict.second
 
     @property
-    def defects(self) -> tuple[Defect, ...]:
+    def defects(self) -> tuple[Finding, ...]:
         """The defects of the linkage and of its preferred driver."""
         return self.verdict.defects + self.driven.defects
 

@@ -7,12 +7,12 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from burmester.errors import Finding
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon, Region
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.table import Violation
 from burmester.tasks.limits import KINDS, Limits
 from burmester.wording import figure, listed
 
@@ -25,7 +25,7 @@ def limit_violations(
     size: float,
     unit: str | None = None,
     places: Displacement | None = None,
-) -> tuple[Violation, ...]:
+) -> tuple[Finding, ...]:
     """The limits that a linkage breaks: places of pivots, lengths, kinds, rails and slots.
 
     limits: none, one for both dyads, or two, in the order of the dyads.  size: of the motion;
@@ -37,7 +37,7 @@ def limit_violations(
     sides = zip((linkage.first, linkage.second), (limits[0], limits[-1]), strict=True)
     slack = LIMIT_TOLERANCE * size
     return tuple(
-        Violation("limit", message)
+        Finding("limit", message)
         for dyad, each in sides
         for message in (
             *_broken(dyad, each, slack, unit),

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import ArrayLike
 
+from burmester.errors import Finding
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.dyad import PR, RP, RR
@@ -18,7 +19,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
 from burmester.requirements.links import CHANGE_POINT, EXTENT
 from burmester.requirements.requirement import Bounds, Requirement
-from burmester.requirements.table import Violation, standard
+from burmester.requirements.table import standard
 from burmester.requirements.table import violations as violations_of
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
@@ -62,7 +63,7 @@ def four_bar_figures(linkage: Linkage, driven: Driven, footprint: Polygon | None
 
 def violations(
     linkage: Linkage, driven: Driven, asked: Requirements, unit: str | None = None
-) -> tuple[Violation, ...]:
+) -> tuple[Finding, ...]:
     """The requirements that a linkage, driven by its first dyad, violates.
 
     asked: the requirements; unit: the task's length unit, for messages.
@@ -119,7 +120,7 @@ def timing_error(inputs: FloatArray, task: Task) -> FloatArray | None:
     return None if task.timing is None else task.timing.missed(inputs)
 
 
-def mistimed(inputs: FloatArray, task: Task, numbers: list[int]) -> tuple[Violation, ...]:
+def mistimed(inputs: FloatArray, task: Task, numbers: list[int]) -> tuple[Finding, ...]:
     """The violation of a driver's angles at the poses, if it is one; numbers: of the poses."""
     if (timing := task.timing) is None or (missed := timing_error(inputs, task)) is None:
         return ()
@@ -131,4 +132,4 @@ def mistimed(inputs: FloatArray, task: Task, numbers: list[int]) -> tuple[Violat
     given = "" if task.names is None else f" ({task.names[at]})"
     told = f"is {figure(away)}° off" if math.isfinite(away) else "is not at"
     text = f"its crank {told} its angle at pose {numbers[at] + 1}{given}"
-    return (Violation("timing", f"{text}; {figure(math.degrees(timing.bound))}° is allowed"),)
+    return (Finding("timing", f"{text}; {figure(math.degrees(timing.bound))}° is allowed"),)

@@ -15,12 +15,9 @@ from typing import Final, final
 
 import numpy as np
 
+from burmester.errors import Finding
 from burmester.fourbar.circuits import Circuits
-from burmester.fourbar.defect_messages import Defect
-from burmester.fourbar.defects import (
-    Driven,
-    Verdict,
-)
+from burmester.fourbar.defects import Driven, Verdict
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.path_gaps import PathGaps, are_drawing
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
@@ -173,7 +170,7 @@ def _strays(
     gaps: PathGaps,
     task: Task,
     names: Sequence[str],
-) -> list[Defect | None]:
+) -> list[Finding | None]:
     """Where linkages (k,), driven by their first dyads, leave the path between points."""
     circuits, ends = _travelled(batch, driven, gaps)
     bulges = gaps.bulges(_curve(circuits), ends)
@@ -182,7 +179,7 @@ def _strays(
         tolerance = np.linalg.norm(task.tolerances.position, axis=-1)
     beside = np.roll(tolerance, -1)
     allowed = gaps.allowed(np.maximum(tolerance, beside)[: len(gaps.begin)])
-    out: list[Defect | None] = []
+    out: list[Finding | None] = []
     for bulge in bulges:
         with np.errstate(invalid="ignore"):
             far = np.flatnonzero(bulge > allowed)
@@ -198,7 +195,7 @@ def _strays(
         if len(far) > 1:
             text += f", and in {len(far) - 1} other place{'s' * (len(far) > 2)}"
         poses = sorted({int(each) for gap in far for each in (gap, (gap + 1) % len(names))})
-        out.append(Defect("stray", text, tuple(poses)))
+        out.append(Finding("stray", text, tuple(poses)))
     return out
 
 
