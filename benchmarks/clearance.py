@@ -20,8 +20,7 @@ import numpy as np
 from tests.oracles.clearance_sweep import Moved, moved_four_bar, random_outline, sweep
 
 from burmester.clearance.least_clearance import Clearance, clearance_between_poses
-from burmester.clearance.many_linkages import least_clearances
-from burmester.clearance.moving_parts import bars_of
+from burmester.clearance.moving_parts import pairs_of
 from burmester.fourbar.defects import judge
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
@@ -68,14 +67,14 @@ def campaign(count: int, frames: int, seed: int) -> Iterator[Compared]:
         told = clearance_between_poses(alone, verdict.first, Polygon(body), around)
         end = time.perf_counter()
         assert told is not None
-        few = _places(moved, np.linspace(0, frames - 1, FEW_FRAMES).astype(int))[None]
-        by_few = least_clearances(few, bars_of(one, few), Polygon(body), around)
+        few = _places(moved, np.linspace(0, frames - 1, FEW_FRAMES).astype(int))
+        by_few = min(each.distances(few).min() for each in pairs_of(alone, Polygon(body), around))
         there = Moved(moved.first, moved.second, moved.drive[:1], 0)
         there.d = there.d * 0 + complex(*told.place.translation)
         there.phi = there.phi * 0 + float(told.place.angle)
         at = float(sweep(there, body, regions, width)[0])
         done += 1
-        yield Compared(moved, swept, told, float(by_few[0]), middle - start, end - middle, at)
+        yield Compared(moved, swept, told, float(by_few), middle - start, end - middle, at)
 
 
 def _regions(

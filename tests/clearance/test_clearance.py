@@ -8,7 +8,7 @@ from benchmarks.clearance import campaign
 
 from burmester import RR, Displacement, KeepOut, Linkage, Polygon, Surroundings, box
 from burmester.clearance.least_clearance import Clearance, clearance_between_poses
-from burmester.clearance.many_linkages import least_clearances
+from burmester.clearance.many_linkages import shares_too_close
 from burmester.clearance.motion_frames import MotionFrames
 from burmester.clearance.moving_parts import bars_of
 from burmester.fourbar.defects import Driven, judge
@@ -204,8 +204,8 @@ def test_a_link_may_lie_over_the_body_on_its_shortest_way_out() -> None:
     assert told(steep, aside, around, (0, 1000, 2000)).touches
     places = places_at(steep, np.linspace(0, 2000, 36).astype(int))[None]
     bars = bars_of(Linkage(CRANK[None], ROCKER[None]), places)
-    one = least_clearances(places, bars, Polygon(deep), around)[0]
-    assert one == pytest.approx(out.least, abs=0.3)
+    for slack, close in ((out.least - 0.01, False), (out.least + 0.3, True)):
+        assert (shares_too_close(places, bars, Polygon(deep), around, slack)[0] > 0) == close
 
 
 def test_many_linkages_at_once_are_each_at_its_frames() -> None:
@@ -218,7 +218,7 @@ def test_many_linkages_at_once_are_each_at_its_frames() -> None:
         if not (isinstance(moved.first, RR) and isinstance(moved.second, RR)):
             continue
         every.append(moved)
-        swept.append(sweep(moved, body, regions, 3.0).min())
+        swept.append(sweep(moved, body, regions, 3.0))
     linkages = Linkage(
         *(
             RR(*(np.stack([getattr(getattr(m, side), name) for m in every]) for name in names))
@@ -228,21 +228,13 @@ def test_many_linkages_at_once_are_each_at_its_frames() -> None:
     )
     d, phi = np.stack([m.d for m in every]), np.stack([m.phi for m in every])
     phi[3, :4] = np.nan
-    swept[3] = sweep_of_rest(every[3], body, regions, 4)
+    swept[3][:4] = np.inf
     places = Displacement(np.stack([d.real, d.imag], axis=-1), phi)
     bars = bars_of(linkages, places)
-    out = least_clearances(places, bars, Polygon(body), around)
-    assert (out == 0).any()
-    assert (out > 1).any()
-    np.testing.assert_allclose(out, swept, atol=1e-9)
-    bounded = least_clearances(places, bars, Polygon(body), around, enough=2.0)
-    np.testing.assert_allclose(bounded, np.minimum(swept, 2.0), atol=1e-9)
-
-
-def sweep_of_rest(moved: Moved, body: np.ndarray, regions: list[np.ndarray], start: int) -> float:
-    rest = Moved(moved.first, moved.second, moved.drive[start:], 0)
-    rest.d, rest.phi = moved.d[start:], moved.phi[start:]
-    return float(sweep(rest, body, regions, 3.0).min())
+    for slack in (1e-6, 0.5, 2.0, 10.0):
+        shares = shares_too_close(places, bars, Polygon(body), around, slack)
+        np.testing.assert_array_equal(shares, [(each <= slack).mean() for each in swept])
+    assert ((shares > 0) & (shares < 1)).any()
 
 
 def test_many_linkages_in_the_plane_of_the_body(moved: Moved) -> None:
@@ -250,8 +242,7 @@ def test_many_linkages_in_the_plane_of_the_body(moved: Moved) -> None:
     bars = bars_of(Linkage(CRANK[None], ROCKER[None]), places)
     for body, touches in ((ABOVE, False), (BELOW, True)):
         around = Surroundings(body_in_plane=True, link_width=2)
-        out = least_clearances(places, bars, Polygon(body), around)
-        assert (out[0] == 0) == touches
+        assert (shares_too_close(places, bars, Polygon(body), around, 0.0)[0] > 0) == touches
 
 
 def test_an_outline_of_many_corners_is_taken_with_fewer() -> None:
@@ -259,5 +250,6 @@ def test_an_outline_of_many_corners_is_taken_with_fewer() -> None:
     disc = Polygon(np.stack([20 * np.cos(angle), 20 * np.sin(angle)], axis=-1))
     places = Displacement(np.array([[[0.0, 0.0], [5.0, 0.0]]]), np.zeros((1, 2)))
     wall = Surroundings(box([40, -100], [50, 100]))
-    out = least_clearances(places, np.full((1, 2, 3, 2, 2), np.nan), disc, wall)
-    assert out[0] == pytest.approx(15, abs=0.1)
+    bars = np.full((1, 2, 3, 2, 2), np.nan)
+    shares = [shares_too_close(places, bars, disc, wall, slack)[0] for slack in (14.9, 15.1, 20.1)]
+    assert shares == [0.0, 0.5, 1.0]

@@ -1,9 +1,7 @@
-"""The least clearances of many linkages at given frames: a condition in a search.
+"""At which of given frames parts of many linkages are too close: a condition in a search.
 
 At the frames the distances are exact but for the outline of a body of many corners, which is taken
-with fewer: to a five-hundredth of its size.  Between the frames nothing is looked at.  So what is
-told is too much by at most half of the longest way of a point between two frames, and as a rule by
-far less: where the distance has a minimum, by the square of the step.
+with fewer: to a five-hundredth of its size.  Between the frames nothing is looked at.
 """
 
 from __future__ import annotations
@@ -23,47 +21,6 @@ from burmester.tasks.surroundings import Surroundings
 
 FEW_CORNERS: Final = 48  # an outline of more is taken with fewer
 OUTLINE_TOLERANCE: Final = 2e-3  # of the outline's size
-STRIDE: Final = 5  # every fifth frame comes first
-MAX_PLACES: Final = 200_000  # places of linkages compared at once; memory for some 100 MB
-
-
-def least_clearances(
-    places: Displacement,
-    bars: FloatArray,
-    body: Polygon | None,
-    around: Surroundings,
-    *,
-    enough: float = np.inf,
-) -> FloatArray:
-    """The least clearance of linkages (k,) at their places (k, n), approximately.
-
-    Parameters
-    ----------
-    places : Displacement, (k, n)
-        Of the coupler; places that are not finite are passed over.
-    bars : (k, n, m, 2, 2) array
-        Ends of the bars in F, `moving_parts.bars_of`; nan for bars that there are not.
-    body : Polygon, optional
-        The outline, in M.
-    around : Surroundings
-        What body and bars must not touch.
-    enough : float
-        A clearance above which it does not matter: so much is told then, and it is faster.
-
-    Returns
-    -------
-    (k,) array
-        Not below 0, `enough` at most; 0 where something touches, `enough` where nothing is near or
-        no place is finite.
-    """
-    count = places.shape[0]
-    rows = max(1, MAX_PLACES // max(places.shape[1], 1))
-    simple = None if body is None else _simplified(body)
-    parts = [
-        _least(places[k : k + rows], bars[k : k + rows], simple, around, enough)
-        for k in range(0, count, rows)
-    ]
-    return np.concatenate(parts) if parts else np.empty(0)
 
 
 class _Pair(NamedTuple):
@@ -100,10 +57,12 @@ def shares_too_close(
     around: Surroundings,
     slack: float,
 ) -> FloatArray:
-    """The share (k,) of the places (k, n) at which something is too close: how far from allowed.
+    """The share (k,) of places of linkages (k, n) at which something is too close.
 
-    Too close is what touches, or is nearer than the margin, by less than `slack` even where that
-    is kept: for what comes nearer between the frames.  The others are as in `least_clearances`.
+    It tells how far a linkage is from allowed.  Too close is what touches, or is nearer than the
+    margin, by less than `slack` even where that is kept: for what comes nearer between the frames.
+    bars: (k, n, m, 2, 2), their ends in F, `moving_parts.bars_of`; nan for bars that there are not.
+    Places that are not finite are not too close.  body: its outline, in M.
     """
     within = around.margin + slack
     simple = None if body is None else _simplified(body)
@@ -113,28 +72,6 @@ def shares_too_close(
         if len(row):
             close[row, frame] = distances_at(row, frame) <= within
     return np.asarray(close.mean(axis=1))
-
-
-def _least(
-    places: Displacement,
-    bars: FloatArray,
-    body: Polygon | None,
-    around: Surroundings,
-    enough: float,
-) -> FloatArray:
-    """As `least_clearances`.
-
-    Few frames come first, so that the others need be looked at only where they can be less still.
-    """
-    least = np.full(places.shape[0], float(enough))
-    for bounds, distances_at in _pairs(places, bars, body, around):
-        for stride in (STRIDE, 1):
-            row, frame = np.nonzero(bounds[:, ::stride] < least[:, None])
-            if len(row):
-                frame = frame * stride
-                np.minimum.at(least, row, distances_at(row, frame))
-                bounds[row, frame] = np.inf
-    return np.asarray(np.maximum(least, 0.0))
 
 
 def _body_and_region(
