@@ -580,13 +580,19 @@ def test_formats_and_files(tmp_path, monkeypatch):
     assert path.read_bytes() == before
     export(chosen, "csv", path, force=True)
     assert path.read_bytes() != before
-    monkeypatch.setitem(sys.modules, "ezdxf", None)
-    with pytest.raises(InputError, match="dxf needs ezdxf") as caught:
-        export(chosen, "dxf", tmp_path / "a.dxf")
-    assert (caught.value.code, caught.value.help) == ("E130", 'pip install "burmester[export]"')
-    monkeypatch.setitem(sys.modules, "PIL", None)
-    with pytest.raises(InputError, match="gif needs pillow, which"):
-        export(chosen, "gif", tmp_path / "a.gif")
+    for to, module, package, extra in (
+        ("dxf", "ezdxf", "ezdxf", "export"),
+        ("gif", "PIL", "pillow", "export"),
+        ("mp4", "imageio_ffmpeg", "imageio-ffmpeg", "export"),
+        ("step", "build123d", "build123d", "solid"),
+    ):
+        monkeypatch.setitem(sys.modules, module, None)
+        with pytest.raises(InputError, match=f"{to} needs {package}, which") as caught:
+            export(chosen, to, tmp_path / f"a.{to}")
+        assert (caught.value.code, caught.value.help) == (
+            "E130",
+            f'pip install "burmester[{extra}]"',
+        )
     assert [each.name for each in tmp_path.iterdir()] == ["a.json"]
     assert format_of("some/where.SCAD") == "openscad"
     assert format_of("none") is None

@@ -336,17 +336,6 @@ def test_other_films_are_refused(films, tmp_path):
     assert "once" in check_changed(pictures)
 
 
-def test_without_ffmpeg(monkeypatch, tmp_path):
-    def gone(name):
-        raise ImportError(name)
-
-    monkeypatch.setattr(movie, "import_module", gone)
-    with pytest.raises(InputError, match="imageio-ffmpeg") as caught:
-        movie.write_mp4(paper(), tmp_path / "x.mp4", SMALL)
-    assert caught.value.code == "E130"
-    assert "burmester[export]" in caught.value.help
-
-
 @pytest.mark.parametrize(
     ("options", "help"),
     [

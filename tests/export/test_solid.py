@@ -474,14 +474,3 @@ def test_a_body_that_only_translates_is_no_plates(tmp_path):
     with pytest.raises(InputError) as caught:
         solid.write_step(other, tmp_path / "x.step", Options())
     assert caught.value.code == "E163"
-
-
-def test_without_build123d(monkeypatch, tmp_path):
-    def gone(name):
-        raise ImportError(name)
-
-    monkeypatch.setattr(solid, "import_module", gone)
-    with pytest.raises(InputError, match="build123d") as caught:
-        solid.write_step(paper(), tmp_path / "x.step", Options())
-    assert caught.value.code == "E130"
-    assert "burmester[solid]" in caught.value.help

@@ -205,7 +205,7 @@ def export(
             step(f"loading {library}")
             import_module(library)
         module = import_module(f"burmester.export.{form.module}")
-    except ModuleNotFoundError as error:
+    except ImportError as error:
         missing = (error.name or "a library").partition(".")[0]
         missing = PACKAGES.get(missing, missing)
         raise InputError(

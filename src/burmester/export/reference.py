@@ -338,12 +338,15 @@ def require_equal(what: str, got: ArrayLike, expected: ArrayLike, tolerance: flo
         if gap <= tolerance:
             return
         off = f"off by {gap:.3g}, more than {tolerance:.3g}"
-    raise BurmesterError(
-        "E160",
-        "the written file does not contain the linkage, so it was deleted",
-        why=f"{what}: {off}",
-        help="this is a fault of burmester: report it, with the result file",
-    )
+    raise fault(f"{what}: {off}")
+
+
+def fault(
+    why: str, message: str = "the written file does not contain the linkage, so it was deleted"
+) -> BurmesterError:
+    """The error E160 of a file that is not what was to be written."""
+    help = "this is a fault of burmester: report it, with the result file"
+    return BurmesterError("E160", message, why=why, help=help)
 
 
 def as_rows(places: Displacement) -> FloatArray:

@@ -19,7 +19,6 @@ from typing import Any
 
 import numpy as np
 
-from burmester.errors import BurmesterError
 from burmester.export.drawings.drawing import Drawing, Item, Kind, require_drawing
 from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, read_dimensions
 from burmester.export.escaping import dxf_text
@@ -28,7 +27,7 @@ from burmester.export.numbers import error_within
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import stock_for
-from burmester.export.reference import require_equal
+from burmester.export.reference import fault, require_equal
 from burmester.synthesis.result import Candidate
 
 ezdxf: Any = import_module("ezdxf")
@@ -172,12 +171,8 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
     auditor = document.audit()
     if auditor.has_errors or auditor.has_fixes:
         faults = [str(each.message) for each in (*auditor.errors, *auditor.fixes)]
-        raise BurmesterError(
-            "E160",
-            "what was written is no sound DXF file, so nothing was kept",
-            why="; ".join(faults[:3]),
-            help="this is a fault of burmester: report it, with the result file",
-        )
+        message = "what was written is no sound DXF file, so nothing was kept"
+        raise fault("; ".join(faults[:3]), message)
     unit = _unit_of(chosen, options)
     drawing = Drawing.of(chosen, options, unit)
     require_equal("the unit of the drawing", document.header["$INSUNITS"], CODES[unit], 0)

@@ -21,7 +21,6 @@ from matplotlib.path import Path as Curve
 from matplotlib.text import Text
 from matplotlib.transforms import Affine2D, Bbox, IdentityTransform
 
-from burmester.errors import BurmesterError
 from burmester.export.description import description, length_decimals
 from burmester.export.drawings.pages import LETTERS, MARGIN, Page, Pages, pages_of
 from burmester.export.drawings.pdf_paths import read_pages
@@ -32,7 +31,7 @@ from burmester.export.parts.holes import axis_deviation, pivots_of
 from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import moved
 from burmester.export.parts.plates import assembly_of
-from burmester.export.reference import require_equal
+from burmester.export.reference import fault, require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
@@ -224,12 +223,8 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
     try:
         read = read_pages(path)
     except ValueError as error:
-        raise BurmesterError(
-            "E160",
-            "what was written is no sound PDF, so nothing was kept",
-            why=str(error),
-            help="this is a fault of burmester: report it, with the result file",
-        ) from None
+        message = "what was written is no sound PDF, so nothing was kept"
+        raise fault(str(error), message) from None
     require_equal("the number of pages", len(read), len(pages.pages), 0)
     holes: dict[str, list[FloatArray]] = {}
     for page, paths in zip(pages.pages, read, strict=True):

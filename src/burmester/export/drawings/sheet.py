@@ -90,8 +90,7 @@ def laid_lengthwise(
 
     laid = []
     for plate in assembly.plates:
-        ends = plate.skeleton[:, None] - plate.skeleton
-        far = ends.reshape(-1, 2)[int((ends**2).sum(axis=-1).argmax())]
+        far = plate.longest_way
         turn = -math.atan(far[1] / far[0]) if far[0] else -math.pi / 2 * bool(far[1])
         place = Displacement(np.zeros(2), np.array(turn))
         lines = dimension_lines(plate, turn, letters, text) if dimensions else []

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from burmester.errors import InputError
 from burmester.export.motion import Motion
 from burmester.export.options import Options
-from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import with_unit
 from burmester.scene.linkage_scene import Scene, scene_of
@@ -118,21 +117,6 @@ class Film:
         """The task of what moves."""
         return self.chosen.task
 
-    @property
-    def at_poses(self) -> Displacement:
-        """The place (N,) of the body for each pose; nan where it reaches none."""
-        return self.chosen.error.places
-
-    @property
-    def places(self) -> Displacement:
-        """The place (count,) of the body in each picture."""
-        return self.motion.places
-
-    @property
-    def reached(self) -> NDArray[np.bool_]:
-        """Whether the motion goes through each pose (N,)."""
-        return np.isfinite(self.motion.pose_shares)
-
     def followed(self, number: NDArray[np.intp]) -> FloatArray:
         """The driver's moving pivot (n, 2) in F, which is marked, in pictures.
 
@@ -143,7 +127,7 @@ class Film:
     def scene(self, number: int) -> Scene:
         """What is drawn of the linkage in a picture."""
         drive = float(self.motion.drive[number])
-        return scene_of(self.chosen, self.places[number], drive, self.places)
+        return scene_of(self.chosen, self.motion.places[number], drive, self.motion.places)
 
     def drive_text(self, number: int) -> str:
         """Where the driver is in a picture."""
@@ -152,11 +136,6 @@ class Film:
             return with_unit(f"driver {value:.4g}".replace("-", "−"), self.chosen.unit)
         degrees = math.degrees(value)
         return f"driver {degrees % 360 if self.motion.full_turn else degrees:5.1f}°"
-
-    @property
-    def outline(self) -> FloatArray | None:
-        """The corners (n, 2) of the body, in M, where the task has them."""
-        return None if self.task.body is None else self.task.body.vertices
 
     @property
     def grown(self) -> NDArray[np.intp]:

@@ -5,8 +5,7 @@ any other goes from the first pose to the last and back.  The wanted poses stand
 body's own frame moves with it, and the path of its origin grows.  The body's outline moves, too,
 and stands faintly at the poses; regions to keep out of are hatched.
 
-E130 imageio-ffmpeg is missing        E160 what was written shows another motion
-E162 a film that cannot be drawn
+E160 what was written shows another motion        E162 a film that cannot be drawn
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from __future__ import annotations
 import math
 import re
 import subprocess
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
@@ -23,9 +23,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from burmester import plot
-from burmester.errors import BurmesterError, InputError
 from burmester.export.films.film import Film, Picture, blob, looks_of, require_film
 from burmester.export.films.pictures import marks, pictures
+from burmester.export.reference import fault
 from burmester.synthesis.result import Candidate
 
 if TYPE_CHECKING:
@@ -34,6 +34,9 @@ if TYPE_CHECKING:
 
 MAX_GIF_RATE: Final = 25.0  # pictures a second; more would only make the file larger
 MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
+_off = partial(
+    fault, message="what was written does not show the linkage's motion, so nothing was kept"
+)
 
 
 def write_gif(chosen: Candidate, path: Path, options: Options) -> None:
@@ -44,7 +47,7 @@ def write_gif(chosen: Candidate, path: Path, options: Options) -> None:
 
 def write_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     """Write a film as an MP4 that every player shows: H.264, yuv420p, made to begin at once."""
-    ffmpeg = _ffmpeg()
+    ffmpeg: Any = import_module("imageio_ffmpeg")
     drawn = pictures(_mp4(chosen, options))
     first = next(drawn)
     writer = ffmpeg.write_frames(
@@ -106,7 +109,8 @@ def check_gif(chosen: Candidate, path: Path, options: Options) -> None:
 
 def check_mp4(chosen: Candidate, path: Path, options: Options) -> None:
     """Read an MP4 back with ffmpeg; raises E160 unless it shows this linkage's motion."""
-    film, program = _mp4(chosen, options), _ffmpeg().get_ffmpeg_exe()
+    film = _mp4(chosen, options)
+    program = import_module("imageio_ffmpeg").get_ffmpeg_exe()
     report = subprocess.run(
         [program, "-hide_banner", "-i", str(path)], capture_output=True, check=False
     ).stderr.decode(errors="replace")
@@ -154,25 +158,3 @@ def _compare(film: Film, looks: NDArray[np.intp], shown: list[Picture]) -> None:
         away = math.hypot(seen[0] + 0.5 - at[0], height - seen[1] - 0.5 - at[1])
         if not away <= MAX_MARK_ERROR:
             raise _off(f"in picture {number + 1} the driver is {away:.3g} pixels off")
-
-
-def _off(why: str) -> BurmesterError:
-    return BurmesterError(
-        "E160",
-        "what was written does not show the linkage's motion, so nothing was kept",
-        why=why,
-        help="this is a fault of burmester: report it, with the result file",
-    )
-
-
-def _ffmpeg() -> Any:
-    """The imageio-ffmpeg module, which brings ffmpeg with it."""
-    try:
-        return import_module("imageio_ffmpeg")
-    except ImportError:
-        raise InputError(
-            "E130",
-            "an MP4 needs imageio-ffmpeg",
-            why="it cannot be imported",
-            help='pip install "burmester[export]"',
-        ) from None

@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 
 import numpy as np
 from matplotlib.artist import Artist
-from matplotlib.patches import Circle
+from matplotlib.patches import Circle, Polygon
 from numpy.typing import NDArray
 
 from burmester import plot
 from burmester.export.films.film import DPI, MARK_COLOUR, MARK_POINTS, TALLEST, Film, Picture
+from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.plane import X_AXIS_LENGTH, span_of
 from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, plain, settle_labels, with_unit
@@ -47,7 +48,7 @@ def marks(film: Film, numbers: NDArray[np.intp]) -> tuple[tuple[int, int], Float
 
 def pictures(film: Film) -> Iterator[Picture]:
     """The pictures (rows, columns, 3) of a film, all of one size."""
-    places = film.places
+    places = film.motion.places
     long = X_AXIS_LENGTH * span_of(film.task.poses)
     body = np.array([[long, 0.0], [0.0, 0.0], [0.0, 0.6 * long]])
     path, many = places.translation, film.grown
@@ -69,8 +70,7 @@ def pictures(film: Film) -> Iterator[Picture]:
             place = places[number]
             step(f"drawing picture {number + 1} of {film.count}")
             own = plot.draw(ax, film.scene(number)).artists
-            if film.outline is not None:
-                own += plot.body(ax, film.outline, place[None], at=0).places
+            own += _body(film, ax, place[None], at=0)
             grown.set_data(*path[: many[number]].T)
             frame.set_data(*place.act(body).T)
             mark.set_center(tuple(pivot[number].tolist()))
@@ -96,8 +96,13 @@ def _background(film: Film, shown: NDArray[np.intp], ax: Axes) -> None:
     """Draw the regions to keep out of, and the body faintly where it is at some of the poses."""
     if film.task.surroundings is not None:
         plot.keep_out(ax, film.task.surroundings.keep_out)
-    if film.outline is not None:
-        plot.body(ax, film.outline, film.at_poses[shown])
+    _body(film, ax, film.chosen.error.places[shown])
+
+
+def _body(film: Film, ax: Axes, places: Displacement, at: int | None = None) -> list[Polygon]:
+    """Draw the outline of the body at places, if the task has one."""
+    body = film.task.body
+    return [] if body is None else plot.body(ax, body.vertices, places, at=at).places
 
 
 def _stage(film: Film) -> Stage:
@@ -112,8 +117,7 @@ def _stage(film: Film) -> Stage:
         plot.poses(ax, task.poses[shown], numbers=False, free=task.free_angles[shown])
         for number in some:
             plot.draw(ax, film.scene(int(number)))
-        if film.outline is not None:
-            plot.body(ax, film.outline, film.places[some])
+        _body(film, ax, film.motion.places[some])
         _background(film, shown, ax)
         plot.finish(ax, task.length_unit, room=0.04)
         (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
@@ -137,7 +141,7 @@ def _stage(film: Film) -> Stage:
         over = list[Artist]()
         long = X_AXIS_LENGTH * span_of(task.poses)
         for color, reached in ((VERMILION, True), (GREY, False)):
-            numbers = shown[film.reached[shown] == reached]
+            numbers = shown[np.isfinite(film.motion.pose_shares[shown]) == reached]
             if len(numbers):
                 names = [str(k + 1) for k in numbers]
                 wanted = plot.poses(

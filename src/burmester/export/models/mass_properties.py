@@ -1,24 +1,20 @@
-"""Mass, centre of mass and inertia of plates and pins, from their outlines with holes and slots.
-
-The moments of an outline are integrals along it (Green's theorem), exact but for rounding.
-"""
+"""Mass, centre of mass and inertia of plates and pins, from their outlines with holes and slots."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Final, Self, final
+from typing import Self, final
 
 import numpy as np
 
 from burmester.errors import InputError
 from burmester.export.models.bodies import METRES, BodyParts, heights_of
-from burmester.export.parts.outlines import rounded_hull, slot_outline
+from burmester.export.parts.outlines import outline_moments, rounded_hull, slot_outline
 from burmester.export.parts.plates import Assembly
 from burmester.numerics.arrays import FloatArray
 
-NODES: Final = 24  # of Gauss's rule on a side: arcs up to half a circle exact but for rounding
 LIGHTEST, HEAVIEST = 10.0, 25000.0  # kg/m³: a foam, and more than osmium; others are slips of unit
 
 
@@ -89,38 +85,6 @@ class MassProperties:
         """The moment of inertia about an axis along z through (x, y), kg m²."""
         away = math.hypot(self.centre[0] - x, self.centre[1] - y)
         return float(self.inertia[2, 2] + self.mass * away**2)
-
-
-def outline_moments(outline: FloatArray, origin: FloatArray) -> FloatArray:
-    """The integrals (6,) of 1, x, y, xx, xy and yy within an outline (k, 3) with bulges.
-
-    x and y are from the origin (2,); counter-clockwise outlines have a positive area.
-    """
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
-    share = (nodes + 1) / 2
-    start = outline[:, :2] - origin
-    chord = np.roll(start, -1, axis=0) - start
-    half = 2 * np.arctan(outline[:, 2])  # of the arc's angle
-    # A point of an arc: start + chord * ratio(share), as complex numbers; the ratio is the share
-    # where the side is straight.
-    with np.errstate(invalid="ignore", divide="ignore"):
-        angle = 2 * half[:, None] * share
-        ratio = np.expm1(1j * angle) / np.expm1(2j * half[:, None])
-        rate = 2j * half[:, None] * np.exp(1j * angle) / np.expm1(2j * half[:, None])
-    straight = outline[:, 2:] == 0
-    ratio, rate = np.where(straight, share, ratio), np.where(straight, 1.0, rate)
-    along = (chord @ [1, 1j])[:, None]
-    z, dz = (start @ [1, 1j])[:, None] + along * ratio, along * rate
-    x, y, dx, dy = z.real, z.imag, dz.real, dz.imag
-    sides = [
-        (x * dy - y * dx) / 2,
-        x**2 * dy / 2,
-        -(y**2) * dx / 2,
-        x**3 * dy / 3,
-        x**2 * y * dy / 2,
-        -(y**3) * dx / 3,
-    ]
-    return np.asarray(np.array([each.sum(axis=0) for each in sides]) @ weights / 2)
 
 
 def require_density(density: float) -> float:

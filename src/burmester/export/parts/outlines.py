@@ -12,6 +12,8 @@ import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 
+NODES = 24  # of Gauss's rule on a side: arcs up to half a circle exact but for rounding
+
 
 def convex_hull(points: FloatArray) -> FloatArray:
     """The corners (n, 2) of the convex hull of points (m, 2), counter-clockwise."""
@@ -102,3 +104,36 @@ def points_on(outline: FloatArray, tolerance: float) -> FloatArray:
             z = centre + arm * complex(math.cos(angle * k / count), math.sin(angle * k / count))
             points.append(np.array([z.real, z.imag]))
     return np.array(points)
+
+
+def outline_moments(outline: FloatArray, origin: FloatArray) -> FloatArray:
+    """The integrals (6,) of 1, x, y, xx, xy and yy within an outline (k, 3) with bulges.
+
+    x and y are from the origin (2,); counter-clockwise outlines have a positive area.  They are
+    computed along the outline (Green's theorem), exact but for rounding.
+    """
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    share = (nodes + 1) / 2
+    start = outline[:, :2] - origin
+    chord = np.roll(start, -1, axis=0) - start
+    half = 2 * np.arctan(outline[:, 2])  # of the arc's angle
+    # A point of an arc: start + chord * ratio(share), as complex numbers; the ratio is the share
+    # where the side is straight.
+    with np.errstate(invalid="ignore", divide="ignore"):
+        angle = 2 * half[:, None] * share
+        ratio = np.expm1(1j * angle) / np.expm1(2j * half[:, None])
+        rate = 2j * half[:, None] * np.exp(1j * angle) / np.expm1(2j * half[:, None])
+    straight = outline[:, 2:] == 0
+    ratio, rate = np.where(straight, share, ratio), np.where(straight, 1.0, rate)
+    along = (chord @ [1, 1j])[:, None]
+    z, dz = (start @ [1, 1j])[:, None] + along * ratio, along * rate
+    x, y, dx, dy = z.real, z.imag, dz.real, dz.imag
+    sides = [
+        (x * dy - y * dx) / 2,
+        x**2 * dy / 2,
+        -(y**2) * dx / 2,
+        x**3 * dy / 3,
+        x**2 * y * dy / 2,
+        -(y**3) * dx / 3,
+    ]
+    return np.asarray(np.array([each.sum(axis=0) for each in sides]) @ weights / 2)

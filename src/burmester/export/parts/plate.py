@@ -59,6 +59,12 @@ class Plate:
         start, corner, end = np.roll(self.skeleton, 1 - self.corner, axis=0)
         return np.stack([start, corner]), np.stack([corner, end])
 
+    @property
+    def longest_way(self) -> FloatArray:
+        """The way (2,) between the two corners of the skeleton that are farthest apart."""
+        ways = self.skeleton[:, None] - self.skeleton
+        return np.asarray(ways.reshape(-1, 2)[int((ways**2).sum(axis=-1).argmax())])
+
     def at(self, places: LinkPlaces) -> Displacement:
         """Where the plate lies (F <- plate) when the links are at places (*,)."""
         return places[self.owner]

@@ -4,7 +4,7 @@ The plates are extruded with their holes and slots; pins turn in the holes.  In 
 that is asked for assembled, the parts are in their places: one layer over the other with a gap
 between, the first plate on z = 0.  Otherwise all parts lie flat beside each other on z = 0.
 
-E130 build123d is missing        E160 the file does not contain the linkage
+E160 the file does not contain the linkage
 E162 dimensions that cannot be made        E163 a linkage that plates cannot hold
 """
 
@@ -18,13 +18,12 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.errors import BurmesterError, InputError
 from burmester.export.escaping import step_text
 from burmester.export.options import Options
 from burmester.export.parts.collisions import collision
 from burmester.export.parts.holes import axes_of, axis_deviation, pivots_of, rim_deviation
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import PRECISION
+from burmester.export.reference import PRECISION, fault
 from burmester.export.solids.solid_parts import Part, area_of, laid, parts_of, placed
 from burmester.export.solids.step_order import settle
 from burmester.export.solids.stl import Triangles, read_stl, shells_of, volume_of
@@ -44,7 +43,7 @@ FIXED_TIME: Final = (
 
 def write_step(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the assembly at `options.pose` as STEP: named parts in colours, in their places."""
-    cad, made = _cad(), assembly_of(chosen, options)
+    cad, made = import_module("build123d"), assembly_of(chosen, options)
     parts = [placed(cad, part) for part in parts_of(cad, made)]
     whole = cad.Compound(label=step_text(f"{chosen.id} {chosen.type}"), children=parts)
     cad.export_step(whole, str(path), timestamp=FIXED_TIME)
@@ -53,7 +52,7 @@ def write_step(chosen: Candidate, path: Path, options: Options) -> None:
 
 def write_stl(chosen: Candidate, path: Path, options: Options) -> None:
     """Write all parts as a binary STL: each a closed shell of its own, flat, or in its place."""
-    cad, made = _cad(), assembly_of(chosen, options)
+    cad, made = import_module("build123d"), assembly_of(chosen, options)
     parts = parts_of(cad, made)
     _write_stl(cad, parts if options.assembled else laid(parts, made), path)
 
@@ -68,23 +67,23 @@ def check_step(chosen: Candidate, path: Path, options: Options) -> None:
 
     Axes to 1e-9 of the span, volumes to 1e-9 of themselves, and no part is inside another.
     """
-    cad, made = _cad(), assembly_of(chosen, options)
+    cad, made = import_module("build123d"), assembly_of(chosen, options)
     read = {each.label: each for each in cad.import_step(str(path)).children}
     expected = {part.name: part for part in parts_of(cad, made)}
     if read.keys() != expected.keys():
-        raise _off(f"its parts are {', '.join(read)}, not {', '.join(expected)}")
+        raise fault(f"its parts are {', '.join(read)}, not {', '.join(expected)}")
     for name, part in expected.items():
         volume = part.area * part.height
         if not abs(read[name].volume - volume) <= VOLUME_TOLERANCE * volume:
-            raise _off(f"the {name} has {read[name].volume:.9g} mm³, not {volume:.9g} mm³")
+            raise fault(f"the {name} has {read[name].volume:.9g} mm³, not {volume:.9g} mm³")
     radius = made.dimensions.hole / 2
     for joint in pivots_of(made):
         away = min(axis_deviation(joint, axes_of(read[each], radius)) for each in joint.plates)
         if not away <= PRECISION * made.reference.span:
-            raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
+            raise fault(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
     clash = collision(cad, read, made)
     if clash is not None:
-        raise _off(f"the {clash[0]} and the {clash[1]} collide along the motion")
+        raise fault(f"the {clash[0]} and the {clash[1]} collide along the motion")
 
 
 def check_stl(chosen: Candidate, path: Path, options: Options) -> None:
@@ -110,7 +109,7 @@ def check_stl(chosen: Candidate, path: Path, options: Options) -> None:
     for joint in pivots_of(made):
         away = min(rim_deviation(joint, rims[each][:, :2], radius) for each in joint.plates)
         if not away <= tolerance:
-            raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
+            raise fault(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
 
 
 def check_flat(chosen: Candidate, path: Path, options: Options) -> None:
@@ -118,14 +117,14 @@ def check_flat(chosen: Candidate, path: Path, options: Options) -> None:
 
     Each plate is put back to where the assembly has it, and its holes are compared as there.
     """
-    cad, made = _cad(), assembly_of(chosen, options)
+    cad, made = import_module("build123d"), assembly_of(chosen, options)
     shells, tolerance = _checked_shells(path, made)
     if any(abs(shell[..., 2].min()) > tolerance for shell in shells):
-        raise _off("a part is not on z = 0")
+        raise fault("a part is not on z = 0")
     boxes = [(s[..., :2].min(axis=(0, 1)), s[..., :2].max(axis=(0, 1))) for s in shells]
     for k, (low, high) in enumerate(boxes):
         if any((low < there[1]).all() and (there[0] < high).all() for there in boxes[:k]):
-            raise _off("two parts lie on each other")
+            raise fault("two parts lie on each other")
     plates = {plate.name: plate for plate in made.plates}
     points = np.concatenate([shell.reshape(-1, 3) for shell in shells])[:, :2]
     rims = {
@@ -138,20 +137,7 @@ def check_flat(chosen: Candidate, path: Path, options: Options) -> None:
             rim_deviation(joint, rims[each], made.dimensions.hole / 2) for each in joint.plates
         )
         if not away <= 2 * tolerance:
-            raise _off(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
-
-
-def _cad() -> Any:
-    """The build123d module."""
-    try:
-        return import_module("build123d")
-    except ImportError:
-        raise InputError(
-            "E130",
-            "STEP and STL need build123d",
-            why="it cannot be imported",
-            help='pip install "burmester[solid]"',
-        ) from None
+            raise fault(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
 
 
 def _write_stl(cad: Any, parts: list[Part], path: Path) -> None:
@@ -166,10 +152,10 @@ def _checked_shells(path: Path, made: Assembly) -> tuple[list[Triangles], float]
     try:
         triangles = read_stl(path)
     except ValueError as error:
-        raise _off(str(error)) from None
+        raise fault(str(error)) from None
     shells = shells_of(triangles)
     if shells is None:
-        raise _off("its surface is not closed")
+        raise fault("its surface is not closed")
     step = size.thickness + size.gap
     pin = math.pi * (size.pin / 2) ** 2
     expected = [area_of(plate) * size.thickness for plate in made.plates]
@@ -179,15 +165,6 @@ def _checked_shells(path: Path, made: Assembly) -> tuple[list[Triangles], float]
         found, sorted(expected), rtol=FACETED_VOLUME_TOLERANCE, atol=0
     )
     if not close:
-        raise _off(f"its {len(found)} parts do not have the volumes of the plates and pins")
+        raise fault(f"its {len(found)} parts do not have the volumes of the plates and pins")
     reach = float(np.abs(triangles).max())
     return shells, FLOAT32_ERROR * reach
-
-
-def _off(why: str) -> BurmesterError:
-    return BurmesterError(
-        "E160",
-        "the written file does not contain the linkage, so it was deleted",
-        why=why,
-        help="this is a fault of burmester: report it, with the result file",
-    )

@@ -13,7 +13,7 @@ from typing import Any, Final, NamedTuple
 import numpy as np
 
 from burmester.export.link_places import GROUND
-from burmester.export.parts.outlines import slot_outline
+from burmester.export.parts.outlines import outline_moments, rounded_hull, slot_outline
 from burmester.export.parts.plate import Plate
 from burmester.export.parts.plates import Assembly
 from burmester.geometry.displacement import Displacement
@@ -104,9 +104,7 @@ def laid(parts: Iterable[Part], made: Assembly) -> list[Part]:
             r = math.sqrt(part.area / math.pi)
             rows.append((part, Displacement.identity(), np.array([[-r, -r], [r, r]])))
             continue
-        ends = plate.skeleton[:, None] - plate.skeleton
-        far = ends.reshape(-1, 2)[int((ends**2).sum(axis=-1).argmax())]
-        turn = Displacement(np.zeros(2), -np.arctan2(far[1], far[0]))
+        turn = Displacement(np.zeros(2), -np.arctan2(*plate.longest_way[::-1]))
         corners = turn.act(plate.skeleton)
         box = np.stack([corners.min(axis=0) - plate.radius, corners.max(axis=0) + plate.radius])
         rows.append((part, turn, box))
@@ -157,17 +155,9 @@ def _wire(cad: Any, outline: FloatArray) -> Any:
 
 def area_of(plate: Plate) -> float:
     """The area of a plate without its holes and slots."""
-    cut = sum(math.pi * diameter**2 / 4 for diameter in plate.holes[:, 2])
-    slots = sum(_within(slot_outline(each)) for each in plate.slots)
-    return float(_within(_plain(plate.outline)) - cut - slots)
-
-
-def _within(outline: FloatArray) -> float:
-    """The area within a closed outline (k, 3): of its polygon, and of the arcs' segments."""
-    (x, y, bulge), (u, v, _) = outline.T, np.roll(outline, -1, axis=0).T
-    quarter = np.arctan(bulge)
-    chord = np.hypot(u - x, v - y)
-    bent = bulge != 0
-    radius = chord[bent] / (2 * np.sin(2 * quarter[bent]))
-    segments = radius**2 * (4 * quarter[bent] - np.sin(4 * quarter[bent])) / 2
-    return float((x * v - u * y).sum() / 2 + (np.sign(bulge[bent]) * np.abs(segments)).sum())
+    cuts = [rounded_hull(each[None, :2], each[2] / 2) for each in plate.holes]
+    cuts += [slot_outline(each) for each in plate.slots]
+    outline, *areas = (
+        outline_moments(each, plate.outline[0, :2])[0] for each in (_plain(plate.outline), *cuts)
+    )
+    return float(outline - sum(areas))
