@@ -44,6 +44,7 @@ html_title = "burmester"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
+html_search_scorer = "_static/scorer.js"  # the glossary before how the code is built
 html_show_sourcelink = False
 html_show_sphinx = False
 html_theme_options = {"source_repository": "", "top_of_page_buttons": []}

@@ -1,4 +1,4 @@
-"""The page of the results, `docs/field.md`, with its tables and two pictures."""
+"""The pages of the results, `docs/field.md` and `docs/field-tasks.md`, and their two pictures."""
 
 from __future__ import annotations
 
@@ -11,9 +11,8 @@ from typing import Any
 from benchmarks.field.drawn import FUNCTION_TASKS, HAND
 from benchmarks.field.generated import CLOSED, FUNCTIONS, KINDS, OPEN, PATH, TIMED
 
-TEMPLATE = Template(Path(__file__).with_name("page.md").read_text(encoding="utf-8"))
 DOCS = Path(__file__).parents[2] / "docs"
-PAGE = DOCS / "field.md"
+PAGES = {DOCS / "field.md": "page.md", DOCS / "field-tasks.md": "tasks.md"}  # and their templates
 SHARES, TIMES = DOCS / "field-solved.png", DOCS / "field-time.png"
 OURS = "burmester_synthesize"
 SHORT = {
@@ -204,13 +203,14 @@ def troubles(data: dict[str, Any]) -> list[str]:
 
 
 def write(data: dict[str, Any]) -> None:
-    """The page and its pictures."""
-    PAGE.write_text(text(data), encoding="utf-8")
+    """The pages and their pictures."""
+    for page, template in PAGES.items():
+        page.write_text(text(data, template), encoding="utf-8")
     pictures(data)
 
 
-def text(data: dict[str, Any]) -> str:
-    """The page: `page.md` with what the results say."""
+def text(data: dict[str, Any], template: str = "page.md") -> str:
+    """A page: its template with what the results say."""
     results = Results(data)
     asked = [
         "\n  - ".join(
@@ -224,7 +224,8 @@ def text(data: dict[str, Any]) -> str:
         if task["source"] not in ("generated", HAND) and task["kind"] != FUNCTIONS
     ]
     trouble = "\n".join(f"- {line}" for line in troubles(data))
-    return TEMPLATE.substitute(
+    page = Template(Path(__file__).with_name(template).read_text(encoding="utf-8"))
+    return page.substitute(
         answer=_answer(results),
         table=table(data),
         shares=SHARES.name,

@@ -11,7 +11,6 @@ from urllib.parse import unquote
 
 from docs.building import formulas
 
-ROOT = Path(__file__).resolve().parents[2]
 MOST_MEGABYTES = 40
 LOADED = {
     "img": "src",
@@ -73,15 +72,19 @@ def troubles(folder: Path):
 
 def formulas_without_links(folder: Path):
     """Formulas that lead to no function, functions that lead back to no formula, a line each."""
-    theory = ROOT.joinpath("docs", "mathematics.md").read_text("utf-8")
     told = []
-    for formula, function in sorted(formulas.on_page(theory)):
-        there, back = f"#{formulas.on_site(function)}", f"mathematics.html#formula-{formula}"
-        to = [link for link in links_of(folder / "mathematics.html") if link.endswith(there)]
-        if not to:
-            told.append(f"mathematics.html: {formula} does not lead to {function}")
-        elif not any(link.endswith(back) for link in links_of(folder / to[0].partition("#")[0])):
-            told.append(f"{to[0]} does not lead back to the formula {formula}")
+    for page in sorted(formulas.PAGES.glob("*.md")):
+        name = f"mathematics/{page.stem}.html"
+        for formula, function in sorted(formulas.on_page(page.read_text("utf-8"))):
+            there, back = f"#{formulas.on_site(function)}", f"{name}#formula-{formula}"
+            to = [link for link in links_of(folder / name) if link.endswith(there)]
+            if not to:
+                told.append(f"{name}: {formula} does not lead to {function}")
+            elif not any(
+                link.endswith(back)
+                for link in links_of((folder / name).parent / to[0].partition("#")[0])
+            ):
+                told.append(f"{to[0]} does not lead back to the formula {formula}")
     return told
 
 

@@ -1,6 +1,6 @@
-"""Formulas of `docs/mathematics.md` and the functions that compute them, linked both ways.
+"""Formulas of `docs/mathematics` and the functions that compute them, linked both ways.
 
-The page says below a formula: Formula `name`, computed by `room.module.function`.  The docstring of
+A page says below a formula: Formula `name`, computed by `room.module.function`.  The docstring of
 that function says: Formula `name` of the theory.  Prose says: formula `name`.
 """
 
@@ -11,14 +11,20 @@ from pathlib import Path
 
 import burmester
 
+PAGES = Path(__file__).resolve().parents[1] / "mathematics"
 ON_PAGE = re.compile(r"(?m)^Formula `([\w-]+)`, computed by ((?:`[\w.]+`(?:, )?)+)\.$")
 IN_PROSE = re.compile(r"\bformulas? (`[\w-]+`(?:(?:, | and )`[\w-]+`)*)")
 IN_DOCSTRING = re.compile(r"Formulas? ((?:`[\w-]+`,?\s+)+)of the theory\.")
 QUOTED = re.compile(r"`([\w.-]+)`")
 
 
+def theory():
+    """The text of all pages of formulas."""
+    return "\n".join(page.read_text(encoding="utf-8") for page in sorted(PAGES.glob("*.md")))
+
+
 def on_page(text):
-    """{(formula, function)} of the page, functions by their names below `burmester`."""
+    """{(formula, function)} of a page, functions by their names below `burmester`."""
     return {
         (name, function)
         for name, functions in ON_PAGE.findall(text)
@@ -68,7 +74,7 @@ def on_site(function):
 
 
 def functions_apart(text):
-    """What the page names and the page of the API does not describe, in order, without repeats."""
+    """What pages name and the page of the API does not describe, in order, without repeats."""
     found = []
     for _, functions in ON_PAGE.findall(text):
         for function in QUOTED.findall(functions):
@@ -80,7 +86,7 @@ def functions_apart(text):
 
 
 def linked(text):
-    """The page with a target at each formula's name and links to its functions."""
+    """A page with a target at each formula's name and links to its functions."""
 
     def line(match):
         links = ", ".join(

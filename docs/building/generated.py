@@ -4,6 +4,7 @@ The command, messages, modules, the JSON schema, the functions of the theory, th
 """
 
 import json
+import math
 import re
 from importlib.resources import files
 from pathlib import Path
@@ -19,6 +20,8 @@ from burmester.paper.side_by_side import side_by_side
 from burmester.plot import write_figures
 from burmester.plot.paper import NAMES
 
+CODE = re.compile(r"## ([A-Z]\d{3}) (.*)")
+MOST_WORDS = 2800  # of a page of messages
 COLOURS = 256  # of a picture: more show no difference, and fill the file
 
 
@@ -28,7 +31,6 @@ def write_pages(folder: Path, functions):
     pages = {
         "command": command_page(),
         "functions": functions_page(functions),
-        "messages": messages_page(),
         "modules": modules_page(),
         "paper-tables": paper_page(folder / "reference" / "paper"),
         "schema": schema_page(),
@@ -36,6 +38,10 @@ def write_pages(folder: Path, functions):
     assert tuple(pages) == GENERATED
     for name, text in pages.items():
         reference.joinpath(f"{name}.md").write_text(text, encoding="utf-8")
+    messages = reference / "messages"
+    messages.mkdir()
+    for name, text in message_pages().items():
+        messages.joinpath(f"{name}.md").write_text(text, encoding="utf-8")
 
 
 def command_page():
@@ -85,17 +91,44 @@ def cell(text):
     return re.sub(r"([|<>*_])", r"\\\1", " ".join(text.split()))
 
 
-def messages_page():
-    """Every code with its page, an anchor for each."""
+def message_pages():
+    """Pages of messages by name, an anchor for each code; a family of many fills several."""
     text = files("burmester.io").joinpath("messages.md").read_text(encoding="utf-8")
-    text = re.sub(r"(?m)^(#+) ", r"#\1 ", text)
-    text = re.sub(r"(?m)^### ([A-Z]\d{3}) ", r"(\1)=\n### \1 ", text)
     text = re.sub(r"(?ms)^```\n(.*?)^```$", r"```text\n\1```", text)
-    return (
+    pages, rows = {}, ["| code | what it says |", "|---|---|"]
+    for family in re.split(r"(?m)^(?=# )", text)[1:]:
+        head, *messages = re.split(r"(?m)^(?=## [A-Z]\d{3} )", family)
+        title = head.strip().removeprefix("# ")
+        rows.append(f"| **{title}** | |")
+        for part in parts_of(messages, MOST_WORDS):
+            codes = [CODE.match(each) for each in part]
+            first, last = codes[0][1], codes[-1][1]
+            span = first if first == last else f"{first} to {last}"
+            anchored = "".join(
+                f"({code[1]})=\n{each}" for code, each in zip(codes, part, strict=True)
+            )
+            pages[first.lower()] = f"# {title}, {span}\n\n{anchored}"
+            rows += [f"| [{code[1]}](#{code[1]}) | {cell(code[2])} |" for code in codes]
+    pages["index"] = (
         "# Every message\n\n"
         "Errors begin with E, warnings with W, results with R. `burmester explain CODE` prints "
-        "the same.\n\n" + text
+        "the same.\n\n" + "\n".join(rows) + "\n\n"
+        "```{toctree}\n:hidden:\n\n" + "\n".join(pages) + "\n```\n"
     )
+    return pages
+
+
+def parts_of(texts, most):
+    """Texts in order, in parts of at most so many words, about as long as each other."""
+    sizes = [len(each.split()) for each in texts]
+    even = sum(sizes) / math.ceil(sum(sizes) / most)
+    parts, words = [[]], 0
+    for size, each in zip(sizes, texts, strict=True):
+        if parts[-1] and words + size / 2 > even * len(parts):
+            parts.append([])
+        parts[-1].append(each)
+        words += size
+    return parts
 
 
 def schema_page():
@@ -155,7 +188,7 @@ def functions_page(functions):
     """The functions of formulas and methods that have no short name."""
     head = (
         "# Functions behind the theory\n\n"
-        "The functions that compute the formulas of [the theory](../mathematics.md), and the "
+        "The functions that compute the formulas of [the theory](../mathematics/index.md), and the "
         "solvers. What is imported with `import burmester` alone stands on "
         "[its own page](api.md).\n"
     )

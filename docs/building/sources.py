@@ -16,7 +16,7 @@ BESIDE = {  # files outside docs/ that are pages, or files, of the site
     "ARCHITECTURE.md": "project/architecture.md",
     "CHANGELOG.md": "project/changelog.md",
     "CONTRIBUTING.md": "project/contributing.md",
-    "benchmarks/README.md": "project/benchmarks.md",
+    "benchmarks/README.md": "project/benchmarks/index.md",
     "CITATION.cff": "project/CITATION.cff",
     "README.md": "index.md",
     "docs/README.md": "index.md",
@@ -24,6 +24,7 @@ BESIDE = {  # files outside docs/ that are pages, or files, of the site
     "src/burmester/io/function.schema.json": "reference/function.schema.json",
     "src/burmester/io/family_map.schema.json": "reference/family_map.schema.json",
 }
+MEASURED = "benchmarks/measured"  # its pages stand beside that of benchmarks/README.md
 NOT_COPIED = ("building", "__pycache__", "*.py", "README.md", "*.ipynb")
 CODE = re.compile(r"\(([EWR]\d{3})\)")  # of a message, which has its place on the page of messages
 DOWNLOAD = re.compile(r"\{download\}`([^`<]+?)(?: <[^>]+>)?`")
@@ -40,21 +41,22 @@ def lay_out(root: Path, folder: Path):
     for source, place in BESIDE.items():
         if place != "index.md":
             target = folder / place
-            target.parent.mkdir(exist_ok=True)
+            target.parent.mkdir(exist_ok=True, parents=True)
             shutil.copy(root / source, target)
+    for source in sorted((root / MEASURED).glob("*.md")):
+        shutil.copy(source, folder / "project" / "benchmarks")
     for page in folder.rglob("*.md"):
         at = page.relative_to(folder).as_posix()
-        origin = next((one for one, other in BESIDE.items() if other == at), f"docs/{at}")
+        origin = origin_of(at)
         text = bent(page.read_text(encoding="utf-8"), origin, root)
         page.write_text(text, encoding="utf-8")
-    theory = folder / "mathematics.md"
-    text = theory.read_text(encoding="utf-8")
-    theory.write_text(formulas.linked(text), encoding="utf-8")
+    for page in (folder / "mathematics").glob("*.md"):
+        page.write_text(formulas.linked(page.read_text(encoding="utf-8")), encoding="utf-8")
     chapter = folder / "theory.md"
     chapter.write_text(
         without_code(chapter.read_text(encoding="utf-8"), formulas.prose_linked), encoding="utf-8"
     )
-    generated.write_pages(folder, formulas.functions_apart(text))
+    generated.write_pages(folder, formulas.functions_apart(formulas.theory()))
     for page in folder.rglob("*.md"):
         if is_myst_markdown_notebook(page.read_text(encoding="utf-8")):
             write_notebook(page)
@@ -84,10 +86,20 @@ def bent(text, origin, root):
     return without_code(text, lambda prose: CODE.sub(r"([\1](#\1))", LINK.sub(link, prose)))
 
 
+def origin_of(place):
+    """The file of the project that lies at a place of the folder."""
+    beside = next((one for one, other in BESIDE.items() if other == place), None)
+    if beside is None and place.startswith("project/benchmarks/"):
+        return f"{MEASURED}/{Path(place).name}"
+    return beside or f"docs/{place}"
+
+
 def place_of(target):
     """Where a file of the project lies in the folder; None if it is not of the site."""
     if target in BESIDE:
         return BESIDE[target]
+    if target.startswith(f"{MEASURED}/"):
+        return f"project/benchmarks/{Path(target).name}"
     if target in ("docs", "docs/"):
         return "index.md"
     return target.removeprefix("docs/") if target.startswith("docs/") else None

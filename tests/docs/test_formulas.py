@@ -9,11 +9,11 @@ from docs.building import formulas
 import burmester
 
 ROOT = Path(__file__).parents[2]
-THEORY = ROOT / "docs" / "mathematics.md"
+THEORY = formulas.theory()
 
 
 def test_formulas_and_docstrings_name_each_other():
-    told = formulas.on_page(THEORY.read_text(encoding="utf-8"))
+    told = formulas.on_page(THEORY)
     told_back = formulas.in_docstrings(ROOT / "src" / "burmester")
     assert told - told_back == set(), "the docstring does not say so"
     assert told_back - told == set(), "the page does not say so"
@@ -21,18 +21,17 @@ def test_formulas_and_docstrings_name_each_other():
 
 
 def test_every_formula_has_a_name_and_every_function_exists():
-    text = THEORY.read_text(encoding="utf-8")
-    assert text.count("\n$$\n") == 2 * len(formulas.ON_PAGE.findall(text))
-    names = [name for name, _ in formulas.ON_PAGE.findall(text)]
+    assert THEORY.count("\n$$\n") == 2 * len(formulas.ON_PAGE.findall(THEORY))
+    names = [name for name, _ in formulas.ON_PAGE.findall(THEORY)]
     assert len(set(names)) == len(names)
-    for _, function in formulas.on_page(text):
+    for _, function in formulas.on_page(THEORY):
         assert callable(formulas.owner(function)), function
 
 
 def test_the_chapter_names_every_formula_once():
     chapter = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
     names = formulas.in_prose(chapter)
-    known = {name for name, _ in formulas.on_page(THEORY.read_text(encoding="utf-8"))}
+    known = {name for name, _ in formulas.on_page(THEORY)}
     assert sorted(names) == sorted(known)
     linked = formulas.prose_linked("formulas `one`, `two` and `three`, a `word`")
     assert linked == (

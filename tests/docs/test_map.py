@@ -11,9 +11,14 @@ from docs.building.modules import modules
 ROOT = Path(__file__).parents[2]
 SOURCE = ROOT / "src" / "burmester"
 MAP = ROOT / "ARCHITECTURE.md"
-PAGES = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), ROOT / "benchmarks" / "README.md"]
+PAGES = [
+    *ROOT.glob("*.md"),
+    *(ROOT / "docs").rglob("*.md"),
+    ROOT / "benchmarks" / "README.md",
+    *(ROOT / "benchmarks" / "measured").glob("*.md"),
+]
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
-MADE = {ROOT / "docs" / "reference" / f"{name}.md" for name in GENERATED}
+MADE = {ROOT / "docs" / "reference" / f"{name}.md" for name in (*GENERATED, "messages/index")}
 ENDINGS = (".py", "", ".npz", ".md", ".json", ".mjs")
 
 

@@ -388,4 +388,5 @@ def test_the_page_says_which_paths_were_followed_and_when_each_tool_ran():
 
 def test_the_page_is_that_of_the_results():
     data = json.loads(RESULTS.read_text(encoding="utf-8"))
-    assert page.PAGE.read_text(encoding="utf-8") == page.text(data)
+    for file, template in page.PAGES.items():
+        assert file.read_text(encoding="utf-8") == page.text(data, template)

@@ -110,7 +110,7 @@ def test_citation_names_the_paper_as_the_program_does():
     assert source == (paper["year"], paper["volume"], paper["issue"], paper["start"])
     names = re.findall(r"family-names: (\w+)", citation)
     assert f"{', '.join(names)} (2012)" in case
-    mathematics = " ".join((ROOT / "docs/mathematics.md").read_text("utf-8").split())
+    mathematics = " ".join((ROOT / "docs/mathematics/index.md").read_text("utf-8").split())
     assert paper["title"] in mathematics
     assert paper["journal"] in mathematics
 
