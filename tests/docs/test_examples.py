@@ -39,7 +39,16 @@ ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 NAMES = [str(page.relative_to(ROOT)) for page in PAGES]
 SETTING_UP = ("pip ", "git ", "cd ", "source ", "python -m venv ", "python -m pip ", "scripts/")
-OPTIONAL = ("build123d", "ezdxf", "flint", "imageio_ffmpeg", "matplotlib", "pyarrow", "PIL")
+OPTIONAL = (
+    "build123d",
+    "ezdxf",
+    "flint",
+    "imageio_ffmpeg",
+    "matplotlib",
+    "pyarrow",
+    "pypdf",
+    "PIL",
+)
 OF_ITS_OWN = {"batch", "reproduce", "studio"}  # commands that start processes, or wait
 SHELL = re.compile(r"[|&;<>$`*~\n]")  # what a shell may have to do with
 ERROR = re.compile(r"^error(\[|:)", re.MULTILINE)

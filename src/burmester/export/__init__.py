@@ -78,7 +78,7 @@ FORMATS: Final[Mapping[str, Format]] = {
         "the plates at 1:1, to print on A4 or Letter",
         ".pdf",
         "export",
-        ("matplotlib",),
+        ("matplotlib", "pypdf"),
     ),
     "step": Format(
         "solids.solid", "solid parts in their places (mm)", ".step", "solid", ("build123d",)

@@ -1,6 +1,7 @@
 """A drawing as a display list: the plates laid out for cutting, the assembly, and all that is told.
 
-DXF and SVG write the same list, in millimetres, and their readers return it; it is compared once.
+DXF and SVG write the same list, in millimetres, PDF its items page by page; their readers return
+items, which are compared once.
 
 E160 the file does not contain the linkage
 """
@@ -35,7 +36,7 @@ TICK = 0.3  # of the height of text: half of a mark's arms
 Kind: TypeAlias = Literal["outline", "circle", "line", "arrow", "text"]
 Role: TypeAlias = Literal[
     "outline", "hole", "slot", "mark", "body", "keep-out", "hatch", "pose", "name", "note",
-    "dimension",
+    "dimension", "ruler", "overlap",
 ]  # fmt: skip
 
 
@@ -98,35 +99,47 @@ class Drawing:
 
     def dimension_items(self) -> list[Item]:
         """The items of all dimension lines."""
-        found = list[Item]()
-        for plate, line in self.dimensions:
-            found += [Item("line", "dimension", ends, plate) for ends in line.lines]
-            found += [Item("arrow", "dimension", corners, plate) for corners in line.arrows]
-            found.append(Item("text", "dimension", line.at, plate, line.text))
-        return found
+        return [item for plate, line in self.dimensions for item in items_of_line(line, plate)]
+
+
+def items_of_line(line: DimensionLine, group: str) -> Iterable[Item]:
+    """A dimension line of a plate."""
+    yield from (Item("line", "dimension", ends, group) for ends in line.lines)
+    yield from (Item("arrow", "dimension", corners, group) for corners in line.arrows)
+    yield Item("text", "dimension", line.at, group, line.text)
 
 
 def _parts(assembly: Assembly, sheet: Sheet) -> Iterable[Item]:
     """The plates laid out with their names, and in the assembly."""
     for part, label in zip(sheet.parts, sheet.labels, strict=True):
-        yield from _plate(part.plate, part.place, sheet, part.plate.name)
+        yield from items_of_plate(part.plate, part.place, part.plate.name)
+        yield from _marks(part.plate, part.place, sheet, part.plate.name)
         yield Item("text", "name", label, part.plate.name, part.label)
     for plate in assembly.plates:
-        yield from _plate(plate, plate.at(assembly.drawn), sheet, f"placed-{plate.name}")
+        place, group = plate.at(assembly.drawn), f"placed-{plate.name}"
+        yield from items_of_plate(plate, place, group)
+        yield from _marks(plate, place, sheet, group)
     for name, at in joint_names(assembly, sheet):
         yield Item("text", "name", at, "joints", name)
 
 
-def _plate(plate: Plate, place: Displacement, sheet: Sheet, group: str) -> Iterable[Item]:
-    outline, holes, slots, marks = moved(plate, place)
+def items_of_plate(plate: Plate, place: Displacement, group: str) -> Iterable[Item]:
+    """What is cut of a plate at a place."""
+    outline, holes, slots, _ = moved(plate, place)
     yield Item("outline", "outline", outline, group)
-    for hole in holes:
-        yield Item("circle", "hole", hole, group)
-    for slot in slots:
-        yield Item("outline", "slot", slot_outline(slot), group)
-    for mark in marks:
-        for arm in TICK * sheet.letters * np.eye(2):
-            yield Item("line", "mark", np.stack([mark - arm, mark + arm]), group)
+    yield from (Item("circle", "hole", hole, group) for hole in holes)
+    yield from (Item("outline", "slot", slot_outline(slot), group) for slot in slots)
+
+
+def cross(at: FloatArray, arm: float, role: Role, group: str = "") -> Iterable[Item]:
+    """Two lines that cross at a point."""
+    for way in arm * np.eye(2):
+        yield Item("line", role, np.stack([at - way, at + way]), group)
+
+
+def _marks(plate: Plate, place: Displacement, sheet: Sheet, group: str) -> Iterable[Item]:
+    for mark in place.act(plate.marks):
+        yield from cross(mark, TICK * sheet.letters, "mark", group)
 
 
 def _outlines(outlines: Outlines, letters: float) -> Iterable[Item]:
@@ -156,22 +169,24 @@ def _poses(poses: Displacement, sheet: Sheet) -> Iterable[Item]:
         yield Item("text", "pose", beside(poses[number], sheet), text=str(number + 1))
 
 
-def halved(outline: FloatArray) -> FloatArray:
-    """The outline with its arcs of a third of a turn or more in two.
+def halved(outline: FloatArray, largest: float = MAX_BULGE) -> FloatArray:
+    """The outline with its arcs in two as long as one has a larger bulge.
 
-    Its ends and its radius determine half a circle to half the digits only.
+    By itself arcs of a third of a turn or more: its ends and its radius determine half a circle to
+    half the digits only.
     """
     rows: list[list[float]] = []
     for (x0, y0, bulge), (x, y, _) in zip(
         outline.tolist(), np.roll(outline, -1, axis=0).tolist(), strict=True
     ):
-        if abs(bulge) < MAX_BULGE:
+        if abs(bulge) < largest:
             rows.append([x0, y0, bulge])
             continue
         half = math.tan(math.atan(bulge) / 2)
         middle = (x0 + x + bulge * (y - y0)) / 2, (y0 + y - bulge * (x - x0)) / 2
         rows += [[x0, y0, half], [*middle, half]]
-    return np.array(rows)
+    small = all(abs(bulge) < largest for _, _, bulge in rows)
+    return np.array(rows) if small else halved(np.array(rows), largest)
 
 
 def require_drawing(
@@ -179,19 +194,10 @@ def require_drawing(
 ) -> None:
     """Raise E160 unless a drawing that was read back is this one.
 
-    Every item is there and no other one, in the order of its role; and the holes of the assembly
-    are at the pivots of the linkage.  escaped: how the format writes a text.
+    The holes of the assembly are at the pivots of the linkage, too.  escaped: how the format
+    writes a text.
     """
-    wanted = [*drawing.items, *drawing.dimension_items()]
-    for role in dict.fromkeys(each.role for each in (*wanted, *read)):
-        one, two = ([each for each in items if each.role == role] for items in (read, wanted))
-        require_equal(f"how many items there are of {role}", len(one), len(two), 0)
-        for got, own in zip_longest(one, two):
-            what = f"{own.role} {own.group or own.text}"
-            require_equal(f"the kind of {what}", got.kind == own.kind, True, 0)
-            require_equal(f"the text of {what}", got.text == escaped(own.text), True, 0)
-            at = halved(own.at) if got.kind == "outline" and len(got.at) != len(own.at) else own.at
-            require_equal(f"{what}", got.at, at, tolerance)
+    require_items(read, [*drawing.items, *drawing.dimension_items()], tolerance, escaped)
     holes = [each for each in read if each.role == "hole"]
     for pivot in pivots_of(drawing.assembly):
         if pivot.point is not None:
@@ -201,3 +207,21 @@ def require_drawing(
             require_equal(
                 f"a pivot in the {pivot.plates[0]}", gap.min(initial=np.inf), 0, tolerance
             )
+
+
+def require_items(
+    read: Sequence[Item],
+    wanted: Sequence[Item],
+    tolerance: float,
+    escaped: Callable[[str], str] = str,
+) -> None:
+    """Raise E160 unless every item is there and no other one, in the order of its role."""
+    for role in dict.fromkeys(each.role for each in (*wanted, *read)):
+        one, two = ([each for each in items if each.role == role] for items in (read, wanted))
+        require_equal(f"how many items there are of {role}", len(one), len(two), 0)
+        for got, own in zip_longest(one, two):
+            what = f"{own.role} {own.group or own.text}"
+            require_equal(f"the kind of {what}", got.kind == own.kind, True, 0)
+            require_equal(f"the text of {what}", got.text == escaped(own.text), True, 0)
+            at = halved(own.at) if got.kind == "outline" and len(got.at) != len(own.at) else own.at
+            require_equal(f"{what}", got.at, at, tolerance)

@@ -8,7 +8,7 @@ E160 the file does not contain the linkage        E162 more pages than anybody p
 
 from __future__ import annotations
 
-import math
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, Final
 
@@ -20,17 +20,27 @@ from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Curve
 from matplotlib.text import Text
 from matplotlib.transforms import Affine2D, Bbox, IdentityTransform
+from pypdf import PageObject, PdfReader
+from pypdf.errors import PyPdfError
 
 from burmester.export.description import description, length_decimals
+from burmester.export.drawings.drawing import (
+    Item,
+    Kind,
+    Role,
+    cross,
+    halved,
+    items_of_line,
+    items_of_plate,
+    require_items,
+)
 from burmester.export.drawings.pages import LETTERS, MARGIN, Page, Pages, pages_of
-from burmester.export.drawings.pdf_paths import read_pages
 from burmester.export.drawings.sheet import notes_on
 from burmester.export.escaping import pdf_text
 from burmester.export.options import Options
 from burmester.export.parts.holes import axis_deviation, pivots_of
-from burmester.export.parts.outlines import slot_outline
-from burmester.export.parts.plate import moved
-from burmester.export.parts.plates import assembly_of
+from burmester.export.parts.outlines import rounded_hull
+from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import fault, require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
@@ -38,10 +48,12 @@ from burmester.synthesis.result import Candidate
 POINT: Final = 25.4 / 72  # mm
 TOLERANCE_MM: Final = 1e-5  # largest deviation of what is read back; written to 1e-6 points
 FONT: Final = 1.15  # of the height of text: size of the font whose capitals have about that height
-INK: Final = {"cut": ("#000000", 0.25), "fine": ("#777777", 0.1), "dimension": ("#a65200", 0.12)}
-PAPER: Final = (
-    "#ffffff"  # fills what is cut: Matplotlib shortens lines that are not filled at the page
-)
+EIGHTH: Final = 0.2  # bulge above which an arc is drawn as two curves: one of an eighth of a turn
+DIMENSION: Final = "#a65200"
+CUT, FINE = ("#000000", 0.25), ("#777777", 0.1)  # colours, and widths in mm
+INK: Final = {"mark": FINE, "dimension": (DIMENSION, 0.12)}
+# Fills what is cut: Matplotlib shortens lines that are not filled at the page.
+PAPER: Final = "#ffffff"
 STYLE: Final[dict[Any, Any]] = {  # whatever a person's own style says
     "text.usetex": False,
     "font.family": ["DejaVu Sans"],
@@ -54,8 +66,7 @@ STYLE: Final[dict[Any, Any]] = {  # whatever a person's own style says
 
 def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the pages; raises E162."""
-    assembly = assembly_of(chosen, options)
-    pages = pages_of(assembly, length_decimals(chosen, options), options.dimensions)
+    assembly, pages = _pages(chosen, options)
     said = [pdf_text(each) for each in description(chosen, options, "mm")]
     head = [said[0].rstrip("."), notes_on(assembly)[0]]
     if assembly.assumed:
@@ -65,199 +76,207 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         for number, page in enumerate(pages.pages, start=1):
             figure = Figure(figsize=(pages.size[0] / 25.4, pages.size[1] / 25.4), dpi=72)
             FigureCanvasPdf(figure)
-            _draw(figure, pages, page, head, number)
+            figure.patch.set_visible(False)
+            for item in _on_plates(pages, page):
+                _draw(figure, item, (pages.low, pages.high) if page.tiled else None)
+            for item in (*_frame(pages, page), *_head(pages, page, head, number)):
+                _draw(figure, item)
             file.savefig(figure)
 
 
-def _draw(figure: Figure, pages: Pages, page: Page, head: list[str], number: int) -> None:
-    clip = (pages.low, pages.high) if page.tiled else None
+def _pages(chosen: Candidate, options: Options) -> tuple[Assembly, Pages]:
+    assembly = assembly_of(chosen, options)
+    return assembly, pages_of(assembly, length_decimals(chosen, options), options.dimensions)
+
+
+def _on_plates(pages: Pages, page: Page) -> Iterable[Item]:
+    """The plates of a page, with crosses in their holes, dimension lines and names.
+
+    Of a plate on several pages, dimension lines that are apart from this one are left out.
+    """
     for part, label in zip(page.parts, page.labels, strict=True):
-        outline, holes, slots, marks = moved(part.plate, part.place)
-        for rows in (outline, *map(slot_outline, slots)):
-            _stroke(figure, _curve(rows), "cut", clip, PAPER)
-        for x, y, diameter in holes.tolist():
-            _stroke(figure, Curve.circle((x, y), diameter / 2), "cut", clip, PAPER)
-        ends = slots[:, :4].reshape(-1, 2)
-        for centre in (*holes[:, :2], *ends, *marks):
-            arm = max(0.8 * part.plate.holes[:, 2].max(initial=0.0), 0.6 * LETTERS)
-            _stroke(figure, _cross(centre, arm), "fine", clip)
+        plate, name = part.plate, part.plate.name
+        yield from items_of_plate(plate, part.place, name)
+        ends = plate.slots[:, :4].reshape(-1, 2)
+        arm = max(0.8 * plate.holes[:, 2].max(initial=0.0), 0.6 * LETTERS)
+        for centre in part.place.act(np.concatenate([plate.holes[:, :2], ends, plate.marks])):
+            yield from cross(centre, arm, "mark", name)
         for line in part.lines:
-            if clip and _apart(np.stack([line.low, line.high]), *clip):
-                continue
-            _stroke(figure, _lines(line.lines), "dimension", clip)
-            for arrow in line.arrows:
-                _stroke(figure, Curve(arrow, closed=False), "dimension", clip, INK["dimension"][0])
-            _text(figure, line.text, line.at, clip, centred=True)
-        _text(figure, part.label, label, clip)
+            if (line.high >= pages.low).all() and (line.low <= pages.high).all():
+                yield from items_of_line(line, name)
+        yield Item("text", "name", label, name, part.label)
+
+
+def _frame(pages: Pages, page: Page) -> Iterable[Item]:
+    """The crosses and the border of a page that overlaps others, and the ruler."""
     for mark in page.marks:
-        _stroke(figure, _cross(mark, 4.0), "cut", None)
-        _stroke(figure, Curve.circle(mark, 2.0), "fine", None)
+        yield Item("circle", "mark", np.array([*mark, 4.0]))
+        yield from cross(mark, 4.0, "overlap")
     if page.tiled:
-        (x, y), (u, v) = pages.low, pages.high
-        frame = np.array([[[x, y], [u, y]], [[u, y], [u, v]], [[u, v], [x, v]], [[x, v], [x, y]]])
-        _stroke(figure, _lines(frame), "fine", None)
-    _frame(figure, pages, page, head, number)
+        corners = np.array([pages.low, [pages.high[0], pages.low[1]], pages.high])
+        corners = np.vstack([corners, [pages.low[0], pages.high[1]]])
+        yield from _lines(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), "mark")
+    length, divisions, _ = pages.ruler
+    at = MARGIN + length * np.arange(divisions + 1) / divisions
+    high = MARGIN + np.where(2 * np.arange(divisions + 1) % divisions == 0, 4.0, 2.0)
+    low = np.full_like(at, MARGIN)
+    yield Item("line", "ruler", np.array([[MARGIN, MARGIN], [MARGIN + length, MARGIN]]))
+    yield from _lines(np.stack([at, low, at, high], axis=1).reshape(-1, 2, 2), "ruler")
 
 
-def _apart(points: FloatArray, low: FloatArray, high: FloatArray) -> bool:
-    """Whether the box around points (n, 2) is apart from a box."""
-    return bool((points.max(axis=0) < low).any() or (points.min(axis=0) > high).any())
+def _lines(lines: FloatArray, role: Role) -> Iterable[Item]:
+    """Lines (k, 2, 2)."""
+    return (Item("line", role, ends) for ends in lines)
 
 
-def _frame(figure: Figure, pages: Pages, page: Page, head: list[str], number: int) -> None:
-    """The title and the ruler of a page."""
-    _, height = pages.size
-    top = height - MARGIN - LETTERS
-    length, divisions, name = pages.ruler
+def _head(pages: Pages, page: Page, head: list[str], number: int) -> Iterable[Item]:
+    """The title of a page, and the numbers of its ruler."""
+    length, _, name = pages.ruler
     lines_of_text = [
         f"{head[0]}   scale 1:1   page {number} of {len(pages.pages)}",
         page.title + (": lay the crosses of neighbours on each other" if page.tiled else ""),
         f"Print at 100 % on {pages.paper}, not fitted to the page: the ruler is {name} long.",
         *head[1:],
     ]
+    top = np.array([MARGIN, pages.size[1] - MARGIN - LETTERS])
     for row, text in enumerate(lines_of_text):
-        _text(figure, text, np.array([MARGIN, top - 1.7 * LETTERS * row]), None)
-    start = np.array([MARGIN, MARGIN])
-    lines = [[start, start + np.array([length, 0])]]
-    for k in range(divisions + 1):
-        at = start + np.array([length * k / divisions, 0])
-        lines.append([at, at + np.array([0, 4.0 if 2 * k % divisions == 0 else 2.0])])
-    _stroke(figure, _lines(np.array(lines)), "cut", None)
-    _text(figure, "0", start + np.array([0.6, 2.2]), None)
-    _text(figure, name, start + np.array([length + 1.0, 0]), None)
+        yield Item("text", "note", top - [0, 1.7 * LETTERS * row], text=text)
+    for text, way in (("0", [0.6, 2.2]), (name, [length + 1.0, 0.0])):
+        yield Item("text", "note", MARGIN + np.array(way), text=text)
 
 
-def _stroke(
-    figure: Figure,
-    curve: Curve,
-    ink: str,
-    clip: tuple[FloatArray, FloatArray] | None,
-    fill: str = "",
-) -> None:
-    """Draw a path; fill: the colour of its inside, if it has one."""
-    colour, width = INK[ink]
-    patch = PathPatch(
-        curve,
-        transform=Affine2D().scale(1 / POINT),
-        fill=bool(fill),
-        facecolor=fill or "none",
-        edgecolor=colour,
-        linewidth=width / POINT,
-        capstyle="butt",
-        joinstyle="round",
-    )
-    figure.add_artist(patch)
-    if clip is not None:
-        patch.set_clip_box(Bbox(np.array(clip) / POINT))
-
-
-def _text(
-    figure: Figure,
-    text: str,
-    at: FloatArray,
-    clip: tuple[FloatArray, FloatArray] | None,
-    centred: bool = False,
-) -> None:
-    x, y = (at / POINT).tolist()
-    artist = Text(
-        x,
-        y,
-        text,
-        transform=IdentityTransform(),
-        fontsize=FONT * LETTERS / POINT,
-        horizontalalignment="center" if centred else "left",
-        verticalalignment="center" if centred else "baseline",
-        color=INK["dimension" if centred else "cut"][0],
-        parse_math=False,
-    )
+def _draw(figure: Figure, item: Item, clip: tuple[FloatArray, FloatArray] | None = None) -> None:
+    """Draw an item; clip: two corners of the box that is drawn of it."""
+    colour, width = INK.get(item.role, CUT)
+    if item.kind == "text":
+        centred = item.role == "dimension"
+        x, y = (item.at / POINT).tolist()
+        artist: Any = Text(
+            x,
+            y,
+            item.text,
+            transform=IdentityTransform(),
+            fontsize=FONT * LETTERS / POINT,
+            horizontalalignment="center" if centred else "left",
+            verticalalignment="center" if centred else "baseline",
+            color=colour,
+            parse_math=False,
+            clip_on=clip is not None,
+        )
+    else:
+        artist = PathPatch(
+            _curve(_divided(item)),
+            transform=Affine2D().scale(1 / POINT),
+            fill=item.kind != "line",
+            facecolor=colour if item.kind == "arrow" else PAPER,
+            edgecolor=colour,
+            linewidth=width / POINT,
+            capstyle="butt",
+            joinstyle="round",
+        )
     figure.add_artist(artist)
     if clip is not None:
         artist.set_clip_box(Bbox(np.array(clip) / POINT))
-        artist.set_clip_on(True)
 
 
-def _cross(at: FloatArray, arm: float) -> Curve:
-    return _lines(at + arm * np.array([[[-1, 0], [1, 0]], [[0, -1], [0, 1]]]))
+def _divided(item: Item) -> Item:
+    """An item with arcs of an eighth of a turn at most; a circle is an outline then."""
+    at = item.at
+    if item.kind == "circle":
+        at = rounded_hull(at[None, :2], at[2] / 2)
+    elif item.kind != "outline":
+        return item
+    return item._replace(kind="outline", at=halved(at, EIGHTH))
 
 
-def _lines(lines: FloatArray) -> Curve:
-    """Lines (k, 2, 2), each on its own."""
-    codes = [Curve.MOVETO, Curve.LINETO] * len(lines)
-    return Curve(lines.reshape(-1, 2), codes)
-
-
-def _curve(outline: FloatArray) -> Curve:
-    """A closed outline (k, 3); an arc is cubic curves of an eighth of a turn at most."""
-    points: list[complex] = [complex(*outline[0, :2])]
-    codes = [Curve.MOVETO]
-    for (x, y, bulge), (u, v, _) in zip(outline, np.roll(outline, -1, axis=0), strict=True):
-        start, end = complex(x, y), complex(u, v)
-        if bulge == 0:
-            points.append(end)
-            codes.append(Curve.LINETO)
-            continue
-        angle = 4 * math.atan(bulge)
-        centre = start + (end - start) * (0.5 + 0.25j * (1 / bulge - bulge))
-        count = math.ceil(abs(angle) / (math.pi / 4))
-        step = angle / count
-        reach = 4 / 3 * math.tan(step / 4) * 1j
-        for k in range(count):
-            one = (start - centre) * complex(math.cos(k * step), math.sin(k * step))
-            two = one * complex(math.cos(step), math.sin(step))
-            last = end if k == count - 1 else centre + two
-            points += [centre + one * (1 + reach), centre + two * (1 - reach), last]
-            codes += [Curve.CURVE4] * 3
-    points.append(points[0])
-    codes.append(Curve.CLOSEPOLY)
-    return Curve(np.array([[each.real, each.imag] for each in points]), codes)
+def _curve(item: Item) -> Curve:
+    """The path of a line, an arrow, or an outline, whose arcs are cubic curves."""
+    if item.kind != "outline":
+        return Curve(item.at, closed=False)
+    start, bulge = item.at[:, :2] @ [1, 1j], item.at[:, 2]
+    chord = np.roll(start, -1) - start
+    rows, codes = [start[:1]], [Curve.MOVETO]
+    for z, way, b in zip(start, chord, bulge, strict=True):
+        first, second = way * (1 - b * b - 2j * b) / 3, way * (1 - b * b + 2j * b) / 3
+        rows.append(np.array([z + first, z + way - second, z + way][0 if b else 2 :]))
+        codes += [Curve.CURVE4] * 3 if b else [Curve.LINETO]
+    points = np.concatenate([*rows, start[:1]])
+    return Curve(np.stack([points.real, points.imag], axis=1), [*codes, Curve.CLOSEPOLY])
 
 
 def check(chosen: Candidate, path: Path, options: Options) -> None:
     """Read the pages back and compare them; raises E160.
 
-    Each page has its size and its ruler, each plate its outline, its slots and its dimension lines;
-    and the holes of each plate, put back to where the assembly has it, are at the pivots.
+    Each page has its size and what is drawn on it; and the holes of each plate, put back to where
+    the assembly has it, are at the pivots.  Of a plate on several pages lines may end at the edge
+    of one, and are not compared.
     """
-    assembly = assembly_of(chosen, options)
-    pages = pages_of(assembly, length_decimals(chosen, options), options.dimensions)
+    assembly, pages = _pages(chosen, options)
     try:
-        read = read_pages(path)
-    except ValueError as error:
+        read = PdfReader(path).pages
+        sizes = [np.array(page.mediabox[2:], dtype=np.float64) * POINT for page in read]
+        paths = [list(_paths(page)) for page in read]
+    except (PyPdfError, LookupError, TypeError, ValueError, AttributeError) as error:
         message = "what was written is no sound PDF, so nothing was kept"
-        raise fault(str(error), message) from None
+        raise fault(f"its pages cannot be read: {error}", message) from None
     require_equal("the number of pages", len(read), len(pages.pages), 0)
     holes: dict[str, list[FloatArray]] = {}
-    for page, paths in zip(pages.pages, read, strict=True):
-        require_equal("the size of a page", paths.size, pages.size, TOLERANCE_MM)
-        ruler = np.array([[MARGIN, MARGIN], [MARGIN + pages.ruler[0], MARGIN]])
-        require_equal("the ruler", _nearest(paths.lines, ruler), 0, TOLERANCE_MM)
+    for page, size, found in zip(pages.pages, sizes, paths, strict=True):
+        require_equal("the size of a page", size, pages.size, TOLERANCE_MM)
+        drawn = map(_divided, (*_on_plates(pages, page), *_frame(pages, page)))
+        kinds = ("outline",) if page.tiled else ("outline", "line", "arrow")
+        wanted = [_with_rises(each) for each in drawn if each.kind in kinds]
+        got = [each for each in found if each[0] in kinds]
+        require_equal("the number of paths", len(got), len(wanted), 0)
+        items = [
+            own._replace(kind=kind, at=at) for own, (kind, at) in zip(wanted, got, strict=True)
+        ]
+        require_items(items, wanted, TOLERANCE_MM)
         for part in page.parts:
-            outline, circles, slots, _ = moved(part.plate, part.place)
-            for rows in (outline, *map(slot_outline, slots)):
-                if len(rows) > 2:  # otherwise it is a circle
-                    off = min((_corners_off(each, rows) for each in paths.outlines), default=np.inf)
-                    require_equal(f"an outline of {part.plate.name}", off, 0, TOLERANCE_MM)
-            for circle in circles:
-                off = np.abs(paths.circles - circle).max(axis=1).min(initial=np.inf)
-                require_equal(f"a hole of {part.plate.name}", off, 0, TOLERANCE_MM)
+            name = part.plate.name
+            own = [each.at for each in items if (each.group, each.role) == (name, "hole")]
+            centres = np.array([each[:, :2].mean(axis=0) for each in own]).reshape(-1, 2)
             back = part.plate.at(assembly.drawn) @ part.place.inverse()
-            holes.setdefault(part.plate.name, []).append(back.act(paths.circles[:, :2]))
-            for line in part.lines if not page.tiled else ():
-                for ends in line.lines:
-                    off = _nearest(paths.lines, ends)
-                    require_equal(f"a dimension of {part.plate.name}", off, 0, TOLERANCE_MM)
+            holes.setdefault(name, []).append(back.act(centres))
     for joint in pivots_of(assembly):
         if joint.point is not None:
             gaps = [axis_deviation(joint, each) for name in joint.plates for each in holes[name]]
             require_equal(f"a pivot in the {joint.plates[0]}", min(gaps), 0, TOLERANCE_MM)
 
 
-def _nearest(lines: FloatArray, ends: FloatArray) -> float:
-    """How far the nearest of lines (n, 2, 2) is from one (2, 2)."""
-    return float(np.abs(lines - ends).max(axis=(1, 2)).min(initial=np.inf))
+def _with_rises(item: Item) -> Item:
+    """An outline with the rise of each arc above its chord in place of the bulge, in mm."""
+    if item.kind != "outline":
+        return item
+    chord = np.roll(item.at[:, :2], -1, axis=0) - item.at[:, :2]
+    rise = item.at[:, 2] * np.linalg.norm(chord, axis=1) / 2
+    return item._replace(at=np.column_stack([item.at[:, :2], rise]))
 
 
-def _corners_off(read: FloatArray, outline: FloatArray) -> float:
-    """How far the corners of an outline (k, 3) are from the nearest of points (n, 2)."""
-    gaps = np.linalg.norm(outline[:, None, :2] - read, axis=-1)
-    return float(gaps.min(axis=1).max())
+def _paths(page: PageObject) -> Iterable[tuple[Kind, FloatArray]]:
+    """What is drawn on a page, in its order: outlines with rises, lines and arrows; mm."""
+    points, middles, closed = list[complex](), list[complex](), False
+    content = page.get_contents()
+    assert content is not None
+    for operands, operator in content.operations:
+        if operator in (b"m", b"l", b"c"):
+            *inner, end = (np.array(operands, dtype=np.float64).reshape(-1, 2) @ [1, 1j]) * POINT
+            if operator == b"m":
+                points, middles, closed = [], [], False
+            else:
+                one, two = inner or (points[-1], end)
+                middles.append((points[-1] + 3 * one + 3 * two + end) / 8)
+            points.append(end)
+        elif operator == b"h":
+            closed = True
+        elif operator in (b"S", b"B") and points:
+            z = np.array(points)
+            at = np.stack([z.real, z.imag], axis=1)
+            if closed:
+                chord, off = np.diff(z), np.array(middles) - (z[1:] + z[:-1]) / 2
+                with np.errstate(invalid="ignore", divide="ignore"):
+                    rise = -(off * chord.conj()).imag / np.abs(chord)
+                yield "outline", np.column_stack([at[:-1], np.nan_to_num(rise)])
+            else:
+                yield "line" if len(z) == 2 else "arrow", at
+            points = []

@@ -10,24 +10,25 @@ E162 dimensions that cannot be made        E163 a linkage that a model of bodies
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 from pathlib import Path
+from typing import Literal
 from xml.etree import ElementTree
 
 import numpy as np
 
 from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
+from burmester.export.link_places import GROUND
 from burmester.export.models.bodies import Shape
 from burmester.export.models.body_tree import Body, Site, Tree, tree_of
 from burmester.export.models.driver_load import STANDARD_GRAVITY
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.models.mjcf_kinematics import frames_at
+from burmester.export.models.read_back import Link, require_pose
 from burmester.export.models.servo import Servo
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import PRECISION, as_rows, require_equal
+from burmester.export.reference import PRECISION, require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
@@ -225,37 +226,24 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
     The bodies' masses, the joints' limits and the motor's lead are compared, too.
     """
     model = DynamicModel.of(chosen, options)
-    reference = model.reference
-    tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     world = root.find("worldbody")
     assert world is not None
+    links = dict(_links(world, GROUND))
     keys = root.findall("keyframe/key")
-    require_equal("the number of key frames", len(keys), len(reference.places.angle), 0)
-    loops = root.findall("equality/connect")
-    require_equal("the number of loops", len(loops), len(tree_of(model, 0).loops), 0)
-    servo, carrier = Servo.of(model), model.made.body
+    require_equal("the number of key frames", len(keys), len(model.joints.at_poses), 0)
+    loops = [(each.get("site1"), each.get("site2")) for each in root.findall("equality/connect")]
+    own_loops = [(f"{each.name}_a", f"{each.name}_b") for each in tree_of(model, 0).loops]
+    require_equal("the loops", loops == own_loops, True, 0)
+    servo = Servo.of(model)
     for k, key in enumerate(keys):
         q = dict(zip(model.names, numbers_in(key, "qpos"), strict=True))
-        sites, angles = frames_at(world, q)
-        place = reference.places[k]
-        name = f"at pose {k + 1}"
-        body = sites["body"]
-        require_equal(f"the {carrier} {name}", [body.real, body.imag], place.translation, tolerance)
-        gap = np.exp(1j * (angles[carrier] - float(place.angle))) - 1
-        require_equal(f"the {carrier}'s angle {name}", abs(gap), 0, PRECISION)
-        for loop in loops:
-            apart = abs(sites[str(loop.get("site1"))] - sites[str(loop.get("site2"))])
-            require_equal(f"the loop {name}", apart, 0, tolerance)
+        require_pose(model, links, q, k)
         drive = q[model.driver]
         lead = numbers_in(key, "ctrl")[0] - drive
         own = servo.controls[k] - model.joints.at_poses[k, model.motor]
-        require_equal(f"the motor {name}", lead, own, PRECISION * (1 + abs(drive)))
-    hold = as_rows(reference.places[options.pose - 1])
-    sites, angles = frames_at(world, {})
-    body, turn = sites["body"], angles[carrier]
-    require_equal("where it begins", [body.real, body.imag], hold[:2], tolerance)
-    require_equal("how it begins", [math.cos(turn), math.sin(turn)], hold[2:], PRECISION)
+        require_equal(f"the motor at pose {k + 1}", lead, own, PRECISION * (1 + abs(drive)))
+    require_pose(model, links, {}, options.pose - 1)  # where it begins
     motor, option = root.find("actuator/position"), root.find("option")
     assert motor is not None
     assert option is not None
@@ -275,3 +263,22 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
         xx, yy, zz, xy_, xz, yz = numbers_in(mass, "fullinertia")
         inertia = [[xx, xy_, xz], [xy_, yy, yz], [xz, yz, zz]]
         model.require_body(name, numbers_in(mass, "mass")[0], numbers_in(mass, "pos"), inertia)
+
+
+def _links(element: ElementTree.Element, on: str) -> Iterable[tuple[str, Link]]:
+    """The bodies and sites that an element holds whose own name is `on`, by their names."""
+    for each in element:
+        name = each.get("name")
+        if each.tag not in ("site", "body") or name is None:
+            continue
+        x, y, _ = numbers_in(each, "pos")
+        if each.tag == "site":
+            yield name, Link(on, complex(x, y))
+            continue
+        joint = each.find("joint")
+        assert joint is not None
+        kind: Literal["slide", "hinge"] = "slide" if joint.get("type") == "slide" else "hinge"
+        along = complex(*numbers_in(joint, "axis" if kind == "slide" else "pos")[:2])
+        turn, zero = numbers_in(each, "euler")[2], numbers_in(joint, "ref")[0]
+        yield name, Link(on, complex(x, y), turn, kind, along, zero)
+        yield from _links(each, name)

@@ -12,8 +12,9 @@ E162 dimensions that cannot be made        E163 a linkage that a model of bodies
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Final, Literal
 from xml.etree import ElementTree
 
 import numpy as np
@@ -22,6 +23,7 @@ from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.models.body_tree import Body, Site, Tree, tree_of
 from burmester.export.models.dynamic_model import DynamicModel
+from burmester.export.models.read_back import Link, require_pose
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.reference import ORIGIN, PRECISION, require_equal
@@ -39,6 +41,12 @@ TILT = {  # roll, pitch, yaw by which the ground stands in a world with z upward
     "-x": (0.0, math.pi / 2, 0.0),
     "-y": (-math.pi / 2, 0.0, 0.0),
     "-z": (math.pi, 0.0, 0.0),
+}
+
+KINDS: Final[Mapping[str, Literal["fixed", "hinge", "slide"]]] = {
+    "fixed": "fixed",
+    "revolute": "hinge",
+    "prismatic": "slide",
 }
 
 
@@ -183,21 +191,12 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
     The masses of the links and the limits of the joints are compared, too.
     """
     model = DynamicModel.of(chosen, options)
-    reference, tree = model.reference, tree_of(model, options.pose - 1)
-    tolerance = PRECISION * reference.span
     root = ElementTree.parse(path).getroot()
     joints = {str(each.get("name")): each for each in root.findall("joint")}
+    frames = dict(map(_frame, root.findall("joint")))
     begin = model.joints.at_poses[options.pose - 1]
     for k, row in enumerate(model.joints.at_poses - begin):
-        q = dict(zip(model.names, row.tolist(), strict=True))
-        name, place = f"at pose {k + 1}", reference.places[k]
-        at, turn = _frame("body", joints, q)
-        require_equal(f"the body {name}", [at.real, at.imag], place.translation, tolerance)
-        gap = turn - complex(np.exp(1j * float(place.angle)))
-        require_equal(f"the body's angle {name}", abs(gap), 0, PRECISION)
-        for loop in tree.loops:
-            one, two = (_frame(f"{loop.name}_{end}", joints, q)[0] for end in "ab")
-            require_equal(f"the loop {name}", abs(one - two), 0, tolerance)
+        require_pose(model, frames, dict(zip(model.names, row.tolist(), strict=True)), k)
     stands = joints["ground"].find("origin")
     assert stands is not None
     require_equal("what is up", numbers_in(stands, "rpy"), TILT[options.up], PRECISION)
@@ -222,29 +221,14 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
         model.require_body(name, kilograms, numbers_in(origin, "xyz"), inertia, off)
 
 
-def _frame(
-    link: str, joints: dict[str, ElementTree.Element], q: dict[str, float]
-) -> tuple[complex, complex]:
-    """The origin of a link's frame in the ground's, and its turn."""
-    at, turn = 0j, 1 + 0j
-    while link != "ground":
-        joint = joints[link]
-        origin, parent = joint.find("origin"), joint.find("parent")
-        assert origin is not None
-        assert parent is not None
-        x, y, _ = numbers_in(origin, "xyz")
-        spin = numbers_in(origin, "rpy")[2]
-        own, by, value = 0j, complex(math.cos(spin), math.sin(spin)), q.get(link, 0.0)
-        if joint.get("type") == "revolute":
-            own, inner = 0j, complex(math.cos(value), math.sin(value))
-        elif joint.get("type") == "prismatic":
-            axis = joint.find("axis")
-            assert axis is not None
-            ax, ay, _ = numbers_in(axis, "xyz")
-            own, inner = value * complex(ax, ay), 1 + 0j
-        else:
-            inner = 1 + 0j
-        at = complex(x, y) + by * (own + inner * at)
-        turn = by * inner * turn
-        link = str(parent.get("link"))
-    return at, turn
+def _frame(joint: ElementTree.Element) -> tuple[str, Link]:
+    """The name of a joint, and the link that it carries."""
+    origin, parent, axis = (joint.find(each) for each in ("origin", "parent", "axis"))
+    assert origin is not None
+    assert parent is not None
+    x, y, _ = numbers_in(origin, "xyz")
+    kind, along = KINDS[str(joint.get("type"))], 0j
+    if kind == "slide" and axis is not None:
+        along = complex(*numbers_in(axis, "xyz")[:2])
+    turn = numbers_in(origin, "rpy")[2]
+    return str(joint.get("name")), Link(str(parent.get("link")), complex(x, y), turn, kind, along)
