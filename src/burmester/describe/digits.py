@@ -4,57 +4,11 @@ from __future__ import annotations
 
 import math
 
-from burmester.describe.decimals import Decimals, decimals_of_dyad, direction_deg
-from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
-from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.describe.decimals import Decimals
+from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import Synthesis
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import figure
-
-
-def fitted_decimals(synthesis: Synthesis, dyad: Dyad) -> Decimals:
-    """The decimals with which a dyad as fitted keeps its errors."""
-    return decimals_of_dyad(dyad, synthesis.task.poses, synthesis.length or 1.0)
-
-
-def sides(dyad: Dyad, decimals: Decimals) -> tuple[str, str, str]:
-    """A dyad's pivots or lines on the ground and on the body, and its link's length or "slider"."""
-    digits = decimals.lengths
-
-    def point(pivot: FloatArray) -> str:
-        return f"({fixed(pivot[0], digits)}, {fixed(pivot[1], digits)})"
-
-    def angle(value: float) -> str:
-        return f"{fixed(value, decimals.degrees)}°"
-
-    def line(side: PR | RP) -> str:
-        (middle,) = decimals.middles
-        assert middle is not None
-        return f"through {point(middle)},\nat {angle(direction_deg(side))}"
-
-    match dyad:
-        case RR():
-            return (
-                point(dyad.fixed_pivot),
-                point(dyad.moving_pivot),
-                fixed(float(dyad.radius), digits),
-            )
-        case PR():
-            return line(dyad), point(dyad.moving_pivot), "slider"
-        case RP():
-            return point(dyad.fixed_pivot), line(dyad), "slider"
-        case PP():
-            return f"angle {angle(math.degrees(float(dyad.angle)))}", "-", "slider"
-
-
-def dyad_error(synthesis: Synthesis, value: float) -> str:
-    """The error of a dyad alone, "exact" where it is rounding.
-
-    "-" where angles are free: how far a dyad is from a point depends on the other one.
-    """
-    if synthesis.task.free_angles.any():
-        return "-"
-    return "exact" if value < ROUNDING * (synthesis.length or 1.0) else short(value)
 
 
 def short(value: float) -> str:

@@ -10,14 +10,17 @@ from typing import NamedTuple
 
 from burmester.describe.decimals import (
     Decimals,
+    decimals_of_dyad,
     decimals_of_linkage,
     direction_deg,
     figures_of,
 )
-from burmester.describe.digits import fixed, length_text
+from burmester.describe.digits import fixed, length_text, short
+from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.synthesis.result import Synthesis
+from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 from burmester.wording import figure
@@ -122,6 +125,33 @@ def _of_dyad(
         yield "direction", degrees(direction_deg(dyad)), give
     if isinstance(dyad, PP):
         yield "angle", degrees(math.degrees(float(dyad.angle))), ""
+
+
+def dyad_in_words(found: FoundDyad, task: Task) -> dict[str, str]:
+    """A dyad alone: its sides on ground and body, its link's length or "slider", its errors.
+
+    To the digits that keep its errors, which are "exact" where they are rounding, and "-" where
+    angles are free: how far a dyad is from a point depends on the other one.
+    """
+    size = characteristic_length(task) or 1.0
+    sides = sides_of(found.dyad, decimals_of_dyad(found.dyad, task.poses, size))
+    errors = (
+        "-" if task.free_angles.any() else "exact" if each < ROUNDING * size else short(each)
+        for each in (found.rms_error, found.max_error)
+    )
+    return dict(zip(("ground", "body", "length", "rms", "worst"), (*sides, *errors), strict=True))
+
+
+def sides_of(dyad: Dyad, decimals: Decimals) -> tuple[str, str, str]:
+    """A dyad's pivots or lines on the ground and on the body, and its link's length or "slider"."""
+    one, *others = [value for _, value, _ in _of_dyad(dyad, decimals, None, decimals.middles[0])]
+    match dyad:
+        case RR():
+            return one, others[0], others[1]
+        case PP():
+            return f"angle {one}", "-", "slider"
+    line = f"through {others[0]},\nat {others[1]}"
+    return (line, one, "slider") if isinstance(dyad, PR) else (one, line, "slider")
 
 
 def _not_determined(region: PivotRegion) -> str:

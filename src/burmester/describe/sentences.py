@@ -7,8 +7,9 @@ from collections.abc import Iterator
 from typing import Final
 
 from burmester.describe import quality_words
-from burmester.describe.digits import degrees, fitted_decimals, sides, worst_errors
-from burmester.describe.dimensions import certain, decimals_of
+from burmester.describe.decimals import decimals_of_dyad
+from burmester.describe.digits import degrees, worst_errors
+from burmester.describe.dimensions import certain, decimals_of, sides_of
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks import notation
@@ -249,8 +250,8 @@ def dyads_title(synthesis: Synthesis) -> str:
         if dyad.id not in fitted:
             continue
         own = fitted[dyad.id]
-        decimals = fitted_decimals(synthesis, own)
-        if sides(own, decimals) != sides(dyad.dyad, decimals):
+        decimals = decimals_of_dyad(own, synthesis.task.poses, synthesis.length or 1.0)
+        if sides_of(own, decimals) != sides_of(dyad.dyad, decimals):
             return "Dyads as fitted, before the linkages are refined"
     return "Dyads"
 

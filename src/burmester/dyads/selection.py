@@ -7,7 +7,7 @@ Solutions and dyads of all tasks are rows, those of one task together.  One task
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple, Self, TypeAlias, final
 
 import numpy as np
@@ -67,6 +67,12 @@ class FoundDyad:
     max_error: float
     minimum: bool = True
     limits: int = 0
+
+    def at(self, poses: Displacement) -> FoundDyad:
+        """The same with its errors at poses (N,)."""
+        miss = np.abs(self.dyad.residual(poses))
+        rms, most = float(np.sqrt((miss**2).mean())), float(miss.max())
+        return replace(self, rms_error=rms, max_error=most)
 
 
 def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:

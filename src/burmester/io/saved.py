@@ -168,7 +168,8 @@ def _synthesis(tree: dict[str, Any], data: bytes, refused: dict[str, InputError]
         others += _claims(outcome, any(each.usable for each in six_bars.found))
         warnings += _judged_otherwise(others, refused)
         return Synthesis(problem, outcome, warnings=tuple(warnings), six_bars=six_bars)
-    dyads = _dyads(tree, task)
+    every = enumerate(_list(tree, "dyads"))
+    dyads = tuple(_dyad(each, f"dyads[{k}]").at(task.poses) for k, each in every)
     linkages, others = _linkages(tree, problem.merged(), refused)
     others += _claims(outcome, any(each.usable for each in linkages))
     return Synthesis(
@@ -348,17 +349,6 @@ def _dimensions(given: Any, where: str) -> Dyad:
     if isinstance(dyad, OpenLink):
         raise _bad_result(f"{where}.radius is missing")
     return dyad
-
-
-def _dyads(tree: dict[str, Any], task: Task) -> tuple[FoundDyad, ...]:
-    """The dyads of the file, with their errors at the poses; raises E150."""
-    out = []
-    for k, given in enumerate(_list(tree, "dyads")):
-        found = _dyad(given, f"dyads[{k}]")
-        miss = np.abs(found.dyad.residual(task.poses))
-        rms, most = float(np.sqrt((miss**2).mean())), float(miss.max())
-        out.append(replace(found, rms_error=rms, max_error=most))
-    return tuple(out)
 
 
 def _linkages(

@@ -10,7 +10,7 @@ from rich.table import Table
 from rich.text import Text
 
 from burmester.describe import sentences, six_bar_words
-from burmester.describe.digits import dyad_error, fitted_decimals, sides
+from burmester.describe.dimensions import dyad_in_words
 from burmester.describe.moved_pivots import improvements
 from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table, show_warnings, table_of
@@ -195,8 +195,7 @@ def _dyads(synthesis: Synthesis, width: int) -> Table:
     if width >= 80:
         table.add_column("worst", justify="right", no_wrap=True)
     for found in synthesis.dyads:
-        ground, body, length = sides(found.dyad, fitted_decimals(synthesis, found.dyad))
-        errors = dyad_error(synthesis, found.rms_error), dyad_error(synthesis, found.max_error)
+        ground, body, length, *errors = dyad_in_words(found, synthesis.task).values()
         where: tuple[str, ...] = (ground, body, length)
         if narrow:
             where = ("\n".join(where),) if slim else (f"{ground}\n{body}", length)

@@ -327,11 +327,9 @@ class Evaluation:
 
     def dyad(self, origin: FoundDyad | str, dyad: Dyad) -> FoundDyad:
         """A dyad with its own errors at the poses, and the id of its origin."""
-        miss = np.abs(dyad.residual(self.task.poses))
-        rms, worst = float(np.sqrt((miss**2).mean())), float(miss.max())
         if isinstance(origin, str):
-            return FoundDyad(origin, dyad, rms, worst, False)
-        return _with_errors(origin, dyad, rms, worst)
+            origin = FoundDyad(origin, dyad, 0, 0, False)
+        return replace(origin, dyad=dyad).at(self.task.poses)
 
     def errors(self, places: Displacement) -> list[PoseError]:
         """The errors of linkages (k,) at places (k, N) in the task's own frames."""

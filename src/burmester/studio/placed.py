@@ -11,8 +11,6 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.describe import digits
-from burmester.describe.decimals import decimals_of_dyad
 from burmester.dyads.pivot_map import fixed_pivot_map, moving_pivot_map
 from burmester.dyads.selection import FoundDyad
 from burmester.dyads.three_poses import dyad_with_fixed_pivot, dyad_with_moving_pivot
@@ -20,14 +18,14 @@ from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
-from burmester.io.linkage_data import dyad_data, number
+from burmester.io.linkage_data import number
 from burmester.io.result import message_data
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.judgement import judge_linkage
-from burmester.tasks.motion_task import Task, characteristic_length
+from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.values import real_numbers
-from burmester.web.data import linkage_report
+from burmester.web.data import dyad_report, linkage_report
 
 PLANES: Final = ("F", "M")
 
@@ -38,9 +36,9 @@ def placed(task: Task, pivots: Any, options: SynthesisOptions, frames: int) -> d
     pivots: [{"plane": "F" or "M", "at": [x, y]}].  Raises InputError E153 for what is no pivot.
     """
     dyads = [_dyad(task, *each) for each in _pivots(pivots)]
-    found = [_found(f"P{k}", dyad, task) for k, dyad in enumerate(dyads, start=1)]
+    found = [FoundDyad(f"P{k}", dyad, 0, 0).at(task.poses) for k, dyad in enumerate(dyads, start=1)]
     answer: dict[str, Any] = {
-        "dyads": [_report(each, task) for each in found],
+        "dyads": [dyad_report(each, task) for each in found],
         "linkage": None,
         "cost": None,
         "messages": [],
@@ -112,18 +110,3 @@ def _nearest_of_two(poses: Displacement, moving: FloatArray) -> RR:
     with np.errstate(divide="ignore", invalid="ignore"):
         fixed = along * ((b @ b - a @ a) / 2 / (along @ along))
     return RR(fixed, moving, np.hypot(*(a - fixed)))
-
-
-def _report(found: FoundDyad, task: Task) -> dict[str, Any]:
-    """A dyad as the report has it."""
-    decimals = decimals_of_dyad(found.dyad, task.poses, characteristic_length(task) or 1.0)
-    ground, body, length = digits.sides(found.dyad, decimals)
-    said = {"ground": ground, "body": body, "length": length}
-    errors = {"rms": digits.short(found.rms_error), "worst": digits.short(found.max_error)}
-    return {**dyad_data(found, task.poses), "said": said | errors}
-
-
-def _found(name: str, dyad: RR, task: Task) -> FoundDyad:
-    """A dyad with its errors."""
-    miss = np.abs(dyad.residual(task.poses))
-    return FoundDyad(name, dyad, float(np.sqrt((miss**2).mean())), float(miss.max()))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import Advice, InputError
 from burmester.families.family import best_of_family
-from burmester.fourbar.dyad import RR, Dyad
+from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pose_error import PoseError
@@ -86,7 +86,7 @@ def _judgement(
     problem, findings = _problem(task, options)
     task = problem.given
     evaluation = Evaluation(problem, target_of(problem))
-    given = _found_dyads(both, evaluation)
+    given = evaluation.dyad("D1", both[0]), evaluation.dyad("D2", both[1])
     step("judging the linkage")
     orders = [given, given[::-1]] if len(problem.task.limits) > 1 else [given]
     judged = _judged(orders, np.zeros(len(orders), dtype=bool), evaluation)
@@ -103,7 +103,8 @@ def _judgement(
         *findings,
         *linkage_advice(task, linkages, outcome.code),
     )
-    return Synthesis(problem, outcome, _at_all_poses(given, task), linkages, warnings)
+    found_dyads = tuple(each.at(task.poses) for each in given)  # repeated ones too
+    return Synthesis(problem, outcome, found_dyads, linkages, warnings)
 
 
 def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, tuple[Advice, ...]]:
@@ -123,24 +124,6 @@ def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, t
     diagnosis = diagnose(task)
     problem = SynthesisProblem.of(task, diagnosis.motion, options).merged()
     return problem, (*repeats, *note, *diagnosis.findings)
-
-
-def _found_dyads(dyads: tuple[Dyad, Dyad], evaluation: Evaluation) -> Pair:
-    """The dyads with their ids and errors."""
-    first, second = (
-        evaluation.dyad(f"D{number}", dyad) for number, dyad in enumerate(dyads, start=1)
-    )
-    return first, second
-
-
-def _at_all_poses(dyads: Pair, task: Task) -> Pair:
-    """The dyads with their errors at all poses, repeated ones too."""
-    out = []
-    for each in dyads:
-        miss = np.abs(each.dyad.residual(task.poses))
-        rms = float(np.sqrt((miss**2).mean()))
-        out.append(replace(each, rms_error=rms, max_error=float(miss.max())))
-    return out[0], out[1]
 
 
 def _judged(

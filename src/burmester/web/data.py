@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from burmester.describe import digits, quality_words, sentences
-from burmester.describe.dimensions import decimals_of, dimensions
+from burmester.describe.dimensions import decimals_of, dimensions, dyad_in_words
 from burmester.describe.moved_pivots import improvements
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import Dyad
@@ -83,7 +83,7 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
             "message": synthesis.motion.kind.message,
         },
         "dyads_title": sentences.dyads_title(synthesis),
-        "dyads": [_dyad(synthesis, each) for each in synthesis.dyads],
+        "dyads": [dyad_report(each, task) for each in synthesis.dyads],
         "linkages": linkages,
         "chart": chart,
         "space": space_of(None, poses, None, chart),
@@ -156,19 +156,11 @@ def _keep_out(task: Task) -> list[dict[str, Any]]:
     ]
 
 
-def _dyad(synthesis: Synthesis, found: FoundDyad) -> dict[str, Any]:
+def dyad_report(found: FoundDyad, task: Task) -> dict[str, Any]:
     """A dyad alone: its numbers, and the words for them."""
-    ground, body, length = digits.sides(found.dyad, digits.fitted_decimals(synthesis, found.dyad))
-    return {
-        **dyad_data(found, synthesis.task.poses),
-        "said": {
-            "ground": ground.replace("\n", " "),
-            "body": body.replace("\n", " "),
-            "length": length,
-            "rms": digits.dyad_error(synthesis, found.rms_error),
-            "worst": digits.dyad_error(synthesis, found.max_error),
-        },
-    }
+    words = dyad_in_words(found, task)
+    said = {name: text.replace("\n", " ") for name, text in words.items()}
+    return {**dyad_data(found, task.poses), "said": said}
 
 
 def _linkage(
