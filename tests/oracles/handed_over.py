@@ -52,7 +52,9 @@ def found(linkage, task, error, id="L1"):
     driven = Driven((), -1, False, every, np.nan, np.nan, every, nan, every)
     dyads = FoundDyad("D1", linkage.first, 0.0, 0.0), FoundDyad("D2", linkage.second, 0.0, 0.0)
     verdict = Verdict((), driven, driven)
-    return FoundLinkage(id, 1, dyads, linkage, error, 0.0, verdict, "first", True, task=task)
+    return FoundLinkage(
+        1, dyads, linkage, 0.0, verdict, "first", True, id=id, error=error, task=task
+    )
 
 
 def saved(name, poses=6, given=None):

@@ -233,16 +233,16 @@ class Evaluation:
                 parts = _exchanged(linkage, verdict, both)
             linkage, verdict, driver, dyads = parts  # noqa: PLW2901
             found = FoundLinkage(
-                "",
                 0,
                 dyads,
                 linkage,
-                errors[k],
                 float(combined[k]),
                 verdict,
                 driver,
                 usable,
-                missing,
+                id="",
+                error=errors[k],
+                violations=missing,
                 from_search=bool(searched[k]),
                 clearance=clearance,
                 within_tolerance=None if shares is None else shares[k],

@@ -2,33 +2,32 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.errors import Finding
 from burmester.fourbar.linkage import Configuration
-from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.branches import Branch
 from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.requirements.figures import Figures
+from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.kinds import KINDS, SixBar
-from burmester.tasks.motion_task import Task
 from burmester.values import real_numbers
+from burmester.verdicts.judged_linkage import JudgedLinkage
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FoundSixBar:
+class FoundSixBar(JudgedLinkage):
     """A six-bar that carries the body through the poses, or one that was given, on one branch.
 
     Attributes
     ----------
-    id : str
-        S1, S2, ..., by rank.
     linkage : WattLinkage
         Its dimensions; no leading axes.
     branch : Branch
@@ -42,46 +41,27 @@ class FoundSixBar:
         The least transmission angle of both loops over the range, in radians.
     extent : float
         The diagonal of the box around all joints at places along the range, in the task's unit.
-    error : PoseError
-        At the poses: rounding, where it was made for them.
-    shortcomings : tuple of str
-        Where it falls short of the standard, in words that follow "it"; () is good.
     chain : int
         The number of its chain in the search.
     defects : tuple of Finding
         Of one that was given: why it does not go through the poses on one branch and in order.
-    violations : tuple of Finding
-        The limits and requirements of the task that it does not keep.
-    within_tolerance : (N, 3) array, optional
-        How much of its tolerance each component of each pose uses, where the task has tolerances.
-    task : Task
-        The task of the answer that it belongs to, as it was given.
+    id, error, violations, shortcomings, within_tolerance, task
+        As in `JudgedLinkage`.
     """
 
-    id: str
     linkage: SixBar
     branch: Branch
     drive: FloatArray
     room: FloatArray
     transmission: float
     extent: float
-    error: PoseError
-    shortcomings: tuple[str, ...]
     chain: int
     defects: tuple[Finding, ...] = ()
-    violations: tuple[Finding, ...] = ()
-    within_tolerance: FloatArray | None = None
-    task: Task = field(kw_only=True)
 
     @property
     def type(self) -> str:
         """What it is, in words."""
         return self.skeleton.name
-
-    @property
-    def unit(self) -> str | None:
-        """The unit of lengths."""
-        return self.task.length_unit
 
     @property
     def usable(self) -> bool:
@@ -92,6 +72,11 @@ class FoundSixBar:
     def on_branches(self) -> bool:
         """Whether it meets poses on other branches than this one, the errors being of this one."""
         return any(each.kind in ("circuit", "branch") and each.certain for each in self.defects)
+
+    @property
+    def figures(self) -> Figures:
+        """What it measures and does."""
+        return figures_of(self.linkage, self.transmission, self.turns_fully, self.extent)
 
     @property
     def turns_fully(self) -> bool:

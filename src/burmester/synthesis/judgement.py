@@ -31,7 +31,7 @@ from burmester.synthesis.given_linkage import GivenDyad, dyads_at_poses, require
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.point_approximation import with_nearest_angles
 from burmester.synthesis.point_conditions import each_once
-from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
+from burmester.synthesis.result import Candidate, Outcome, Synthesis, with_time_limit
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.options import SynthesisOptions
@@ -212,7 +212,7 @@ def _is_open(problem: SynthesisProblem) -> bool:
     return max(problem.missing_conditions) > 0
 
 
-def exact_note(error: PoseError, task: Task, size: float) -> str | None:
+def _exact_note(error: PoseError, task: Task, size: float) -> str | None:
     """Of the poses that are to be met exactly the one that is missed most, if one is."""
     if task.exact is None or not task.exact.any():
         return None
@@ -227,10 +227,8 @@ def exact_note(error: PoseError, task: Task, size: float) -> str | None:
 def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improve: bool) -> Outcome:
     """R330 or R331 of the first linkage, the given one, and what to do."""
     found, *near = linkages
-    task, size = problem.given, problem.length
-    works = "works within the requirements" if task.requirements.has_any else "works"
-    works = works if found.usable else f"does not {works.replace('works', 'work')}"
-    message, options = f"the linkage {works}", []
+    outcome, options = judged_outcome(found, problem), []
+    message = outcome.message
     if improve and found.usable:
         message += f"; {count(len(near), 'better one')} near it"
     elif improve:
@@ -239,15 +237,24 @@ def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improv
             if near
             else ("; none was found near it that does")
         )
-    elif (not found.usable or found.shortcomings) and not _is_timed(task):
+    elif (not found.usable or found.shortcomings) and not _is_timed(problem.given):
         options.append(
             f"look for {'better ones near it' if found.usable else 'one near it that works'} "
             "with --improve"
         )
-    if found.usable:
-        notes = [f"it {listed(found.shortcomings)}"] if found.shortcomings else []
-        if (note := exact_note(found.error, task, problem.motion_size)) is not None:
-            notes.append(note)
-        return Outcome("R330", message, "; or ".join(options) or None, "; ".join(notes) or None)
-    options.append(hints([found], problem))
-    return Outcome("R331", message, "; or ".join(options), f"it {in_short(found, task, size)}")
+    if not found.usable:
+        options.append(hints([found], problem))
+    return replace(outcome, message=message, help="; or ".join(options) or None)
+
+
+def judged_outcome(found: Candidate, problem: SynthesisProblem) -> Outcome:
+    """R330 or R331 of a linkage that was given, and why; what helps is left open."""
+    task = problem.given
+    within = " within the requirements" if task.requirements.has_any else ""
+    if not found.usable:
+        why = f"it {in_short(found, task, problem.length)}"
+        return Outcome("R331", f"the linkage does not work{within}", None, why)
+    notes = [f"it {listed(found.shortcomings)}"] if found.shortcomings else []
+    if (note := _exact_note(found.error, task, problem.motion_size)) is not None:
+        notes.append(note)
+    return Outcome("R330", f"the linkage works{within}", None, "; ".join(notes) or None)

@@ -2,26 +2,26 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import InputError
 from burmester.progress import limited, step
-from burmester.requirements.table import cured
-from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
 from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.sixbar.search_space import FEWEST, POSES, require_kept
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
-from burmester.synthesis.judgement import exact_note
-from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
+from burmester.synthesis.judgement import judged_outcome
+from burmester.synthesis.result import Synthesis, with_time_limit
 from burmester.tasks.motion_task import MOST, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.explanation import error_bounds, nearness
-from burmester.wording import figure, listed
+from burmester.verdicts.explanation import options_for
+from burmester.wording import figure
 
 __all__ = ["KINDS", "SixBar", "judge_six_bar", "judged_at_poses"]
 
@@ -55,7 +55,9 @@ def judge_six_bar(
         step("judging the six-bar")
         found = judged_at_poses(linkage, problem)
         six_bars = SixBars((found,), 0, 1, int(found.usable), SixBarOptions(), (), 0, given=True)
-        outcome = _outcome(found, problem)
+        outcome = judged_outcome(found, problem)
+        if not found.usable:
+            outcome = replace(outcome, help=_help(found, problem))
         judged = Synthesis(problem, outcome, warnings=task.notes, six_bars=six_bars)
         return with_time_limit(judged, watch)
 
@@ -109,51 +111,12 @@ def _require_links(linkage: SixBar, problem: SynthesisProblem) -> None:
             )
 
 
-def _outcome(found: FoundSixBar, problem: SynthesisProblem) -> Outcome:
-    """R330 or R331, why, and what to do."""
-    task = problem.given
-    works = "works within the requirements" if task.requirements.has_any else "works"
-    if found.usable:
-        notes = [f"it {listed(found.shortcomings)}"] if found.shortcomings else []
-        if (note := exact_note(found.error, task, problem.motion_size)) is not None:
-            notes.append(note)
-        return Outcome("R330", f"the linkage {works}", None, "; ".join(notes) or None)
-    does_not = f"does not {works.replace('works', 'work')}"
-    reasons = [each.message for each in found.defects]
-    reasons += [each.message for each in found.violations]
-    why = f"it {_how_near(found, problem)} {'; '.join(reasons)}"
-    return Outcome("R331", f"the linkage {does_not}", _help(found, problem), why)
-
-
-def _how_near(found: FoundSixBar, problem: SynthesisProblem) -> str:
-    """How near it comes, before the reasons; on one branch, of which the reasons tell others."""
-    missed = any(each.kind == "assembly" for each in found.defects)
-    if found.on_branches:
-        return "meets some poses, but" if missed else "meets every pose, but"
-    return f"{nearness(found, problem.given, problem.length)}{':' if missed else ' but'}"
-
-
 def _help(found: FoundSixBar, problem: SynthesisProblem) -> str:
     """What would make it work: options where they do, else another six-bar."""
-    options = _options(found, problem)
+    options = options_for(found, problem)
     texts = [f"with {' '.join(options)} it would do"] if options else []
     if FEWEST <= problem.given.poses.shape[0] <= POSES:
         texts.append("look for six-bars that work with `burmester synthesize --six-bars`")
     elif not texts:
         texts.append("move a pose, or leave one out")
     return "; or ".join(texts)
-
-
-def _options(found: FoundSixBar, problem: SynthesisProblem) -> tuple[str, ...]:
-    """The options that would make it usable; none where no option helps."""
-    task, options = problem.given, []
-    for defect in found.defects:
-        if defect.kind == "order":
-            options.append("--any-order")
-        elif defect.kind == "assembly" and task.tolerances is None:
-            options += error_bounds(found, problem)
-        else:
-            return ()
-    figures = figures_of(found.linkage, found.transmission, False)
-    cures = cured(found.violations, task.requirements.bounds, figures)
-    return () if cures is None else tuple(sorted({*options, *cures}, reverse=True))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Protocol
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.judged_linkage import JudgedLinkage
 from burmester.wording import figure
 
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
@@ -24,15 +24,7 @@ MOST_TURN = math.pi / 2  # radians; a crank that is off by more is no crank at t
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
 
 
-class HasError(Protocol):
-    """A linkage of four bars, or of six, with its error at the poses."""
-
-    @property
-    def error(self) -> PoseError:
-        """At the poses of the task."""
-
-
-def meets_exactly(found: HasError, size: float) -> bool:
+def meets_exactly(found: JudgedLinkage, size: float) -> bool:
     """Whether a linkage meets all poses within rounding; size: the task's characteristic length."""
     worst = float(np.nan_to_num(found.error.angle, nan=np.inf).max())
     return found.error.worst < ROUNDING * size and worst < 10 * ROUNDING
@@ -45,7 +37,7 @@ def asked_for(task: Task) -> str:
     return "pose and point" if task.free_angles.any() else "pose"
 
 
-def nearness(found: HasError, task: Task, size: float) -> str:
+def nearness(found: JudgedLinkage, task: Task, size: float) -> str:
     """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm and 2.1°"."""
     if not math.isfinite(found.error.worst):
         return f"cannot be assembled near every {asked_for(task)}"
@@ -54,7 +46,7 @@ def nearness(found: HasError, task: Task, size: float) -> str:
     return f"misses by {worst_miss(found, task)}"
 
 
-def worst_miss(found: HasError, task: Task) -> str:
+def worst_miss(found: JudgedLinkage, task: Task) -> str:
     """The greatest misses at a pose: "0.15 mm and 2.1°", or "0.15 mm" where angles are free."""
     away = length_of(found.error.worst, task)
     if task.angles_are_free:
@@ -71,7 +63,7 @@ def by_nearness(linkages: Iterable[FoundLinkage], size: float) -> list[FoundLink
     return sorted(linkages, key=error)
 
 
-def reasons(found: FoundLinkage, task: Task) -> list[str]:
+def reasons(found: JudgedLinkage, task: Task) -> list[str]:
     """Why a linkage is not usable: its defects, missed poses first; then violated requirements."""
     defects = [_too_far(found, task, each) or each.message for each in found.defects]
     # At a dead point there is no transmission angle anyway.
@@ -81,14 +73,16 @@ def reasons(found: FoundLinkage, task: Task) -> list[str]:
     ]
 
 
-def in_short(found: FoundLinkage, task: Task, size: float) -> str:
+def in_short(found: JudgedLinkage, task: Task, size: float) -> str:
     """Nearness and reasons in one phrase: "misses by 0.15 mm but locks between ..."."""
     far = any(each.kind == "assembly" for each in found.defects)
-    near = nearness(found, task, size)
-    return f"{near}{':' if far else ' but'} {'; '.join(reasons(found, task))}"
+    near = f"{nearness(found, task, size)}{':' if far else ' but'}"
+    if found.on_branches:
+        near = "meets some poses, but" if far else "meets every pose, but"
+    return f"{near} {'; '.join(reasons(found, task))}"
 
 
-def _too_far(found: FoundLinkage, task: Task, defect: Finding) -> str | None:
+def _too_far(found: JudgedLinkage, task: Task, defect: Finding) -> str | None:
     """An assembly defect in terms of the distance, if the linkage has places near those poses."""
     poses = list(defect.poses)
     if task.tolerances is not None:
@@ -121,10 +115,10 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
     # For each set of options the nearest linkage that they make usable.
     nearest_with: dict[tuple[str, ...], FoundLinkage] = {}
     for each in near:
-        options = _options(each, problem)
+        options = options_for(each, problem)
         if options:
             nearest_with.setdefault(tuple(option.split()[0] for option in options), each)
-    nearest = sorted(nearest_with.values(), key=lambda each: len(_options(each, problem)))
+    nearest = sorted(nearest_with.values(), key=lambda each: len(options_for(each, problem)))
     # More options for a greater error are no help.
     nearest = [each for k, each in enumerate(nearest) if not _is_beaten(each, nearest[:k], problem)]
     softer = nearest_with.get(("--min-transmission",))
@@ -158,9 +152,9 @@ def _is_beaten(
     found: FoundLinkage, others: Sequence[FoundLinkage], problem: SynthesisProblem
 ) -> bool:
     """Whether another linkage comes as near, and needs no option that this one does without."""
-    names = {option.split()[0] for option in _options(found, problem)}
+    names = {option.split()[0] for option in options_for(found, problem)}
     return any(
-        {option.split()[0] for option in _options(each, problem)} <= names
+        {option.split()[0] for option in options_for(each, problem)} <= names
         and each.combined_error <= found.combined_error
         for each in others
     )
@@ -168,21 +162,25 @@ def _is_beaten(
 
 def _would_do(found: FoundLinkage, problem: SynthesisProblem) -> str:
     how = nearness(found, problem.given, problem.length)
-    return f"with {' '.join(_options(found, problem))} {found.id} would do (it {how})"
+    return f"with {' '.join(options_for(found, problem))} {found.id} would do (it {how})"
 
 
-def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
-    """The options that would make the linkage usable; none where no option helps."""
+def options_for(found: JudgedLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
+    """The options that would make a linkage usable; none where no option helps."""
     asked, options = problem.given.requirements, []
     for defect in found.defects:
         if defect.kind == "order" and not asked.any_order:
             options.append("--any-order")
         elif defect.kind == "assembly" and _is_only_bounded(found):
-            options += error_bounds(found, problem)
+            options += _error_bounds(found, problem)
         else:
             return ()
     for each in found.violations:
-        if each.kind == "timing" and found.timing_error is not None:
+        if (
+            each.kind == "timing"
+            and isinstance(found, FoundLinkage)
+            and found.timing_error is not None
+        ):
             away = float(np.nanmax(np.abs(found.timing_error), initial=0.0))
             if not 0 < away < MOST_TURN:
                 return ()
@@ -195,13 +193,13 @@ def _options(found: FoundLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
     return tuple(sorted(set(options), reverse=True))  # --within first
 
 
-def _is_only_bounded(found: FoundLinkage) -> bool:
+def _is_only_bounded(found: JudgedLinkage) -> bool:
     """Whether nothing but a greatest error keeps a linkage from its poses: no tolerance of one."""
     share = found.within_tolerance
     return math.isfinite(found.error.worst) and (share is None or bool((share <= 1).all()))
 
 
-def error_bounds(found: HasError, problem: SynthesisProblem) -> list[str]:
+def _error_bounds(found: JudgedLinkage, problem: SynthesisProblem) -> list[str]:
     """The options that bound both errors of a linkage from above."""
     asked = problem.given.requirements
     within = above(max(found.error.worst, ROUNDING * problem.length))

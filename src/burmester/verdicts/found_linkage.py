@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from burmester.dyads.selection import FoundDyad
@@ -12,7 +12,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
-from burmester.tasks.motion_task import Task
+from burmester.verdicts.judged_linkage import JudgedLinkage
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.requirement_check import four_bar_figures
 from burmester.verdicts.tolerances import Spread
@@ -39,13 +39,11 @@ def with_driver_first(linkage: Linkage, driver: Side) -> Linkage:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FoundLinkage:
+class FoundLinkage(JudgedLinkage):
     """A linkage made of two dyads, refined as a whole, with all that is known of it.
 
     Attributes
     ----------
-    id : str
-        "L1", "L2", ... by rank.
     rank : int
         From 1; see `ranking`.
     dyads : tuple of two FoundDyad
@@ -53,9 +51,6 @@ class FoundLinkage:
         limits, whose order they keep.  The ids name the dyads from which they come.
     linkage : Linkage
         The same dimensions.
-    error : PoseError
-        Of the coupler's places nearest to the poses, on one circuit unless there is a circuit
-        defect.
     combined_error : float
         What was made least: the weighted root mean square (with the norm "worst" the greatest)
         over the poses of position and angle error in one, `PoseError.combined`; infinite where
@@ -67,11 +62,6 @@ class FoundLinkage:
         The better driver, or the only one allowed.
     usable : bool
         Whether the linkage, with that driver, leads through all poses and meets all requirements.
-    violations : tuple of Finding
-        The requirements that it violates with that driver.
-    shortcomings : tuple of str
-        Where it falls short of what a linkage to build is to be, where the task asks for nothing
-        (`requirements.table`).
     quality : Quality, optional
         What a designer pays for, with the preferred driver; None where the error is infinite.
     from_search : bool
@@ -82,9 +72,6 @@ class FoundLinkage:
         Whether these regions are small compared with the motion.
     other_types : tuple of str
         The other types of Grashof that errors of the poses leave possible (`possible_types`).
-    within_tolerance : (N, 3) array, optional
-        How much of its tolerance each component of each pose uses, where the task has tolerances:
-        at most 1 inside, 0 for free components.
     spread : Spread, optional
         Of the error, for links and pivots built within a tolerance.
     error_before_rounding : PoseError, optional
@@ -95,8 +82,8 @@ class FoundLinkage:
     timing_error : (N,) array, optional
         How far the driver is from the stated crank angles at the poses, signed, in radians, where
         the task has some; nan at poses that are not timed.
-    task : Task
-        The task of the answer that it belongs to, as it was given.
+    id, error, violations, shortcomings, within_tolerance, task
+        As in `JudgedLinkage`.
 
     Examples
     --------
@@ -106,33 +93,22 @@ class FoundLinkage:
     ('L1', 'crank-rocker', True)
     """
 
-    id: str
     rank: int
     dyads: Pair
     linkage: Linkage
-    error: PoseError
     combined_error: float
     verdict: Verdict
     preferred_driver: Side
     usable: bool
-    violations: tuple[Finding, ...] = ()
-    shortcomings: tuple[str, ...] = ()
     quality: Quality | None = None
     from_search: bool = False
     uncertainty: tuple[DyadUncertainty, DyadUncertainty] | None = None
     determined: bool = True
     other_types: tuple[str, ...] = ()
-    within_tolerance: FloatArray | None = None
     spread: Spread | None = None
     error_before_rounding: PoseError | None = None
     clearance: Clearance | None = None
     timing_error: FloatArray | None = None
-    task: Task = field(kw_only=True)
-
-    @property
-    def unit(self) -> str | None:
-        """The unit of lengths."""
-        return self.task.length_unit
 
     @property
     def type(self) -> str:
