@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Set
-from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Self, final
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Self, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from burmester.api.linkage import as_held
 from burmester.api.result import AnyResult, Result
 from burmester.api.synthesize import require_callable
 from burmester.errors import InputError
 from burmester.functions.found_generator import FoundGenerator
-from burmester.io.function_result import function_data
 from burmester.io.reading.functions.function_options import (
     FunctionSettings,
     Spacing,
@@ -54,25 +54,11 @@ class FunctionGenerators(AnyResult[FoundGenerator], FunctionSynthesis):
     @classmethod
     def of(cls, synthesis: FunctionSynthesis) -> Self:
         """A synthesis that can be looked at and handed over."""
-        return cls(**{each.name: getattr(synthesis, each.name) for each in fields(synthesis)})
-
-    @property
-    def synthesis(self) -> FunctionSynthesis:
-        """The same, as a search returns it."""
-        return self
-
-    @property
-    def candidates(self) -> tuple[FoundGenerator, ...]:
-        """All generators, the best one first."""
-        return self.generators
+        return as_held(cls, synthesis)
 
     def coupler_motion(self, which: int | str = 0) -> Result:
         """A generator as a linkage that guides its coupler, to draw, animate and export."""
         return Result.of(coupler_synthesis(self.task, self[which]))
-
-    def to_dict(self) -> dict[str, Any]:
-        """The object of `burmester synthesize --json`."""
-        return function_data(self)
 
     def plot(self) -> Figure:
         """The structural error over the input, by Matplotlib."""

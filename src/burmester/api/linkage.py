@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import base64
 import os
+from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any, Self, cast, final
+from typing import TYPE_CHECKING, Any, TypeVar, cast, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.api.moving_picture import MovingPicture
 from burmester.api.python_words import in_python_words
 from burmester.api.table import as_line, dimensions_as_html, plain_html
 from burmester.describe import six_bar_words
@@ -22,6 +23,7 @@ from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Configuration
 from burmester.geometry.displacement import Displacement
+from burmester.io import files
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.found import FoundSixBar
 from burmester.values import real_numbers
@@ -38,6 +40,37 @@ if TYPE_CHECKING:
 
 
 SWEPT_PLACES = 49  # of the body along the motion; each is a thin outline
+
+
+Held = TypeVar("Held")
+
+
+def as_held(kind: Callable[..., Held], found: Any, **others: Any) -> Held:
+    """A value of an answer as one that can be drawn and handed over; others: fields to change."""
+    own = {each.name: getattr(found, each.name) for each in fields(found)}
+    return kind(**own | others)
+
+
+@final
+@dataclass(frozen=True, slots=True)
+class MovingPicture:
+    """A GIF of a linkage that goes through its poses.
+
+    gif: the bytes of the file; title: a sentence in place of the picture.
+    """
+
+    gif: bytes = field(repr=False)
+    title: str
+
+    def save(self, path: str | os.PathLike[str], *, force: bool = False) -> Path:
+        """Write the picture; raises InputError E140 (the file exists) and E141 (no writing)."""
+        with in_python_words():
+            files.write(path, self.gif, force=force)
+        return Path(path)
+
+    def _repr_html_(self) -> str:
+        data = base64.b64encode(self.gif).decode()
+        return f'<img alt="{self.title}" src="data:image/gif;base64,{data}">'
 
 
 class Chosen:
@@ -57,11 +90,6 @@ class Chosen:
         def task(self) -> Task: ...
 
         def motion(self, count: int = 100) -> Configuration: ...
-
-    @classmethod
-    def of(cls, found: Any) -> Self:
-        """A linkage of an answer, to be drawn and handed over."""
-        return cls(**{each.name: getattr(found, each.name) for each in fields(found)})
 
     def export(
         self,

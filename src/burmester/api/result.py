@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from abc import abstractmethod
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
 from typing import (
@@ -13,6 +12,7 @@ from typing import (
     Any,
     Generic,
     Protocol,
+    Self,
     SupportsIndex,
     TypeVar,
     cast,
@@ -20,8 +20,7 @@ from typing import (
     overload,
 )
 
-from burmester.api.linkage import ResultLinkage, ResultSixBar
-from burmester.api.moving_picture import MovingPicture
+from burmester.api.linkage import MovingPicture, ResultLinkage, ResultSixBar, as_held
 from burmester.api.python_words import in_python_words
 from burmester.api.table import HEADS, NUMBERS, as_text, cells, plain_html
 from burmester.describe import six_bar_words
@@ -61,15 +60,15 @@ class AnyResult(Generic[Kind]):
     if TYPE_CHECKING:
 
         @property
-        def synthesis(self) -> Synthesis | FunctionSynthesis: ...
-
-        @property
         def outcome(self) -> Outcome: ...
 
+        @property
+        def candidates(self) -> tuple[Kind, ...]: ...
+
     @property
-    @abstractmethod
-    def candidates(self) -> tuple[Kind, ...]:
-        """All of them, the best one first."""
+    def synthesis(self) -> Self:
+        """The same, as a search returns it."""
+        return self
 
     @property
     def usable(self) -> tuple[Kind, ...]:
@@ -103,9 +102,9 @@ class AnyResult(Generic[Kind]):
         place = which if isinstance(which, str) else which.__index__()
         return chosen(self.candidates, place, self.outcome)
 
-    @abstractmethod
     def to_dict(self) -> dict[str, Any]:
         """The object of `burmester synthesize --json`."""
+        return synthesis_data(cast("Synthesis | FunctionSynthesis", self))
 
     def to_json(self) -> str:
         """All of it as one JSON object, as `burmester synthesize --json` prints it."""
@@ -132,7 +131,8 @@ class AnyResult(Generic[Kind]):
 
         with in_python_words():
             files.require_writable(path, force=force)
-            files.write(path, page(self.synthesis, title or Path(path).stem), force=force)
+            text = page(cast("Synthesis | FunctionSynthesis", self), title or Path(path).stem)
+            files.write(path, text, force=force)
         return Path(path)
 
 
@@ -169,23 +169,12 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
     @classmethod
     def of(cls, synthesis: Synthesis) -> Result[Any]:
         """A synthesis whose linkages can be drawn and handed over."""
-        values = {each.name: getattr(synthesis, each.name) for each in fields(Synthesis)}
-        values["linkages"] = tuple(map(ResultLinkage.of, synthesis.linkages))
-        if (six_bars := synthesis.six_bars) is not None:
-            found = tuple(map(ResultSixBar.of, six_bars.found))
-            values["six_bars"] = replace(six_bars, found=found)
-        return cls(**values)
-
-    @property
-    def synthesis(self) -> Synthesis:
-        """The same, as a search returns it."""
-        return self
-
-    @property
-    def candidates(self) -> tuple[Linkages, ...]:
-        """All linkages, the best one first."""
-        every = self.linkages if self.six_bars is None else self.six_bars.found
-        return cast("tuple[Linkages, ...]", every)
+        six_bars = synthesis.six_bars
+        if six_bars is not None:
+            found = tuple(as_held(ResultSixBar, each) for each in six_bars.found)
+            six_bars = replace(six_bars, found=found)
+        linkages = tuple(as_held(ResultLinkage, each) for each in synthesis.linkages)
+        return as_held(cls, synthesis, linkages=linkages, six_bars=six_bars)
 
     @property
     def best(self) -> Linkages | None:
@@ -216,16 +205,6 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
         """One linkage on its way through the poses: the first by rank, or the one named."""
         return self[linkage].animate(**how)
 
-    def to_dict(self) -> dict[str, Any]:
-        """The object of `burmester synthesize --json`."""
-        return synthesis_data(self)
-
-    def _best(self) -> list[str]:
-        """What to build, in sentences."""
-        if self.six_bars is None:
-            return best_sentences(self)
-        return [f"{six_bar_words.headline(each)}." for each in self.six_bars.found[:1]]
-
     def _columns(self) -> tuple[Sequence[str], list[tuple[str, ...]], range]:
         """All linkages: heads, rows, and which columns are numbers."""
         if self.six_bars is None:
@@ -235,13 +214,13 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
 
     def __repr__(self) -> str:
         warnings = [f"{each.code}: {each.message}" for each in self.warnings]
-        lines = [*self._best(), self.outcome.message, *warnings][:SENTENCES]
+        lines = [*best_sentences(self), self.outcome.message, *warnings][:SENTENCES]
         return "\n".join([*lines, *as_text(*self._columns(), LINES - len(lines) - 1)])
 
     def _repr_html_(self) -> str:
         """In a notebook: what to build, all linkages in a table, and the first one drawn."""
         every, messages = self.candidates, [self.outcome, *self.warnings]
-        sentences = [*self._best(), *(f"{each.message}." for each in messages)]
+        sentences = [*best_sentences(self), *(f"{each.message}." for each in messages)]
         text = "".join(f"<p>{escape(each)}</p>" for each in sentences)
         faint = {k for k, each in enumerate(every) if not each.usable}
         table = plain_html(*self._columns(), faint) + every[0]._repr_html_() if every else ""

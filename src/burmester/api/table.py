@@ -12,9 +12,9 @@ from burmester.describe.dimensions import dimensions_of
 from burmester.describe.quality_words import in_short
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.length_per_radian import default_length_per_radian
-from burmester.tasks.motion_task import Task, characteristic_length
+from burmester.tasks.motion_task import characteristic_length
 from burmester.tasks.notation import length_of
-from burmester.verdicts.explanation import asked_for
+from burmester.verdicts.explanation import nearness
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import least_angle, listed
 
@@ -25,14 +25,9 @@ NUMBERS = range(3, 8)  # columns of numbers, set to the right
 def as_line(linkage: FoundLinkage) -> str:
     """A linkage in one line: "L1: crank-rocker of D1 and D2, misses by ..."."""
     first, second = linkage.ids
-    _, _, _, worst, angle, least, *_, verdict = cells(linkage)
-    if "-" in (worst, angle):
-        how = f"cannot be assembled near every {asked_for(linkage.task)}"
-    elif worst == "exact" and angle in ("exact", "free"):
-        how = f"passes every {asked_for(linkage.task)} exactly"
-    else:
-        how = f"misses by {worst}" if angle == "free" else f"misses by {worst} and {angle}"
-    sure = f", transmission angle {least} or more" if linkage.usable else f", {verdict}"
+    how = nearness(linkage, linkage.task, characteristic_length(linkage.task))
+    least = least_angle(linkage.least_transmission)
+    sure = f", transmission angle {least} or more" if linkage.usable else ", not usable"
     kind = linkage.type
     if linkage.other_types:
         kind += f" (or {listed(linkage.other_types, 'or')} within ±)"
@@ -103,20 +98,15 @@ def dimensions_as_html(linkage: FoundLinkage) -> str:
 def cells(linkage: FoundLinkage) -> tuple[str, ...]:
     """One linkage by columns."""
     error, task = linkage.error, linkage.task
+    exact = error.worst < ROUNDING * characteristic_length(task)
     angle = "free" if task.angles_are_free else angle_error(float(error.angle.max()))
     return (
         linkage.id,
         linkage.type,
         " ".join(linkage.ids),
-        _position(error.worst, task),
+        "exact" if exact else length_of(error.worst, task),
         angle if math.isfinite(error.worst) else degrees(math.nan),
         least_angle(linkage.least_transmission),
         *in_short(linkage.quality),
         "" if linkage.usable else "not usable",
     )
-
-
-def _position(worst: float, task: Task) -> str:
-    if worst < ROUNDING * characteristic_length(task):
-        return "exact"
-    return length_of(worst, task)

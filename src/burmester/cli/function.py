@@ -9,7 +9,15 @@ from typing import TYPE_CHECKING, Any, Final
 import click
 
 from burmester.cli.options import Sectioned, SectionOption
-from burmester.cli.output import CONTENT, EXIT_FOUND, EXIT_NOTHING, NOTES, console, print_json
+from burmester.cli.output import (
+    CONTENT,
+    EXIT_FOUND,
+    EXIT_NOTHING,
+    NOTES,
+    console,
+    hand_over,
+    print_json,
+)
 
 if TYPE_CHECKING:
     from burmester.errors import Advice, InputError
@@ -126,9 +134,8 @@ def function(
     from burmester.cli.family_map import figure_format
     from burmester.cli.progress_line import working
     from burmester.io import files
-    from burmester.io.function_result import function_data
-    from burmester.io.result import json_line
     from burmester.printable import printable
+    from burmester.report import page
     from burmester.synthesis.function_generation import generate_function
 
     task = _task(source, given)
@@ -148,21 +155,15 @@ def function(
     with working("looking for function generators"):
         synthesis = _judged(task, given) or generate_function(task)
     synthesis = replace(synthesis, warnings=(*notes, *synthesis.warnings))
-    for path, content in (
-        (file, lambda: json_line(function_data(synthesis))),
+    hand_over(
+        synthesis,
+        file,
         (plot, lambda: _figure(synthesis, suffix)),
-        (report, lambda: _page(synthesis, title or name)),
-    ):
-        if path is not None:
-            files.write(path, content(), force=force)
-            click.echo(f"wrote {printable(path)}", err=True)
-    if as_json:
-        print_json(function_data(synthesis))
-    else:
-        from burmester.io.function_table import show_function
-
-        judged = synthesis.method == "judged"
-        show_function(synthesis, console(), everything=everything or judged)
+        (report, lambda: page(synthesis, printable(title or name))),
+        force=force,
+        as_json=as_json,
+        everything=everything,
+    )
     return EXIT_FOUND if synthesis.usable else EXIT_NOTHING
 
 
@@ -319,10 +320,3 @@ def _figure(synthesis: FunctionSynthesis, suffix: str) -> bytes:
     with plot.house_style():
         drawing = plot.structural_error_figure(synthesis)
     return figure_bytes(drawing, suffix)
-
-
-def _page(synthesis: FunctionSynthesis, title: str) -> str:
-    from burmester.printable import printable
-    from burmester.report import page
-
-    return page(synthesis, printable(title))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shutil
 import sys
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -11,6 +12,7 @@ import click
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from burmester.synthesis.function_generation import FunctionSynthesis
     from burmester.synthesis.result import Synthesis
 
 EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
@@ -33,21 +35,30 @@ def print_json(data: dict[str, Any]) -> None:
 
 
 def hand_over(
-    synthesis: Synthesis, output: str | None, *, force: bool, as_json: bool, **shown: bool
+    synthesis: Synthesis | FunctionSynthesis,
+    output: str | None,
+    *beside: tuple[str | None, Callable[[], str | bytes]],
+    force: bool,
+    as_json: bool,
+    **shown: bool,
 ) -> None:
     """A synthesis to the file `output`, if there is one, and to standard output.
 
-    shown: as in `show_synthesis`.
+    beside: other files, each with what makes its content; shown: as in `show_synthesis`.
     """
     from burmester.cli.progress_line import working
     from burmester.io import files
     from burmester.io.result import json_line, synthesis_data
     from burmester.printable import printable
 
-    if output is not None:
-        with working("writing the result"):
-            files.write(output, json_line(synthesis_data(synthesis)), force=force)
-        click.echo(f"wrote {printable(output)}", err=True)
+    def result() -> str:
+        return json_line(synthesis_data(synthesis))
+
+    for path, content in ((output, result), *beside):
+        if path is not None:
+            with working("writing the result"):
+                files.write(path, content(), force=force)
+            click.echo(f"wrote {printable(path)}", err=True)
     if as_json:
         print_json(synthesis_data(synthesis))
     else:

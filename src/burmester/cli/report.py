@@ -68,11 +68,9 @@ def report(
 
 def _answer(synthesis: Synthesis) -> str:
     """The best linkage in a sentence; where there is none, why, and what helps."""
-    from burmester.describe import sentences, six_bar_words
+    from burmester.describe.sentences import best_sentences
 
-    if synthesis.six_bars is not None and synthesis.six_bars.found:
-        return f"{six_bar_words.headline(synthesis.six_bars.found[0])}."
-    if synthesis.usable:
-        return sentences.headline(synthesis)
+    if best := best_sentences(synthesis):
+        return best[0]
     outcome = synthesis.outcome
     return f"{outcome.message}." + (f"\nWhat helps: {outcome.help}." if outcome.help else "")

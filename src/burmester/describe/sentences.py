@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from typing import Final
 
-from burmester.describe import quality_words
+from burmester.describe import quality_words, six_bar_words
 from burmester.describe.decimals import decimals_of_dyad
 from burmester.describe.digits import degrees, worst_errors
 from burmester.describe.dimensions import certain, decimals_of, sides_of
@@ -42,7 +42,12 @@ MAX_NAMED_TYPES = 3  # other types that a sentence names; there are four
 
 
 def best_sentences(synthesis: Synthesis) -> list[str]:
-    """What the best usable linkage does, and why it is not another one; none without it."""
+    """What the best usable linkage does, and why it is not another one; none without it.
+
+    Of a six-bar that was given what it is, whether it works or not.
+    """
+    if synthesis.six_bars is not None:
+        return [f"{six_bar_words.headline(each)}." for each in synthesis.six_bars.found[:1]]
     if not synthesis.usable:
         return []
     return [headline(synthesis), *alternatives(synthesis)]

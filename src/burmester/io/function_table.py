@@ -39,6 +39,7 @@ def show_function(
         _best(usable[0], task, console, f"{usable[0].id} is" if judged else "")
     else:
         show("result", outcome, console)
+    everything |= synthesis.method == "judged"
     shown = list(synthesis.generators if everything else synthesis.leading(MOST_ROWS))
     if usable and not everything:
         shown = [each for each in shown if each.usable]

@@ -21,6 +21,7 @@ from burmester.wording import in_unit
 
 if TYPE_CHECKING:
     from burmester.sixbar.six_bars import SixBars
+    from burmester.synthesis.function_generation import FunctionSynthesis
 
 # Columns; in a narrower terminal both sides of a dyad are in one column, or its length as well.
 NARROW, SLIM = 64, 48
@@ -29,12 +30,21 @@ PLAIN = ("R300", "R305", "R307", "R308", "R340")  # outcomes that are told witho
 
 
 def show_synthesis(
-    synthesis: Synthesis, console: Console, *, everything: bool = False, dyads: bool = False
+    synthesis: Synthesis | FunctionSynthesis,
+    console: Console,
+    *,
+    everything: bool = False,
+    dyads: bool = False,
 ) -> None:
     """What to build first, then the other usable linkages, and what has been found in all.
 
     everything: also the linkages that are not usable, with the reasons; dyads: also the dyads.
     """
+    if not isinstance(synthesis, Synthesis):
+        from burmester.io.function_table import show_function
+
+        show_function(synthesis, console, everything=everything)
+        return
     if synthesis.six_bars is not None:
         _six_bars(synthesis, synthesis.six_bars, console)
         show_warnings(synthesis.warnings, console)
