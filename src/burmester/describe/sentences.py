@@ -360,14 +360,6 @@ def notes(synthesis: Synthesis, found: FoundLinkage) -> list[str]:
     return [text for note in NOTES if (text := note(synthesis, found)) is not None]
 
 
-def _order(synthesis: Synthesis) -> str:
-    """Which usable linkages come first."""
-    if states_tolerance(synthesis.task):
-        enough = enough_transmission(synthesis.task.requirements.transmission)
-        return f"the ones with sane proportions; recommended is {rule(enough)}"
-    return "the ones with good transmission and proportions, then the nearest"
-
-
 def footnotes(synthesis: Synthesis) -> str:
     """What the columns of the tables are, and the order of their rows."""
     task = synthesis.task
@@ -377,8 +369,11 @@ def footnotes(synthesis: Synthesis) -> str:
         counts = notation.length_of(math.radians(synthesis.length_per_radian), task)
         counted = "" if task.angles_are_free else f" 1° counts as {counts}."
         if synthesis.outcome.code not in JUDGED:
-            order = f" Usable linkages come first, of these {_order(synthesis)}"
-            text += order + (";" if counted else ".")
+            order = "the ones with good transmission and proportions, then the nearest"
+            if states_tolerance(task):
+                enough = enough_transmission(task.requirements.transmission)
+                order = f"the ones with sane proportions; recommended is {rule(enough)}"
+            text += f" Usable linkages come first, of these {order}{';' if counted else '.'}"
         text += counted
     if not any(task.resolution):
         text += " The poses are taken as exact; --pose-sigma says otherwise."

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from burmester.numerics.arrays import ROUNDING, FloatArray
+from burmester.describe.digits import degrees
+from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import (
@@ -52,9 +53,10 @@ def sentences(synthesis: Synthesis, found: FoundSixBar) -> list[str]:
     low, high = (math.degrees(each) for each in found.drive_range)
     if {first, last} != {low, high}:  # in another order
         way = f"is between {low:.1f}° and {high:.1f}° at the poses"
+    below, above = (math.degrees(each) for each in found.room.tolist())
+    locks = f"; it locks {below:.1f}° below this range and {above:.1f}° above it."
     out = [
-        f"The driver {way}"
-        + (" and may go round." if found.turns_fully else f"; {_locks(found)}."),
+        f"The driver {way}{' and may go round.' if found.turns_fully else locks}",
         _at_poses(synthesis, found),
     ]
     if found.shortcomings:
@@ -72,7 +74,8 @@ def joint_rows(found: FoundSixBar) -> list[tuple[str, ...]]:
             origin, along = tuple(skeleton.axis(link))
             frame = f"{origin} to {along} along x"
             del joints[origin]
-        rows.append((f"{link}, {frame}", *(_point(name, at) for name, at in joints.items())))
+        places = {name: ", ".join(map(_number, at)) for name, at in joints.items()}
+        rows.append((f"{link}, {frame}", *(f"{name} ({at})" for name, at in places.items())))
     return rows
 
 
@@ -144,7 +147,7 @@ def errors(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, str]]:
     return [
         (
             "0" if away < exact else length_of(away, task),
-            "free" if any_angle else "0°" if turned < 10 * ROUNDING else _degrees(turned),
+            "free" if any_angle else "0°" if turned < 10 * ROUNDING else degrees(turned),
         )
         for away, turned, any_angle in zip(
             error.position.tolist(), error.angle.tolist(), free, strict=True
@@ -163,10 +166,6 @@ def _gives_room(task: Task) -> bool:
     return task.tolerances is not None and task.tolerances.gives_room
 
 
-def _degrees(angle: float) -> str:
-    return f"{figure(math.degrees(angle))}°"
-
-
 def _at_poses(synthesis: Synthesis, found: FoundSixBar) -> str:
     """What it does at the poses, and between them."""
     task = synthesis.task
@@ -179,16 +178,6 @@ def _at_poses(synthesis: Synthesis, found: FoundSixBar) -> str:
     if synthesis.outcome.code not in JUDGED:
         return branch
     return f"It passes every pose {met(synthesis, found) or 'exactly'}. {branch}"
-
-
-def _locks(found: FoundSixBar) -> str:
-    """Where it locks beyond the poses."""
-    below, above = (math.degrees(each) for each in found.room.tolist())
-    return f"it locks {below:.1f}° below this range and {above:.1f}° above it"
-
-
-def _point(joint: str, at: FloatArray) -> str:
-    return f"{joint} ({_number(at[0])}, {_number(at[1])})"
 
 
 def _number(value: float) -> str:

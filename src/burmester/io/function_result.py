@@ -53,7 +53,9 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
 
 def function_task_data(task: FunctionTask) -> dict[str, Any]:
     """A task: as a file may hold it, and its pairs."""
-    return {"function": _task(task), "pairs": _pairs(task)}
+    rows = zip(np.degrees(task.inputs).tolist(), np.degrees(task.outputs).tolist(), strict=True)
+    pairs = [{"input_deg": one, "output_deg": other} for one, other in rows]
+    return {"function": _task(task), "pairs": pairs}
 
 
 def _task(task: FunctionTask) -> dict[str, Any]:
@@ -93,11 +95,6 @@ def _task(task: FunctionTask) -> dict[str, Any]:
 def _plain_degrees(angle: float) -> float:
     """Degrees without the rounding of having been radians: 60, not 59.99999999999999."""
     return round(math.degrees(angle), 12)
-
-
-def _pairs(task: FunctionTask) -> list[dict[str, float]]:
-    rows = zip(np.degrees(task.inputs).tolist(), np.degrees(task.outputs).tolist(), strict=True)
-    return [{"input_deg": a, "output_deg": b} for a, b in rows]
 
 
 def _linkage(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:

@@ -130,7 +130,7 @@ def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) ->
             f"{_degrees(each.max_error)}°",
             percent,
             f"{_degrees(each.rms_error)}°",
-            f"{_whole(each.least_transmission)}°"
+            f"{math.degrees(each.least_transmission):.0f}°"
             if math.isfinite(each.least_transmission)
             else "-",
         ]
@@ -145,10 +145,6 @@ def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) ->
         if not each.usable:
             reasons = f"{each.id} {listed([d.message for d in each.defects])}"
             draw(wrapped(reasons, console.width, hang=4), console)
-
-
-def _whole(angle: float) -> str:
-    return f"{math.degrees(angle):.0f}"
 
 
 def _degrees(angle: float) -> str:

@@ -70,7 +70,9 @@ def read_linkage(
     tree = _tree(data, label)
     try:
         if tree.get("schema") == SCHEMA:
-            return _of_result(path, data, id, unit)
+            chosen = read_result(path, data).exported(id, "--id")
+            _require_unit(chosen.unit, unit)
+            return chosen.linkage
         _require_unit(tree.get("length_unit"), unit)
         _require_id(tree, id)
         return six_bar_of(tree) if is_six_bar(tree) else _of_dyads(tree)
@@ -108,13 +110,6 @@ def _tree(data: bytes, label: str) -> dict[str, Any]:
 def _is_table(text: str) -> bool:
     """Whether a text that begins with a bracket is TOML: [table] or [[tables]]."""
     return text.lstrip().partition("\n")[0].strip().strip("[]").strip().replace("_", "").isalpha()
-
-
-def _of_result(path: str, data: bytes, id: str | None, unit: str | None) -> Linkage | SixBar:
-    """A linkage of a result, its dyads in the order of the file, or a six-bar."""
-    chosen = read_result(path, data).exported(id, "--id")
-    _require_unit(chosen.unit, unit)
-    return chosen.linkage
 
 
 def _require_unit(stated: object, unit: str | None) -> None:

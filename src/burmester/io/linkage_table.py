@@ -164,6 +164,7 @@ def _usable(
     for name in ("worst", "angle", "transm.", *figures):
         table.add_column(name, justify="right", no_wrap=True)
     for k, found in enumerate(usable):
+        clear = found.clearance
         # Of the longest name, the second word stands under the first.
         kind = found.type.replace("inverted ", "inverted\n") + (" ±" if found.other_types else "")
         table.add_row(
@@ -174,14 +175,9 @@ def _usable(
             *worst_errors(synthesis, found),
             least_angle(found.driven.least_over_range),
             *(in_short(found.quality) if quality else ()),
-            *((_clear(found),) if near else ()),
+            *(("-" if clear is None else figure(clear.least),) if near else ()),
         )
     return table
-
-
-def _clear(found: FoundLinkage) -> str:
-    """The least clearance for a cell."""
-    return "-" if found.clearance is None else figure(found.clearance.least)
 
 
 def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage], width: int) -> Group:

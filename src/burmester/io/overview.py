@@ -16,7 +16,6 @@ from burmester.diagnosis.checks import Diagnosis
 from burmester.io.linkage_table import show_read
 from burmester.io.message import show as show_message
 from burmester.io.result import message_data, motion_data, task_data
-from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.point_conditions import point_conditions
 from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.motion_kinds import General
@@ -151,7 +150,11 @@ def _crank(timing: CrankTiming) -> str:
 def _path(task: Task, path: TracedPath) -> str:
     """How a path is traced; of an open one whose ends meet nearly, how it is closed."""
     turned, points = path.crank_angles, task.poses.translation
-    timed = "" if turned is None else f", timed by a crank that turns {_range(turned)}"
+    timed = (
+        ""
+        if turned is None
+        else f", timed by a crank that turns {math.degrees(float(np.ptp(turned))):.4g}°"
+    )
     if path.closed:
         return f"closed{timed}"
     gap = float(np.hypot(*(points[-1] - points[0])))
@@ -174,7 +177,3 @@ def _asked_of_path(task: Task, path: TracedPath) -> str:
     stated = task.requirements.within is not None
     stated |= tolerances is not None and tolerances.gives_room
     return near + (", within a tolerance" if stated else "; no tolerance is stated: one is assumed")
-
-
-def _range(angles: FloatArray) -> str:
-    return f"{math.degrees(float(np.ptp(angles))):.4g}°"

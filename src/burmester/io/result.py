@@ -38,7 +38,6 @@ from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.rails import Rail
-from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.price_list import price_list
 from burmester.verdicts.tracing import Tracing
@@ -179,17 +178,17 @@ def _beside_given(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:
         "moved": {
             "message": moved_pivots(synthesis, given, found),
             "greatest": greatest_move(given, found),
-            "dyads": [_move(each) for each in moves(given, found)],
+            "dyads": [_stated(each) for each in moves(given, found)],
         },
     }
 
 
-def _move(move: Move) -> dict[str, Any]:
+def _stated(move: Move) -> dict[str, Any]:
     """The move of one dyad; what it does not have is left out."""
-    names = ("fixed_pivot", "moving_pivot", "length", "line")
-    data: dict[str, Any] = {"dyad": move.dyad}
-    data |= {name: each for name in names if (each := getattr(move, name)) is not None}
-    return data if move.turn is None else data | {"turn_deg": math.degrees(move.turn)}
+    data = move._asdict()
+    if (turn := data.pop("turn")) is not None:
+        data["turn_deg"] = math.degrees(turn)
+    return {key: each for key, each in data.items() if each is not None}
 
 
 def message_data(message: Advice | Outcome) -> dict[str, Any]:
@@ -218,7 +217,9 @@ def task_data(task: Task) -> dict[str, Any]:
     if task.timing is not None:
         data |= crank_data(poses, task.timing)
     if task.path is not None:
-        data["path"] = path_data(task.path)
+        data["path"] = {"closed": task.path.closed}
+        if (angles := task.path.crank_angles) is not None:
+            data["path"]["crank_deg"] = [degrees_of(each) for each in angles.tolist()]
     if task.limits:
         data["limits"] = [limits_data(each) for each in task.limits]
     if task.body is not None:
@@ -229,14 +230,6 @@ def task_data(task: Task) -> dict[str, Any]:
         data["requirements"] = requirements_data(task.requirements)
     position, angle = (given / math.sqrt(3) for given in task.resolution)
     data["pose_sigma"] = {"position": position, "angle_deg": math.degrees(angle)}
-    return data
-
-
-def path_data(path: TracedPath) -> dict[str, Any]:
-    """How points are traced; crank angles in degrees, with all their digits."""
-    data: dict[str, Any] = {"closed": path.closed}
-    if path.crank_angles is not None:
-        data["crank_deg"] = [degrees_of(each) for each in path.crank_angles.tolist()]
     return data
 
 
@@ -343,9 +336,7 @@ def _family(family: Family) -> dict[str, Any]:
     }
 
 
-def _degrees_above(radius: float) -> float:
-    """A bound in radians as one in degrees that is no tighter."""
-    return math.degrees(radius) * (1 + 2.0**-50)  # more than both factors are rounded
+NO_TIGHTER = 1 + 2.0**-50  # times a bound in degrees; more than both factors are rounded
 
 
 def _certificate(certificate: Certificate) -> dict[str, Any]:
@@ -358,7 +349,7 @@ def _certificate(certificate: Certificate) -> dict[str, Any]:
                 "id": f"D{dyad.index + 1}",
                 "proved": dyad.proved,
                 "radius": number(dyad.radius),
-                "angle_radius_deg": number(_degrees_above(dyad.angle_radius)),
+                "angle_radius_deg": number(math.degrees(dyad.angle_radius) * NO_TIGHTER),
                 "minimum": dyad.minimum,
             }
             for dyad in certificate.dyads

@@ -180,7 +180,9 @@ def _synthesis(tree: dict[str, Any], data: bytes, refused: dict[str, InputError]
         (*warnings, *_judged_otherwise(others, refused)),
         certificate=_certificate(tree.get("certificate"), dyads),
         family=_family(tree.get("family")) if linkages else None,
-        search=_search(tree),
+        # For the file that it may be written to again.
+        search={key: tree[key] for key in SEARCH_KEYS if key in tree}
+        | {key: each for key, each in tree["outcome"].items() if key == "causes"},
     )
 
 
@@ -270,12 +272,6 @@ def _count(given: Any) -> int:
     """A whole number of the file, 0 for what is none."""
     whole = isinstance(given, int) and not isinstance(given, bool)
     return given if whole and 0 <= given < 2**63 else 0
-
-
-def _search(tree: dict[str, Any]) -> dict[str, Any]:
-    """What the file says of the search, for the file that it may be written to again."""
-    kept = {key: tree[key] for key in SEARCH_KEYS if key in tree}
-    return kept | {key: each for key, each in tree["outcome"].items() if key == "causes"}
 
 
 def _list(tree: Mapping[str, Any], key: str, within: str = "") -> list[Any]:
@@ -448,8 +444,12 @@ def _differences(found: Candidate, given: dict[str, Any], problem: SynthesisProb
             for each in dyads
         ]
     for name, own, other in every:
-        if not _alike(other, own, problem):
-            near, far = (_told(each, problem.given) for each in (own, other))
+        rounding = SAME_ERROR * problem.length + SAME_SHARE * min(own, other)
+        if not abs(own - other) <= rounding:
+            near, far = (
+                length_of(each, problem.given) if math.isfinite(each) else "nothing"
+                for each in (own, other)
+            )
             return [f"{name} misses a pose by {near}, and the file says {far}"]
     return []
 
@@ -457,15 +457,6 @@ def _differences(found: Candidate, given: dict[str, Any], problem: SynthesisProb
 def _number(given: Any) -> float:
     """A number of the file, infinite where there is none."""
     return float(given) if isinstance(given, int | float) else math.inf
-
-
-def _alike(one: float, other: float, problem: SynthesisProblem) -> bool:
-    """Whether two errors are the same up to rounding."""
-    return abs(one - other) <= SAME_ERROR * problem.length + SAME_SHARE * min(one, other)
-
-
-def _told(error: float, task: Task) -> str:
-    return length_of(error, task) if math.isfinite(error) else "nothing"
 
 
 def _claims(outcome: Outcome, works: bool) -> list[str]:

@@ -16,7 +16,6 @@ from burmester.describe import digits, quality_words, sentences
 from burmester.describe.dimensions import decimals_of, dimensions, dyad_in_words
 from burmester.describe.moved_pivots import improvements
 from burmester.dyads.selection import FoundDyad
-from burmester.fourbar.dyad import Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.inner_point import inner_point
 from burmester.io.linkage_data import dyad_data, linkage_data, number
@@ -180,7 +179,8 @@ def _linkage(
     rms = digits.position_error(synthesis, found.error.rms)
     least = least_angle(found.driven.least_over_range)
     quality = quality_words.facts(found, task)
-    links = _links(synthesis, found)
+    texts = digits.links(found, decimals_of(synthesis, found))
+    links = None if found.linkage.links is None else dict(zip(LINKS, texts, strict=True))
     freedom = _freedom(synthesis, found)
     verdict = "✓ usable" if found.usable else "✕ not usable"
     driver = f"{first.id}, turns fully" if found.driven.turns_fully else first.id
@@ -210,7 +210,11 @@ def _linkage(
         "links": links,
         "dimensions": [each._asdict() for each in dimensions(synthesis, found)],
         "notes": sentences.notes(synthesis, found),
-        "manifolds": [_manifold(each.dyad) for each in (first, second)],
+        # Each by its coefficients p1 to p8, on the scale that the dimensions give them.
+        "manifolds": [
+            [f"{value:.6g}" for value in np.asarray(each.dyad.coefficients()).tolist()]
+            for each in (first, second)
+        ],
     }
     return {
         **data,
@@ -305,18 +309,6 @@ def _freedom(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     if not widest <= FAR * scene_of(synthesis):
         return "pivots left open by the poses"
     return f"pivots may be moved by ±{notation.length_of(widest, synthesis.task)}"
-
-
-def _links(synthesis: Synthesis, found: FoundLinkage) -> dict[str, str] | None:
-    if found.linkage.links is None:
-        return None
-    texts = digits.links(found, decimals_of(synthesis, found))
-    return dict(zip(LINKS, texts, strict=True))
-
-
-def _manifold(dyad: Dyad) -> list[str]:
-    """The eight coefficients p1 to p8, on the scale that the dimensions give them."""
-    return [f"{value:.6g}" for value in np.asarray(dyad.coefficients()).tolist()]
 
 
 def _pose_errors(

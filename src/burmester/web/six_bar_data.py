@@ -14,7 +14,7 @@ from burmester.describe import six_bar_words
 from burmester.io.result import message_data
 from burmester.mechanisms.transmission import transmission_angles
 from burmester.numerics.arrays import FloatArray, complex_of
-from burmester.sixbar.six_bars import RULE, SixBars
+from burmester.sixbar.six_bars import RULE
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.notation import length_of
 from burmester.web.data import poses_report, scene_of, transmission_limit
@@ -40,10 +40,14 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
     task, result = synthesis.task, synthesis.six_bars
     found = () if result is None else result.found
     scene = scene_of(synthesis)
+    # What to build; what else is to be said of it stands beside its picture.
+    best = [f"{six_bar_words.headline(each)}." for each in found[:1]]
+    best += [six_bar_words.sentences(synthesis, each)[1] for each in found[:1] if each.usable]
+    rule = "" if result is None or result.given else f"{RULE[0].upper()}{RULE[1:]}. "
     return {
         "schema": SCHEMA,
         "outcome": message_data(synthesis.outcome),
-        "best": _best(synthesis, found[0]) if found else [],
+        "best": best,
         "warnings": list(map(message_data, synthesis.warnings)),
         "unit": task.length_unit,
         "poses": poses_report(task),
@@ -63,21 +67,8 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
                 for each in found
             ],
         },
-        "footnotes": _footnotes(result),
+        "footnotes": f"{rule}{LINKS}" if found else "",
     }
-
-
-def _footnotes(result: SixBars | None) -> str:
-    """How the first one was chosen, and the frames of its dimensions."""
-    if result is None or not result.found:
-        return ""
-    return LINKS if result.given else f"{RULE[0].upper()}{RULE[1:]}. {LINKS}"
-
-
-def _best(synthesis: Synthesis, best: FoundSixBar) -> list[str]:
-    """What to build; what else is to be said of it stands beside its picture."""
-    told = [f"{six_bar_words.headline(best)}."]
-    return [*told, six_bar_words.sentences(synthesis, best)[1]] if best.usable else told
 
 
 def _keys(found: tuple[FoundSixBar, ...]) -> list[tuple[str, str]]:
