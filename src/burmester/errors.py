@@ -103,6 +103,10 @@ class Advice:
     help: str | None = None
     why: str | None = None
 
+    def to_dict(self) -> dict[str, str | None]:
+        """The four fields, as JSON and pages have them."""
+        return {name: getattr(self, name) for name in ("code", "message", "why", "help")}
+
 
 @final
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from burmester.describe.decimals import (
     Decimals,
@@ -16,7 +16,6 @@ from burmester.describe.decimals import (
     figures_of,
 )
 from burmester.describe.digits import fixed, length_text, short
-from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.synthesis.result import Synthesis
@@ -24,6 +23,9 @@ from burmester.tasks.motion_task import Task, characteristic_length
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 from burmester.wording import figure
+
+if TYPE_CHECKING:
+    from burmester.dyads.selection import FoundDyad
 
 Regions = tuple[DyadUncertainty, DyadUncertainty] | tuple[None, None]
 NOT_DETERMINED = "not determined"

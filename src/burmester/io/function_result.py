@@ -14,9 +14,8 @@ from burmester.fourbar.dyad import RR
 from burmester.functions.found_generator import FoundGenerator
 from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
-from burmester.io.linkage_data import number, pins_data
+from burmester.io.linkage_data import FUNCTION_SCHEMA, number, pins_data
 from burmester.io.reading.stated_requirements import requirements_data
-from burmester.io.result import FUNCTION_SCHEMA, message_data
 from burmester.synthesis.function_generation import FunctionSynthesis
 
 LINK_KEYS = ("input", "coupler", "output")
@@ -29,7 +28,7 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
     task = synthesis.task
     return {
         "schema": FUNCTION_SCHEMA,
-        "outcome": message_data(synthesis.outcome),
+        "outcome": synthesis.outcome.to_dict(),
         "method": synthesis.method,
         "task": function_task_data(task),
         "search": {
@@ -47,7 +46,7 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
             for each in synthesis.prices
         ],
         "linkages": [_linkage(each, task) for each in synthesis.generators],
-        "warnings": list(map(message_data, synthesis.warnings)),
+        "warnings": [each.to_dict() for each in synthesis.warnings],
     }
 
 

@@ -17,7 +17,6 @@ from burmester.functions.pair_checks import reversals
 from burmester.io.function_result import function_task_data
 from burmester.io.linkage_table import new_table, show_read, show_warnings, table_of
 from burmester.io.message import draw, message, print_trimmed, show, wrapped
-from burmester.io.result import message_data
 from burmester.synthesis.function_generation import FunctionSynthesis
 from burmester.wording import count, figure, listed, with_article
 
@@ -173,7 +172,7 @@ def function_check_data(task: FunctionTask, findings: tuple[Advice, ...]) -> dic
         "input_range_deg": math.degrees(high - low),
         "output_range_deg": math.degrees(task.output_span),
         "reversals": reversals(*task.compared()),
-        "warnings": [message_data(each) for each in findings],
+        "warnings": [each.to_dict() for each in findings],
     }
 
 

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
 CONFIDENCE = 0.95
+FUNCTION_SCHEMA = "burmester.function/1"
 
 
 def number(value: float) -> float | None:

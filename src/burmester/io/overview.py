@@ -15,7 +15,7 @@ from rich.console import Console
 from burmester.diagnosis.checks import Diagnosis
 from burmester.io.linkage_table import show_read
 from burmester.io.message import show as show_message
-from burmester.io.result import message_data, motion_data, task_data
+from burmester.io.result import motion_data, task_data
 from burmester.synthesis.point_conditions import point_conditions
 from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.motion_kinds import General
@@ -40,7 +40,7 @@ def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
         "read_as": diagnosis.task.read_as,
         "motion": None if motion is None else motion_data(motion),
         "singular_values": None if motion is None else motion.singular_values.tolist(),
-        "warnings": [message_data(each) for each in (*diagnosis.task.notes, *diagnosis.findings)],
+        "warnings": [each.to_dict() for each in (*diagnosis.task.notes, *diagnosis.findings)],
     }
 
 

@@ -18,7 +18,7 @@ from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
-from burmester.errors import Advice, BurmesterError
+from burmester.errors import BurmesterError
 from burmester.fourbar.dyad import RR
 from burmester.geometry.regions import Line, Point, Region, Segment
 from burmester.io.linkage_data import (
@@ -32,7 +32,7 @@ from burmester.io.pose_data import crank_data, degrees_of, poses_data, tolerance
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.io.reading.stated_surroundings import surroundings_data
 from burmester.linkages.nearby_linkages import Move, greatest_move, moves
-from burmester.synthesis.result import JUDGED, Outcome, Synthesis
+from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
@@ -48,7 +48,7 @@ if TYPE_CHECKING:  # few results hold any of these
     from burmester.sixbar.six_bars import SixBars
     from burmester.synthesis.function_generation import FunctionSynthesis
 
-SCHEMA, FUNCTION_SCHEMA = "burmester.synthesis/1", "burmester.function/1"
+SCHEMA = "burmester.synthesis/1"
 # What a result says of its search alone, and nothing gives again when it is read.
 SEARCH_KEYS = ("singular_values", "critical_points", "search")
 
@@ -63,7 +63,7 @@ def synthesis_data(synthesis: Synthesis | FunctionSynthesis) -> dict[str, Any]:
     tolerance = synthesis.options.manufacturing_tolerance
     return {
         "schema": SCHEMA,
-        "outcome": {**message_data(outcome), **_causes(synthesis)},
+        "outcome": {**outcome.to_dict(), **_causes(synthesis)},
         "method": synthesis.method,
         "options": _options(synthesis.options),
         "task": task_data(task),
@@ -78,7 +78,7 @@ def synthesis_data(synthesis: Synthesis | FunctionSynthesis) -> dict[str, Any]:
             }
             for each in synthesis.linkages
         ],
-        "warnings": list(map(message_data, synthesis.warnings)),
+        "warnings": [each.to_dict() for each in synthesis.warnings],
         "characteristic_length": synthesis.length,
         "length_per_radian": synthesis.length_per_radian,
         "singular_values": _singular_values(synthesis),
@@ -189,16 +189,6 @@ def _stated(move: Move) -> dict[str, Any]:
     if (turn := data.pop("turn")) is not None:
         data["turn_deg"] = math.degrees(turn)
     return {key: each for key, each in data.items() if each is not None}
-
-
-def message_data(message: Advice | Outcome) -> dict[str, Any]:
-    """An outcome or a warning."""
-    return {
-        "code": message.code,
-        "message": message.message,
-        "why": message.why,
-        "help": message.help,
-    }
 
 
 def task_data(task: Task) -> dict[str, Any]:

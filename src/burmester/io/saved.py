@@ -26,11 +26,12 @@ from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice, Finding, InputError
 from burmester.fourbar.dyad import PP, Dyad
 from burmester.geometry.displacement import Displacement
+from burmester.io.linkage_data import FUNCTION_SCHEMA
 from burmester.io.linkage_values import assumed_of, dyad_of, number, text_of
 from burmester.io.reading.file_content import read_source
 from burmester.io.reading.pose_table import held_float
 from burmester.io.reading.poses import read_task
-from burmester.io.result import FUNCTION_SCHEMA, SCHEMA, SEARCH_KEYS
+from burmester.io.result import SCHEMA, SEARCH_KEYS
 from burmester.printable import printable
 from burmester.refinement.tolerance_boxes import counted_error
 from burmester.synthesis.given_linkage import OpenLink, require_linkage

@@ -19,7 +19,6 @@ from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import number
-from burmester.io.result import message_data
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.judgement import judge_linkage
 from burmester.tasks.motion_task import Task
@@ -55,7 +54,7 @@ def placed(task: Task, pivots: Any, options: SynthesisOptions, frames: int) -> d
         **answer,
         "linkage": linkage_report(judged, first, frames),
         "cost": {"rms": number(first.error.rms), "worst": number(first.error.worst)},
-        "messages": [message_data(judged.outcome)],
+        "messages": [judged.outcome.to_dict()],
     }
 
 

@@ -14,7 +14,7 @@ from typing import Any, Final, Protocol, TypeAlias
 
 from burmester.errors import BurmesterError, InputError
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
-from burmester.io.result import json_line, message_data, synthesis_data
+from burmester.io.result import json_line, synthesis_data
 from burmester.io.saved import read_result
 from burmester.live.answers import FRAMES, LiveAnswers
 from burmester.live.document import (
@@ -94,7 +94,7 @@ class SessionWorker:
             columns=columns if isinstance(columns, str) else None,
             closed=given.get("closed") is True,
         )
-        notes = [message_data(each) for each in task.notes]
+        notes = [each.to_dict() for each in task.notes]
         return _json({"document": document_of(task), "notes": notes})
 
     def check(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
@@ -109,7 +109,7 @@ class SessionWorker:
         part, unit = given.get("part"), given.get("length_unit")
         file = OutlineFile(name, part if isinstance(part, str) else None)
         outline, note = read_outline(file, "", unit if isinstance(unit, str) else None, data)
-        return _json({"outline": plain(outline.vertices.tolist()), "notes": [message_data(note)]})
+        return _json({"outline": plain(outline.vertices.tolist()), "notes": [note.to_dict()]})
 
     def task(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The task as a file."""

@@ -20,7 +20,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.inner_point import inner_point
 from burmester.io.linkage_data import dyad_data, linkage_data, number
 from burmester.io.pose_data import poses_data
-from burmester.io.result import message_data
 from burmester.linkages.evaluation import transmission_at_given_poses
 from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.requirements.transmission import TRANSMISSION
@@ -63,10 +62,10 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
     linkages = [_linkage(synthesis, each, scene, frames, chart) for each in synthesis.linkages]
     return {
         "schema": SCHEMA,
-        "outcome": message_data(outcome),
+        "outcome": outcome.to_dict(),
         "best": list(sentences.best_sentences(synthesis)),
         "better": improvements(synthesis),
-        "warnings": list(map(message_data, synthesis.warnings)),
+        "warnings": [each.to_dict() for each in synthesis.warnings],
         "method": synthesis.method,
         "unit": task.length_unit,
         "poses": poses_report(task),

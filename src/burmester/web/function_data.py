@@ -16,7 +16,6 @@ from burmester.functions.found_generator import ROUNDING, FoundGenerator
 from burmester.functions.function_task import FunctionTask
 from burmester.io.linkage_data import number
 from burmester.io.pose_data import poses_data
-from burmester.io.result import message_data
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.function_generation import FunctionSynthesis, coupler_synthesis
 from burmester.web.data import linkage_report, scene_of, transmission_limit
@@ -44,9 +43,9 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     linkages = [_generator(each, task) for each in shown]
     return {
         "schema": SCHEMA,
-        "outcome": message_data(synthesis.outcome),
+        "outcome": synthesis.outcome.to_dict(),
         "best": _best(synthesis),
-        "warnings": list(map(message_data, synthesis.warnings)),
+        "warnings": [each.to_dict() for each in synthesis.warnings],
         "kind": "function report",
         "whole": True,
         "stop": "place",

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from burmester.describe import six_bar_words
-from burmester.io.result import message_data
 from burmester.mechanisms.transmission import transmission_angles
 from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.sixbar.six_bars import RULE
@@ -46,9 +45,9 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
     rule = "" if result is None or result.given else f"{RULE[0].upper()}{RULE[1:]}. "
     return {
         "schema": SCHEMA,
-        "outcome": message_data(synthesis.outcome),
+        "outcome": synthesis.outcome.to_dict(),
         "best": best,
-        "warnings": list(map(message_data, synthesis.warnings)),
+        "warnings": [each.to_dict() for each in synthesis.warnings],
         "unit": task.length_unit,
         "poses": poses_report(task),
         "body": None if task.body is None else task.body.vertices.tolist(),
