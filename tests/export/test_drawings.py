@@ -16,7 +16,7 @@ from burmester.errors import BurmesterError
 from burmester.export import Options
 from burmester.export.drawings import dxf, svg
 from burmester.export.drawings.sheet import laid_lengthwise
-from burmester.export.parts.distances import distance
+from burmester.export.parts.distances import distances
 from burmester.export.parts.plates import assembly_of
 from tests.oracles.common_tasks import in_line
 from tests.oracles.handed_over import NAMES, dxf_unit, joints, saved, scale_of, written
@@ -148,14 +148,14 @@ def test_text_is_clear_of_the_plates_and_of_other_text(name):
     for laid in laid_lengthwise(assembly, letters, 3, True):
         corners = laid.place.act(laid.plate.skeleton)
         for line in laid.lines:
-            assert distance(line.box, corners) >= laid.plate.radius, (laid.label, line.text)
+            assert distances(line.box, corners) >= laid.plate.radius, (laid.label, line.text)
         for one, two in itertools.combinations(laid.lines, 2):
-            assert distance(one.box, two.box) > 0.2 * letters, (one.text, two.text)
+            assert distances(one.box, two.box) > 0.2 * letters, (one.text, two.text)
         # No text on a line, but where there is no room at all.
         crossed = [
             (one.text, two.text)
             for one, two in itertools.permutations(laid.lines, 2)
-            if any(distance(one.box, each) == 0 for each in two.lines)
+            if any(distances(one.box, each) == 0 for each in two.lines)
         ]
         assert len(crossed) <= 1, crossed
 

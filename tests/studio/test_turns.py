@@ -42,6 +42,24 @@ def test_a_turn_that_is_called_off_goes_to_the_next(which, before):
     asyncio.run(play())
 
 
+def test_who_waits_is_told_how_many_are_before():
+    async def play():
+        turns, told = Turns(1), [[] for _ in range(4)]
+
+        async def wait(number):
+            async with turns.turn(told[number].append):
+                await steps(2)
+
+        tasks = [asyncio.create_task(wait(number)) for number in range(4)]
+        await steps(1)
+        assert told == [[], [1], [2], [3]]
+        tasks[1].cancel()
+        await asyncio.wait(tasks)
+        assert told == [[], [1], [2, 1], [3, 2, 1]]
+
+    asyncio.run(play())
+
+
 @pytest.mark.parametrize("before", range(5))
 @pytest.mark.parametrize(("off", "on"), [(1, 2), (2, 1)])
 def test_a_worker_that_comes_free_goes_to_who_still_waits(before, off, on):

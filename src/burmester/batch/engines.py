@@ -136,15 +136,9 @@ class Cluster:
             ) from None
         self.lost: tuple[type[BaseException], ...] = (KilledWorker,)
         self._address = address
-        try:
+        help = "start one with `dask scheduler` and `dask worker`, or leave --dask out"
+        with self._there("does not answer", help):
             self._client = Client(address, timeout=CONNECT_S, set_as_default=False)
-        except (OSError, ValueError) as error:
-            raise InputError(
-                "E182",
-                f"the cluster at {address} does not answer",
-                why=str(error).partition("\n")[0][:200] or type(error).__name__,
-                help="start one with `dask scheduler` and `dask worker`, or leave --dask out",
-            ) from None
         self._executor = self._client.get_executor(pure=False)
 
     @property
@@ -161,17 +155,18 @@ class Cluster:
         return future
 
     @contextmanager
-    def _there(self) -> Iterator[None]:
-        """A block that asks the scheduler; raises E182 where it does not answer any more."""
+    def _there(
+        self,
+        fault: str = "does not answer any more",
+        help: str = "start it again, and run the batch again: it goes on",
+    ) -> Iterator[None]:
+        """A block that asks the scheduler; raises E182 where it does not answer."""
         try:
             yield
-        except (OSError, RuntimeError, CancelledError) as error:
-            raise InputError(
-                "E182",
-                f"the cluster at {self._address} does not answer any more",
-                why=str(error).partition("\n")[0][:200] or type(error).__name__,
-                help="start it again, and run the batch again: it goes on",
-            ) from None
+        except (OSError, RuntimeError, ValueError, CancelledError) as error:
+            message = f"the cluster at {self._address} {fault}"
+            why = str(error).partition("\n")[0][:200] or type(error).__name__
+            raise InputError("E182", message, why=why, help=help) from None
 
     def renew(self) -> None:
         """The cluster sees to its workers."""

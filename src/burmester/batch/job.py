@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, suppress
 from dataclasses import dataclass, field
@@ -206,7 +207,7 @@ class _Job:
     tasks: int = 0
     before: int = 0
     begun: float = 0.0
-    outcomes: dict[str, int] = field(default_factory=dict)
+    outcomes: Counter[str] = field(default_factory=Counter)
 
     def identity(self) -> dict[str, Any]:
         """All that the rows depend on."""
@@ -234,8 +235,8 @@ class _Job:
         if self.datasheet:
             self.folder.write(self.folder.datasheet, self.datasheet)
         for record in manifest.done.values():
-            self._count(record)
-        self.before = sum(record.tasks for record in manifest.done.values())
+            self.outcomes.update(record.outcomes)
+            self.before += record.tasks
         plan = Plan(self.depth, self.options, manifest.run, self.limit, versions())
         self.begun = monotonic()
 
@@ -249,7 +250,7 @@ class _Job:
                 worked.failed,
             )
             manifest.add(part.number, worked.data, record)
-            self._count(record)
+            self.outcomes.update(record.outcomes)
             self.tasks += record.tasks
 
         complete = False
@@ -303,10 +304,6 @@ class _Job:
                 where=self.source.name,
                 help="run the batch again, into another folder",
             )
-
-    def _count(self, record: PartRecord) -> None:
-        for name, count in record.outcomes.items():
-            self.outcomes[name] = self.outcomes.get(name, 0) + count
 
     def _tick(self) -> None:
         if self.progress is not None:

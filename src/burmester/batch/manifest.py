@@ -13,7 +13,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from typing import Any, final
 
@@ -170,18 +171,18 @@ class Manifest:
         return json.dumps(_sealed({"run": self.run, **asdict(record)})).encode() + b"\n"
 
 
-def _sums(records: Iterable[PartRecord]) -> dict[str, Any]:
+def _sums(records: Sequence[PartRecord]) -> dict[str, Any]:
     """The numbers of parts, tasks and outcomes, and the first tasks that failed."""
-    parts = tasks = 0
-    outcomes: dict[str, int] = {}
-    failed: list[dict[str, Any]] = []
+    outcomes, failed = Counter[str](), list[dict[str, Any]]()
     for record in records:
-        parts, tasks = parts + 1, tasks + record.tasks
-        for name, count in record.outcomes.items():
-            outcomes[name] = outcomes.get(name, 0) + count
+        outcomes.update(record.outcomes)
         failed += record.failed[: NAMED - len(failed)]
-    sums = {"parts": parts, "tasks": tasks, "outcomes": dict(sorted(outcomes.items()))}
-    return {**sums, "failed": failed}
+    return {
+        "parts": len(records),
+        "tasks": sum(record.tasks for record in records),
+        "outcomes": dict(sorted(outcomes.items())),
+        "failed": failed,
+    }
 
 
 def _content(path: str) -> bytes | None:

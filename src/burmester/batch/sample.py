@@ -9,6 +9,7 @@ from typing import Any, final
 
 import numpy as np
 import pyarrow as pa
+from numpy.typing import NDArray
 
 from burmester import __version__
 from burmester.batch.answer_rows import structs
@@ -147,11 +148,10 @@ def _poses(places: FloatArray) -> Any:
     """Places (T, N, 3), radians, as lists of poses."""
     count, each = places.shape[:2]
     x, y, angle = places.reshape(-1, 3).T
-    columns = [pa.array(np.ascontiguousarray(values)) for values in (x, y, np.degrees(angle))]
-    values = pa.StructArray.from_arrays(columns, fields=list(POSE))
     if not each:
         return pa.array([[]] * count, _POSES)
-    return _lists(values, each)
+    columns = {"x": x, "y": y, "angle_deg": np.degrees(angle)}
+    return _lists(structs(POSE, len(x), columns), each)
 
 
 def _dyads(found: RandomLinkages) -> Any:
@@ -159,19 +159,19 @@ def _dyads(found: RandomLinkages) -> Any:
     kinds = found.linkages.kinds.ravel()
     numbers = found.linkages.dimensions.reshape(len(kinds), -1)
     pin = kinds == 0
-    fixed, length, normal, offset = (
-        np.where(which, values, np.nan)
-        for which, values in (
-            (pin[:, None], numbers[:, :2]),
-            (pin, numbers[:, 4]),
-            (~pin, np.degrees(numbers[:, 0])),
-            (~pin, numbers[:, 1]),
-        )
-    )
+    one, two, moving_x, moving_y, length = numbers.T[:5]
+
+    def of(which: NDArray[np.bool_], values: FloatArray) -> FloatArray:
+        return np.where(which, values, np.nan)
+
     columns = {
         "kind": np.where(pin, "RR", "PR"),
-        **{"fixed_x": fixed[:, 0], "fixed_y": fixed[:, 1]},
-        **{"moving_x": numbers[:, 2], "moving_y": numbers[:, 3]},
-        **{"length": length, "normal_deg": normal, "offset": offset},
+        "fixed_x": of(pin, one),
+        "fixed_y": of(pin, two),
+        "moving_x": moving_x,
+        "moving_y": moving_y,
+        "length": of(pin, length),
+        "normal_deg": of(~pin, np.degrees(one)),
+        "offset": of(~pin, two),
     }
     return structs(DYAD, len(kinds), columns)

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from burmester.numerics.arrays import FloatArray
-from burmester.scene.linkage_scene import scene_with
+from burmester.scene.linkage_scene import scene_at
 from burmester.verdicts.found_linkage import FoundLinkage
 
 MOST_ROWS = 14  # lines of the sketch
@@ -34,7 +34,7 @@ def sketch(found: FoundLinkage, columns: int) -> list[str] | None:
         return None
     first, last = int(reached[0]), int(reached[-1])
     origins = places.translation[reached]
-    scenes = {k: scene_with(found.driver_first, places[k], places[reached]) for k in (last, first)}
+    scenes = {k: scene_at(found, k) for k in (last, first)}
     middle = (origins.min(axis=0) + origins.max(axis=0)) / 2
     joints = [pivot.at for scene in scenes.values() for pivot in scene.pivots]
     size = float(np.ptp(origins, axis=0).max()) or float(

@@ -3,19 +3,16 @@
 from __future__ import annotations
 
 from itertools import product
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.text import Text
 from matplotlib.ticker import MaxNLocator
 
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.camera import Box, Camera
 from burmester.plot.style import BLACK, GREY, with_unit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 NUMBER, NAME = 11.0, 27.0  # points from the box to the numbers and names beside it
 

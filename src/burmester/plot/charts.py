@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.text import Annotation
 from matplotlib.ticker import MaxNLocator, NullFormatter
@@ -19,9 +20,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.plane import parameters
 from burmester.plot.style import BLACK, BLUE, GREY, VERMILION, label, settle_labels, with_unit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 USUAL_MIN_TRANSMISSION_DEG = 40.0  # degrees; below it friction may lock the linkage
 ZERO_ERROR = 1e-16  # of the largest error, or of 1: height at which an error of zero is drawn
@@ -101,7 +99,7 @@ def transmission(
     own = Circuits.of(linkage, as_given=True)[circuit]
     slides = isinstance(linkage.first, PR)
     turn = 1.0 if slides else 180 / np.pi
-    lines, rows = [], parameters(own, samples)
+    rows = parameters(own, samples)
     met = (
         np.zeros(0, dtype=np.intp)
         if driven is None
@@ -111,30 +109,29 @@ def transmission(
         # One turn, with the range of the poses in its middle.
         middle = (driven.parameter[met].min() + driven.parameter[met].max()) / 2
         rows = [rows[0] - np.pi + middle]
-    for branch, row in enumerate(rows):
+
+    def curve(row: FloatArray, **style: Any) -> Line2D:
+        """The angle along parameters of the circuit."""
         places = own.couplers(row)
-        (line,) = ax.plot(
-            turn * _wound(own, row, places, driven, slides),
-            np.degrees(transmission_angle(linkage, places)),
-            color=BLUE,
+        drive = turn * _wound(own, row, places, driven, slides)
+        angle = np.degrees(transmission_angle(linkage, places))
+        (line,) = ax.plot(drive, angle, color=BLUE, **style)
+        return line
+
+    lines = [
+        curve(
+            row,
             ls=(0, (4, 1.6)) if branch else "-",
             lw=1.1,
             zorder=2,
             label=("transmission angle", "the same, other branch")[branch],
         )
-        lines.append(line)
+        for branch, row in enumerate(rows)
+    ]
     used, marks, labels = None, None, list[Annotation]()
     if driven is not None and met.size:
         row = np.linspace(driven.parameter[met].min(), driven.parameter[met].max(), samples)
-        places = own.couplers(row)
-        (used,) = ax.plot(
-            turn * _wound(own, row, places, driven, slides),
-            np.degrees(transmission_angle(linkage, places)),
-            color=BLUE,
-            lw=2.8,
-            zorder=3,
-            label="range of the poses",
-        )
+        used = curve(row, lw=2.8, zorder=3, label="range of the poses")
         at = own.couplers(driven.parameter[met])
         x = turn * (driven.inputs[met] - _turns(driven, slides))
         y = np.degrees(transmission_angle(linkage, at))

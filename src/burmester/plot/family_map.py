@@ -6,9 +6,10 @@ farther ones.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colorbar import Colorbar
 from matplotlib.figure import Figure
@@ -46,9 +47,6 @@ from burmester.plot.style import (
     settle_labels,
     with_unit,
 )
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 FRAME_SIZE: Final = 0.05  # of the width of a rectangle: the x axis of a pose
 SPECK: Final = 6  # of nine pairs around one that does not work; no outline goes around that one

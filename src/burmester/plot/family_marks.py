@@ -7,10 +7,11 @@ that nothing depends on hue.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.colors import Normalize, to_rgb
 from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
@@ -23,9 +24,6 @@ from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import VERMILION, plain
 from burmester.requirements.transmission import TRANSMISSION
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 SCALE: Final = "cividis"  # of transmission angles
 SCALE_STEP: Final = 5.0  # degrees; that scale ends at a multiple of it

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import QuadMesh
 from matplotlib.colors import LogNorm
 from matplotlib.contour import QuadContourSet
@@ -15,10 +16,8 @@ from burmester.dyads.burmester_curve import DyadCurve
 from burmester.dyads.pivot_map import PivotMap, fixed_pivot_map, grid
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.plot.plane import near_part
 from burmester.plot.style import BLUE, VERMILION
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 MAX_DECADES = 4.0  # of errors that the colours distinguish, at most
 CURVE_REACH = 3.0  # spans of the poses; the curve is cut off beyond
@@ -196,12 +195,8 @@ def _loops(
     out = []
     for k, loop in enumerate(loops):
         points = np.concatenate([loop, loop[:1]])
-        far = np.abs(points - middle).max(axis=-1) > reach
-        points = np.where(far[:, None], np.nan, points)
-        jump = np.abs(np.diff(points, axis=0)).max(axis=-1) > reach / 2
-        points[1:][jump] = np.nan
         if k:
             style = style | {"label": "_"}
-        (line,) = ax.plot(*points.T, lw=1.5, zorder=2.6, **style)  # type: ignore[arg-type]
+        (line,) = ax.plot(*near_part(points, reach, middle).T, lw=1.5, zorder=2.6, **style)  # type: ignore[arg-type]
         out.append(line)
     return out

@@ -11,8 +11,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Polygon
 from matplotlib.patheffects import Normal, Stroke
@@ -36,14 +38,11 @@ from burmester.plot.style import (
     label,
     legend,
 )
-from burmester.scene.linkage_scene import Pivot, Scene, own_circuit, path_of, scene_of, scene_with
+from burmester.scene.linkage_scene import Pivot, Scene, own_circuit, path_of, scene_at, scene_with
 from burmester.synthesis.result import Candidate
 from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
     from burmester.fourbar.linkage import Linkage
 
 FAINT = "#aab3bd"
@@ -206,9 +205,7 @@ def linkage_figure(
             draw_body(ax, task.body.vertices, shown, at=middle, along=along)
         some = there[np.linspace(0, len(there) - 1, min(len(there), MOST_PLACES)).astype(np.intp)]
         for k in sorted({*some.tolist(), *([] if middle is None else [middle])}):
-            drive = float("nan") if isinstance(chosen, FoundLinkage) else float(chosen.drive[k])
-            scene = scene_of(chosen, places[k], drive, places[there])
-            draw(ax, scene, faint=k != middle, names=k == middle)
+            draw(ax, scene_at(chosen, k), faint=k != middle, names=k == middle)
         poses(ax, task.poses, free=task.free_angles)
         if isinstance(chosen, FoundLinkage):
             legend(ax)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
 from matplotlib.patches import Polygon
@@ -16,9 +17,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.inner_point import inner_point
 from burmester.plot.style import GREEN, GREY, plain
 from burmester.tasks.surroundings import KeepOut
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 FIRST, LAST = 0.45, 1.0  # strength of the outline at the first pose and at the last
 FILL = 0.1  # of its strength: how opaque the inside of an outline is

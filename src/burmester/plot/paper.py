@@ -20,7 +20,6 @@ from pathlib import Path
 from typing import Any, Final
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from burmester.errors import InputError
@@ -207,68 +206,58 @@ def _figure2() -> Figure:
     return drawing
 
 
-def _pair(drawing: Figure, ax: Axes, p: FloatArray, fit: PaperFit, box: Box, **more: Any) -> None:
-    """Quadrics (k, 8) with the curve of the fit's pencil and the image points of its poses."""
-    image_space(ax, p, poses=fit.poses[0], curve=common_curve(*fit.p[0]), box=box, **more)
+def _panels(
+    fit: PaperFit,
+    box: Box,
+    size: tuple[float, float, float],
+    panels: Sequence[tuple[FloatArray, Sequence[str]]],
+    columns: int = 1,
+    **more: Any,
+) -> Figure:
+    """Quadrics (k, 8) with their names, panel beside panel, and the poses and curve of a fit."""
+    drawing, rows = figure(*size), len(panels) // columns
+    for k, (p, names) in enumerate(panels):
+        corner = k % columns / columns, 1 - (k // columns + 1) / rows
+        ax = drawing.add_axes((*corner, 1 / columns, 1 / rows))
+        curve = common_curve(*fit.p[0])
+        image_space(ax, p, poses=fit.poses[0], curve=curve, box=box, names=names, **more)
+    return drawing
 
 
 def _figure3() -> Figure:
     fit = _exact()
-    drawing = figure(6.4, 5.6, 250)
-    ax = drawing.add_axes((0, 0, 1, 1))
-    _pair(drawing, ax, _basis(fit), fit, EXACT_BOX, names=("$v_1$: ellipsoid", "$v_2$: two sheets"))
-    return drawing
+    panel = _basis(fit), ("$v_1$: ellipsoid", "$v_2$: two sheets")
+    return _panels(fit, EXACT_BOX, (6.4, 5.6, 250), [panel])
 
 
 def _figure4() -> Figure:
     fit = _exact()
-    drawing = figure(6.4, 5.6, 250)
-    ax = drawing.add_axes((0, 0, 1, 1))
-    names = (r"$\theta_1 = -43.13°$", r"$\theta_2 = 44.72°$")
-    _pair(drawing, ax, fit.p[0], fit, EXACT_BOX, names=names)
-    return drawing
+    panel = fit.p[0], (r"$\theta_1 = -43.13°$", r"$\theta_2 = 44.72°$")
+    return _panels(fit, EXACT_BOX, (6.4, 5.6, 250), [panel])
 
 
 def _between(theta: Sequence[float], color: str) -> Figure:
     """Four quadrics of the exact pencil, beside each other."""
     fit = _exact()
-    basis = _basis(fit)
-    drawing = figure(8.0, 7.2, 200)
-    for k, degrees in enumerate(theta):
-        ax = drawing.add_axes((0.5 * (k % 2), 0.5 * (1 - k // 2), 0.5, 0.5))
-        t = np.radians(degrees)
-        p = (np.cos(t) * basis[0] + np.sin(t) * basis[1])[None]
-        name = rf"$\theta = {degrees:.2f}°$"
-        _pair(drawing, ax, p, fit, EXACT_BOX, names=(name,), colours=(color,), numbers=False)
-    return drawing
+    turns = np.stack([np.cos(np.radians(theta)), np.sin(np.radians(theta))], axis=1)
+    names = [(rf"$\theta = {degrees:.2f}°$",) for degrees in theta]
+    panels = list(zip((turns @ _basis(fit))[:, None], names, strict=True))
+    size = (8.0, 7.2, 200)
+    return _panels(fit, EXACT_BOX, size, panels, 2, colours=(color,), numbers=False)
 
 
 def _figure7() -> Figure:
     fit = _noisy()
-    drawing = figure(10.0, 4.6, 200)
-    for k, (p, names) in enumerate(
-        (
-            (fit.plane[0], ("$v_1$: ellipsoid", "$v_2$: two sheets")),
-            (fit.p[0], (r"$\theta_1 = -21.28°$", r"$\theta_2 = 54.08°$")),
-        )
-    ):
-        ax = drawing.add_axes((0.5 * k, 0, 0.5, 1))
-        _pair(drawing, ax, p, fit, NOISY_BOX, names=names)
-    return drawing
+    panels = [
+        (fit.plane[0], ("$v_1$: ellipsoid", "$v_2$: two sheets")),
+        (fit.p[0], (r"$\theta_1 = -21.28°$", r"$\theta_2 = 54.08°$")),
+    ]
+    return _panels(fit, NOISY_BOX, (10.0, 4.6, 200), panels, 2)
 
 
-def _table2() -> Figure:
-    fit = _exact()
-    return _at_poses(_linkage(fit.printed["linkage"]), fit.poses[0])
-
-
-def _table8() -> Figure:
-    fit = _noisy()
-    return _at_poses(_linkage(fit.printed["linkage_table8"]), fit.poses[0])
-
-
-def _at_poses(linkage: Linkage, prescribed: Displacement) -> Figure:
+def _at_poses(fit: PaperFit, key: str) -> Figure:
     """A linkage at one pose, faintly at the others; over the prescribed poses; its errors."""
+    linkage, prescribed = _linkage(fit.printed[key]), fit.poses[0]
     error = PoseError.of(linkage, prescribed, span_of(prescribed))
     drawing = figure(10.0, 5.2, 200)
     left, upper, lower = (
@@ -297,7 +286,7 @@ _FIGURES: Final[dict[str, Callable[[], Figure]]] = {
     "figure-5": lambda: _between(FIGURE5, PALETTE[1]),
     "figure-6": lambda: _between(FIGURE6, PALETTE[0]),
     "figure-7": _figure7,
-    "table-2-linkage": _table2,
-    "table-8-linkage": _table8,
+    "table-2-linkage": lambda: _at_poses(_exact(), "linkage"),
+    "table-8-linkage": lambda: _at_poses(_noisy(), "linkage_table8"),
 }
 NAMES: Final = tuple(_FIGURES)

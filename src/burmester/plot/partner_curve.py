@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
@@ -18,9 +19,6 @@ from burmester.plot.family_marks import TICKS, colors_of, place_name, pose_names
 from burmester.plot.maps import CURVE_REACH
 from burmester.plot.plane import poses as draw_poses
 from burmester.plot.style import BLACK, GREY, label, with_unit
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 ROOM: Final = 1.2  # around what is shown of a centre-point curve, as a factor
 

@@ -7,9 +7,10 @@ comes last: equal axes, units, and labels moved apart.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.text import Annotation
@@ -23,9 +24,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import BLACK, BLUE, GREEN, GREY, PURPLE, VERMILION, label
 from burmester.scene.linkage_scene import longest
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 X_AXIS_LENGTH = 0.13  # of the poses' span: length of a frame's x axis
 Y_AXIS_SHARE = 0.6  # of the x axis: length of the y axis
@@ -211,7 +209,7 @@ def coupler_curve(
         for branch, row in enumerate(branches):
             curve = own.curve(np.asarray(point, dtype=np.float64), row)
             if not own.closed:
-                curve = _near(curve, reach)
+                curve = near_part(curve, reach)
             (line,) = ax.plot(
                 *curve.T,
                 color=color,
@@ -354,8 +352,8 @@ def centrodes(
     size = longest(linkage)
     rows = np.concatenate(parameters(own, samples, ENDLESS_CURVE_REACH * size))
     both = centrodes_of(linkage, own.couplers(rows))
-    fixed = _near(both.fixed, ENDLESS_CURVE_REACH * size, place.translation)
-    moving = _near(place.act(both.moving), ENDLESS_CURVE_REACH * size, place.translation)
+    fixed = near_part(both.fixed, ENDLESS_CURVE_REACH * size, place.translation)
+    moving = near_part(place.act(both.moving), ENDLESS_CURVE_REACH * size, place.translation)
     (one,) = ax.plot(*fixed.T, color=GREEN, lw=1.5, zorder=2.2, label="fixed centrode")
     (two,) = ax.plot(
         *moving.T, color=PURPLE, lw=1.5, ls=(0, (4, 1.6)), zorder=2.2, label="moving centrode"
@@ -363,7 +361,7 @@ def centrodes(
     return DrawnCentrodes(one, two, Centrodes(fixed, moving))
 
 
-def _near(points: FloatArray, reach: float, middle: ArrayLike | None = None) -> FloatArray:
+def near_part(points: FloatArray, reach: float, middle: ArrayLike | None = None) -> FloatArray:
     """Points (n, 2) with nan for those far away, so that a line has a gap there."""
     if middle is None:
         finite = points[np.isfinite(points).all(axis=-1)]

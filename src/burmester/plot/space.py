@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from itertools import product
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
 from matplotlib.image import AxesImage
 from matplotlib.lines import Line2D
@@ -28,9 +29,6 @@ from burmester.plot.camera import Box, Camera, chart
 from burmester.plot.common_curve import common_curve
 from burmester.plot.raycast import Extent, Scene, Surface, cast, render
 from burmester.plot.style import BLACK, PALETTE, label, settle_labels
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 ON_SURFACE = 1e-6  # in t: a surface does not cover a curve that is nearer to it
 MARKER_SIZE = 0.02  # of the box: half the size of an image point's marker

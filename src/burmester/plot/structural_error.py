@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from burmester.functions.found_generator import FoundGenerator
 from burmester.functions.function_task import FunctionTask
 from burmester.plot.style import BLACK, BLUE, GREEN, GREY, VERMILION, figure
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
-
-    from burmester.synthesis.function_generation import FunctionSynthesis
+from burmester.synthesis.function_generation import FunctionSynthesis
 
 MOST_CURVES = 4  # linkages in one figure
 FAR = 5.0  # times the greatest error of the first; worse linkages are left out

@@ -10,10 +10,11 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from io import BytesIO
 from itertools import pairwise
-from typing import TYPE_CHECKING, Final, cast
+from typing import Final, cast
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.legend import Legend
@@ -24,9 +25,6 @@ from numpy.typing import ArrayLike
 
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 BLACK: Final = "#1b2733"
 GREY: Final = "#7b8794"

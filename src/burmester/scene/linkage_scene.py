@@ -5,6 +5,7 @@ All is in F, in lengths of the task.  Matplotlib, SVG and the terminal draw the 
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
@@ -66,6 +67,13 @@ def scene_of(chosen: Candidate, place: Displacement, drive: float, travel: Displ
     if isinstance(chosen, FoundLinkage):
         return scene_with(chosen.driver_first, place, travel)
     return _of_skeleton(chosen, drive)
+
+
+def scene_at(chosen: Candidate, pose: int) -> Scene:
+    """A linkage where it is for a pose, a number from 0; rails and slots reach all poses."""
+    places = chosen.error.places
+    drive = math.nan if isinstance(chosen, FoundLinkage) else float(chosen.drive[pose])
+    return scene_of(chosen, places[pose], drive, places[np.isfinite(places.angle)])
 
 
 def scene_with(linkage: Linkage, place: Displacement, travel: Displacement) -> Scene:

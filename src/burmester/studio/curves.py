@@ -22,31 +22,30 @@ def curves(task: Task, *, judged: bool) -> dict[str, Any]:
     judged: whether to say of each dyad what it makes with its best partner: the class, a number
     of `words`, and the least transmission angle there.  Raises E121 and E124 as `dyad_curve`.
     """
-    if not judged:
-        parts = [
-            {
-                "fixed": _points(each.fixed_pivot),
-                "moving": _points(each.moving_pivot),
-                "length": _points(each.radius),
-            }
-            for each in dyad_curve(task.poses, DRAWN).components
+    loops: list[tuple[Any, dict[str, Any]]]
+    if judged:
+        found = curve_map(task, samples=SAMPLES)
+        classes, angle = found.best_partner()
+        every = [np.flatnonzero(found.loop == k) for k in range(int(found.loop.max()) + 1)]
+        degrees = np.degrees(angle)
+        loops = [
+            (
+                found.second[own],
+                {"class": classes[own].tolist(), "transmission_deg": _points(degrees[own])},
+            )
+            for own in every
         ]
-        return {"loops": parts, "words": list(CLASS_WORDS.values())}
-    found = curve_map(task, samples=SAMPLES)
-    classes, angle = found.best_partner()
-    parts = []
-    for number in range(int(found.loop.max()) + 1):
-        own = np.flatnonzero(found.loop == number)
-        dyads = found.second[own]
-        parts.append(
-            {
-                "fixed": _points(dyads.fixed_pivot),
-                "moving": _points(dyads.moving_pivot),
-                "length": _points(dyads.radius),
-                "class": classes[own].tolist(),
-                "transmission_deg": _points(np.degrees(angle[own])),
-            }
-        )
+    else:
+        loops = [(each, {}) for each in dyad_curve(task.poses, DRAWN).components]
+    parts = [
+        {
+            "fixed": _points(dyads.fixed_pivot),
+            "moving": _points(dyads.moving_pivot),
+            "length": _points(dyads.radius),
+            **more,
+        }
+        for dyads, more in loops
+    ]
     return {"loops": parts, "words": list(CLASS_WORDS.values())}
 
 

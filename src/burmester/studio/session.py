@@ -12,17 +12,15 @@ import json
 import time
 from collections.abc import Callable
 from contextlib import AbstractContextManager, suppress
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from burmester.errors import InputError
 from burmester.studio.access import PROTOCOL
 from burmester.studio.message import as_json, from_json
+from burmester.studio.server_state import ServerState
 from burmester.studio.workers import Message, Worker, WorkerEndedError
-
-if TYPE_CHECKING:
-    from burmester.studio.server_state import ServerState
 
 HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53

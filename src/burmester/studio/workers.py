@@ -11,7 +11,6 @@ import json
 import os
 import signal
 import sys
-from collections import deque
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager, suppress
 from typing import Any, TypeAlias
@@ -175,7 +174,7 @@ class Workers:
         self._idle: list[Worker] = []  # those that rested for longest first
         self._lent: set[Worker] = set()
         self._starting = 0
-        self._waiting: deque[asyncio.Future[None]] = deque()
+        self._changed = asyncio.Event()  # a worker rests, or there is room for one more
         self._background: set[asyncio.Task[None]] = set()
         self._closed = False
 
@@ -234,14 +233,8 @@ class Workers:
             if self._size < self._most:
                 await self._start()
                 continue
-            turn = asyncio.get_running_loop().create_future()
-            self._waiting.append(turn)
-            try:
-                await turn
-            except asyncio.CancelledError:
-                if not turn.cancelled():  # it was this one's turn: now it is the next one's
-                    self._wake()
-                raise
+            self._changed.clear()
+            await self._changed.wait()
 
     def _choice(self, key: str | None) -> Worker | None:
         """The idle worker that is to be had; None where another is to be started first."""
@@ -265,7 +258,7 @@ class Workers:
         try:
             worker = await Worker.start(*words)
         except BaseException:
-            self._wake()  # there is room for one more
+            self._changed.set()  # there is room for one more
             raise
         finally:
             self._starting -= 1
@@ -273,7 +266,7 @@ class Workers:
             await worker.kill()
             return
         self._idle.append(worker)
-        self._wake()
+        self._changed.set()
 
     def _return(self, worker: Worker) -> None:
         if worker.idle and worker.alive:
@@ -284,7 +277,7 @@ class Workers:
     def _rest(self, worker: Worker) -> None:
         self._lent.discard(worker)
         self._idle.append(worker)
-        self._wake()
+        self._changed.set()
 
     async def _settled(self, worker: Worker) -> None:
         await worker.settle()
@@ -293,16 +286,9 @@ class Workers:
             self._rest(worker)
             return
         self._lent.discard(worker)
-        self._wake()
+        self._changed.set()
         if not self._closed:
             await self.open(self._spare)
-
-    def _wake(self) -> None:
-        while self._waiting:
-            turn = self._waiting.popleft()
-            if not turn.done():
-                turn.set_result(None)
-                return
 
     def _later(self, what: Any) -> None:
         task = asyncio.ensure_future(what)
@@ -314,39 +300,25 @@ class Turns:
     """At most so many at once; the others wait, first come, first served."""
 
     def __init__(self, at_once: int) -> None:
-        self._free = at_once
-        self._queue: deque[tuple[asyncio.Future[None], Callable[[int], None]]] = deque()
+        self._free = asyncio.Semaphore(at_once)
+        self._queue: list[Callable[[int], None]] = []
 
     @asynccontextmanager
     async def turn(self, told: Callable[[int], None]) -> AsyncIterator[None]:
         """Wait for a turn; told: how many are still before this one, whenever that changes."""
-        if self._free > 0 and not self._queue:
-            self._free -= 1
-        else:
-            mine: asyncio.Future[None] = asyncio.get_running_loop().create_future()
-            entry = (mine, told)
-            self._queue.append(entry)
+        if self._free.locked():
+            self._queue.append(told)
             told(len(self._queue))
             try:
-                await mine
-            except BaseException:
-                if not mine.cancelled():  # it was this one's turn: now it is the next one's
-                    self._next()
-                elif entry in self._queue:
-                    self._queue.remove(entry)
-                raise
+                await self._free.acquire()
+            finally:
+                place = self._queue.index(told)
+                del self._queue[place]
+                for before, each in enumerate(self._queue[place:], start=place + 1):
+                    each(before)
+        else:
+            await self._free.acquire()
         try:
             yield
         finally:
-            self._next()
-
-    def _next(self) -> None:
-        while self._queue:
-            mine, _ = self._queue.popleft()
-            if mine.cancelled():  # called off a moment ago, which its owner does not know yet
-                continue
-            mine.set_result(None)
-            for before, (_, told) in enumerate(self._queue, start=1):
-                told(before)
-            return
-        self._free += 1
+            self._free.release()

@@ -13,10 +13,9 @@ import numpy as np
 
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.scene.linkage_scene import Pivot, path_of, scene_of
+from burmester.scene.linkage_scene import Pivot, path_of, scene_at
 from burmester.synthesis.result import Candidate
 from burmester.tasks.motion_task import Task
-from burmester.verdicts.found_linkage import FoundLinkage
 
 SIZE_PX = 420.0  # the longer side of the picture
 MARGIN = 0.07  # share of the drawing's size that stays free on each side
@@ -45,8 +44,7 @@ def still(chosen: Candidate, title: str) -> str:
         body = _body(task, task.poses[framed], None)
         return _svg([*_keep_out(task), *body, *frames], (), title, points)
     pose = int(there[len(there) // 2])
-    drive = float("nan") if isinstance(chosen, FoundLinkage) else float(chosen.drive[pose])
-    scene = scene_of(chosen, places[pose], drive, places[there])
+    scene = scene_at(chosen, pose)
     plates = [(STYLES[role], at) for role, at in scene.shapes if role in ("body", "plate")]
     shapes = [*_body(task, places[there], places[pose]), *plates, *frames]
     shapes += [(STYLES["line"], points) for points in scene.of("link", "rail", "slot")]

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations
 from typing import Literal, Self, TypeAlias, final
 
 import numpy as np
 
-from burmester.export.parts.distances import distance
+from burmester.export.parts.distances import distances
 from burmester.export.parts.outlines import points_on
 from burmester.export.parts.plate import Plate, moved
 from burmester.geometry.displacement import Displacement
@@ -72,18 +72,8 @@ class DimensionLine:
 
     def shifted(self, way: FloatArray) -> Self:
         """The same, moved by (2,)."""
-        return type(self)(
-            self.kind,
-            self.measured + way,
-            self.lines + way,
-            self.arrows + way,
-            self.text,
-            self.at + way,
-            self.letters,
-            self.box + way,
-            self.low + way,
-            self.high + way,
-        )
+        points = ("measured", "lines", "arrows", "at", "box", "low", "high")
+        return replace(self, **{name: getattr(self, name) + way for name in points})
 
 
 Lines: TypeAlias = Sequence[DimensionLine]
@@ -325,7 +315,7 @@ def _too_close(line: DimensionLine, other: DimensionLine) -> bool:
 def _near(one: FloatArray, two: FloatArray, least: float) -> bool:
     """Whether convex shapes (n, 2) and (m, 2) are nearer than this; their boxes tell first."""
     gap = np.maximum(one.min(axis=0) - two.max(axis=0), two.min(axis=0) - one.max(axis=0))
-    return bool(gap.max() < least and distance(one, two) < least)
+    return bool(gap.max() < least and distances(one, two) < least)
 
 
 def _arrow(tip: FloatArray, back: FloatArray, letters: float) -> FloatArray:

@@ -76,15 +76,9 @@ class Drawing:
         outlines = Outlines.of(chosen.task, assembly.reference)
         notes = description(chosen, options, unit) + dimension_notes(chosen, options, unit)
         notes += notes_on(assembly)
-        sheet = sheet_of(
-            assembly,
-            assembly.reference.poses,
-            len(notes),
-            length_decimals(chosen, options, unit),
-            options.dimensions,
-            outlines=outlines,
-            unit=unit,
-        )
+        decimals = length_decimals(chosen, options, unit)
+        told = options.dimensions
+        sheet = sheet_of(assembly, outlines, len(notes), decimals, dimensions=told, unit=unit)
         items = [
             *_parts(assembly, sheet),
             *_poses(assembly.reference.poses, sheet),

@@ -17,7 +17,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.export.drawings.sheet import Laid, laid_lengthwise
-from burmester.export.parts.distances import distance
+from burmester.export.parts.distances import distances
 from burmester.export.parts.plate import outline_points
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import INCH, stock_for
@@ -158,7 +158,7 @@ def _tiles(laid: Laid, low: FloatArray, high: FloatArray) -> Iterator[Page]:
         for column in range(columns):
             corner = low + step * [column, row]
             page = corner + room * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
-            if not any(distance(page, each) <= 0 for each in shapes):
+            if not any(distances(page, each) <= 0 for each in shapes):
                 continue
             shift = low - corner
             sides = (column > 0, column < columns - 1, row > 0, row < rows - 1)

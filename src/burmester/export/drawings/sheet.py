@@ -116,17 +116,16 @@ def _plain(value: float, decimals: int) -> str:
 
 def sheet_of(
     assembly: Assembly,
-    poses: Displacement,
+    outlines: Outlines,
     notes: int,
-    decimals: int = 3,
-    dimensions: bool = True,
+    decimals: int,
     *,
-    outlines: Outlines | None = None,
-    unit: str = "mm",
+    dimensions: bool,
+    unit: str,
 ) -> Sheet:
-    """The layout of an assembly, poses (N,) in millimetres, and a number of lines of notes.
+    """The layout of an assembly, what else is drawn about it, and a number of lines of notes.
 
-    outlines: what else is drawn about the assembly; unit: of the lengths in dimension lines.
+    decimals, unit: of the lengths in dimension lines.
     """
     width = assembly.dimensions.width
     between, letters, axes = PLATE_SPACING * width, LETTER_HEIGHT * width, 0.8 * width
@@ -135,9 +134,7 @@ def sheet_of(
         for plate in assembly.plates
     ]
     ends = np.array([[0.0, 0.0], [axes, 0.0], [0.0, axes]])
-    points.append(poses[:, None].act(ends).reshape(-1, 2))
-    if outlines is not None:
-        points.append(outlines.corners())
+    points += [assembly.reference.poses[:, None].act(ends).reshape(-1, 2), outlines.corners()]
     both = np.concatenate(points)
     low, high = both.min(axis=0), both.max(axis=0)
     high[0] += 2 * letters  # a pose's number stands to the right of it
@@ -160,9 +157,8 @@ def sheet_of(
     bottom = np.array([start, y])
     low = np.array([start, y - notes * 1.6 * letters])
     high = np.array([max(right, start + 45 * letters), float(high[1])])
-    if outlines is not None:  # names may be long, and move nothing else
-        names = outlines.names(letters)
-        low, high = np.vstack([low, names]).min(axis=0), np.vstack([high, names]).max(axis=0)
+    names = outlines.names(letters)  # they may be long, and move nothing else
+    low, high = np.vstack([low, names]).min(axis=0), np.vstack([high, names]).max(axis=0)
     return Sheet(
         tuple(parts),
         tuple(labels),

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,10 +19,8 @@ from burmester.export.options import Options
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import with_unit
 from burmester.scene.linkage_scene import Scene, scene_of
+from burmester.synthesis.result import Candidate
 from burmester.tasks.motion_task import Task
-
-if TYPE_CHECKING:
-    from burmester.synthesis.result import Candidate
 
 Picture = NDArray[np.uint8]
 

@@ -16,7 +16,7 @@ import subprocess
 from functools import partial
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,14 +25,17 @@ from PIL import Image
 from burmester import plot
 from burmester.export.films.film import Film, Picture, blob, looks_of, require_film
 from burmester.export.films.pictures import marks, pictures
+from burmester.export.options import Options
 from burmester.export.reference import fault
 from burmester.synthesis.result import Candidate
 
-if TYPE_CHECKING:
-    from burmester.export.options import Options
-
-
 MAX_GIF_RATE: Final = 25.0  # pictures a second; more would only make the file larger
+# MP4 whatever the file is called; one thread and no version in it, so that the same film has the
+# same bytes.
+OUTPUT: Final = (
+    "-f mp4 -crf 16 -preset medium -threads 1 -movflags +faststart "
+    "-fflags +bitexact -flags:v +bitexact -map_metadata -1"
+)
 MAX_MARK_ERROR: Final = 1.5  # pixels: largest deviation of the mark read back
 _off = partial(
     fault, message="what was written does not show the linkage's motion, so nothing was kept"
@@ -58,25 +61,7 @@ def write_mp4(chosen: Candidate, path: Path, options: Options) -> None:
         quality=None,
         macro_block_size=2,
         ffmpeg_log_level="quiet",  # it would write to the user's screen; the file is checked
-        # One thread and no version in it, so that the same film has the same bytes.
-        output_params=[
-            "-f",  # whatever the file is called
-            "mp4",
-            "-crf",
-            "16",
-            "-preset",
-            "medium",
-            "-threads",
-            "1",
-            "-movflags",
-            "+faststart",
-            "-fflags",
-            "+bitexact",
-            "-flags:v",
-            "+bitexact",
-            "-map_metadata",
-            "-1",
-        ],
+        output_params=OUTPUT.split(),
     )
     writer.send(None)
     try:

@@ -19,7 +19,7 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.parts.dimensions import WALL, Dimensions
-from burmester.export.parts.distances import distance, distances
+from burmester.export.parts.distances import distances
 from burmester.export.parts.links import Arrangement, Links
 from burmester.export.parts.plate import Pin, Plate, plate_of
 from burmester.geometry.displacement import Displacement
@@ -36,7 +36,7 @@ def arranged(links: Links, made: Dimensions) -> tuple[tuple[Plate, ...], tuple[P
     near = [
         (one, two)
         for one, two in combinations(range(len(ground)), 2)
-        if distance(ground[one], ground[two]) < least
+        if distances(ground[one], ground[two]) < least
     ]
     arrangements = [
         each

@@ -16,7 +16,7 @@ import numpy as np
 
 from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.motion import all_places
-from burmester.export.parts.distances import distance
+from burmester.export.parts.distances import distances
 from burmester.export.reference import Reference
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
@@ -75,7 +75,7 @@ class Links:
                 names = [each.name for each in self.reference.links[link]]
                 for (one, a), (two, b) in combinations(zip(names, own, strict=True), 2):
                     holes = f"joints {one} and {two}" if one else f"two joints of the {link}"
-                    found.append(Spacing(holes, distance(a, b)))
+                    found.append(Spacing(holes, float(distances(a, b))))
         return tuple(found)
 
     @property

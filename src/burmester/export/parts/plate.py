@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from burmester.export.link_places import LinkPlaces
-from burmester.export.parts.distances import distance
+from burmester.export.parts.distances import distances
 from burmester.export.parts.outlines import (
     angle_outline,
     convex_hull,
@@ -145,8 +145,8 @@ def _has_arms(skeleton: FloatArray, corner: int, radius: float) -> bool:
     if len(skeleton) != 3:
         return False
     start, at, end = np.roll(skeleton, 1 - corner, axis=0)
-    gaps = distance(start[None], np.stack([at, end])), distance(end[None], np.stack([start, at]))
-    return min(gaps) > ARMS_APART * radius
+    from_arms = np.stack([[at, end], [start, at]])
+    return bool(distances(np.stack([[start], [end]]), from_arms).min() > ARMS_APART * radius)
 
 
 def moved(plate: Plate, by: Displacement) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:

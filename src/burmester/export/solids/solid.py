@@ -11,6 +11,7 @@ E162 dimensions that cannot be made        E163 a linkage that plates cannot hol
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
@@ -27,6 +28,7 @@ from burmester.export.reference import PRECISION, fault
 from burmester.export.solids.solid_parts import Part, area_of, laid, parts_of, placed
 from burmester.export.solids.step_order import settle
 from burmester.export.solids.stl import Triangles, read_stl, shells_of, volume_of
+from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
 FACET_ANGLE: Final = 0.1  # radians of an arc per facet of an STL: 0.13% of the radius off, at most
@@ -94,7 +96,6 @@ def check_stl(chosen: Candidate, path: Path, options: Options) -> None:
     made = assembly_of(chosen, options)
     shells, tolerance = _checked_shells(path, made)
     height = made.dimensions.thickness + made.dimensions.gap
-    radius = made.dimensions.hole / 2
     heights = {plate.name: plate.layer * height for plate in made.plates}
     rims = {}
     for name, low in heights.items():
@@ -105,11 +106,9 @@ def check_stl(chosen: Candidate, path: Path, options: Options) -> None:
             if abs(shell[..., 2].min() - low) <= tolerance
             and abs(np.ptp(shell[..., 2]) - made.dimensions.thickness) <= tolerance
         ]
-        rims[name] = np.concatenate([np.zeros((0, 3)), *(each.reshape(-1, 3) for each in own)])
-    for joint in pivots_of(made):
-        away = min(rim_deviation(joint, rims[each][:, :2], radius) for each in joint.plates)
-        if not away <= tolerance:
-            raise fault(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
+        points = [each[..., :2].reshape(-1, 2) for each in own]
+        rims[name] = np.concatenate([np.zeros((0, 2)), *points])
+    _require_rims(made, rims, tolerance)
 
 
 def check_flat(chosen: Candidate, path: Path, options: Options) -> None:
@@ -132,11 +131,15 @@ def check_flat(chosen: Candidate, path: Path, options: Options) -> None:
         for part in laid(parts_of(cad, made), made)
         if part.name in plates
     }
+    _require_rims(made, rims, 2 * tolerance)
+
+
+def _require_rims(made: Assembly, rims: Mapping[str, FloatArray], tolerance: float) -> None:
+    """Raise E160 where no hole is at a pivot, by points (n, 2) of each plate, rims among them."""
+    radius = made.dimensions.hole / 2
     for joint in pivots_of(made):
-        away = min(
-            rim_deviation(joint, rims[each], made.dimensions.hole / 2) for each in joint.plates
-        )
-        if not away <= 2 * tolerance:
+        away = min(rim_deviation(joint, rims[each], radius) for each in joint.plates)
+        if not away <= tolerance:
             raise fault(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
 
 
