@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from burmester.synthesis.function_generation import FunctionSynthesis
+    from burmester.synthesis.function_generation import AnySynthesis
 
 LINES = 12  # of a `repr`, at most
 SENTENCES = 5  # of these, above the table; `outcome` and `warnings` have them all
@@ -104,7 +104,7 @@ class AnyResult(Generic[Kind]):
 
     def to_dict(self) -> dict[str, Any]:
         """The object of `burmester synthesize --json`."""
-        return synthesis_data(cast("Synthesis | FunctionSynthesis", self))
+        return synthesis_data(cast("AnySynthesis", self))
 
     def to_json(self) -> str:
         """All of it as one JSON object, as `burmester synthesize --json` prints it."""
@@ -131,7 +131,7 @@ class AnyResult(Generic[Kind]):
 
         with in_python_words():
             files.require_writable(path, force=force)
-            text = page(cast("Synthesis | FunctionSynthesis", self), title or Path(path).stem)
+            text = page(cast("AnySynthesis", self), title or Path(path).stem)
             files.write(path, text, force=force)
         return Path(path)
 

@@ -28,14 +28,13 @@ from burmester.batch.sample import DRAWN, drawn_columns, drawn_table
 from burmester.batch.worker import within
 from burmester.errors import BurmesterError, InputError
 from burmester.functions.function_task import FunctionTask
-from burmester.io.function_result import function_data
 from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.functions.function_kind import is_function
 from burmester.io.result import synthesis_data
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
 from burmester.stacked import TaskStack, stacked_answers
-from burmester.synthesis.function_generation import generate_function
+from burmester.synthesis.function_generation import AnySynthesis, generate_function
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.tasks.motion_task import Task
@@ -146,13 +145,12 @@ def _solved(
             task = _task(tasks, index, plan.options)
             if isinstance(task, FunctionTask):
                 sizes.pairs[index] = len(task.inputs)
-                found[index] = function_data(generate_function(task))
-                continue
-            sizes.poses[index] = len(task.poses.angle)
-            if (how := plan.options.six_bars) is not None:
-                found[index] = synthesis_data(synthesize_six_bars(task, how))
+                answer: AnySynthesis = generate_function(task)
             else:
-                found[index] = synthesis_data(synthesize(task, plan.options.synthesis))
+                sizes.poses[index] = len(task.poses.angle)
+                how, six_bars = plan.options.synthesis, plan.options.six_bars
+                answer = synthesize_six_bars(task, six_bars) if six_bars else synthesize(task, how)
+            found[index] = synthesis_data(answer)
         except InputError as error:
             refusals.append(_refusal(tasks, index, error))
     return [solved_rows(found)]

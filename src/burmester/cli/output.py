@@ -12,8 +12,7 @@ import click
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from burmester.synthesis.function_generation import FunctionSynthesis
-    from burmester.synthesis.result import Synthesis
+    from burmester.synthesis.function_generation import AnySynthesis
 
 EXIT_FOUND, EXIT_NOTHING, EXIT_INTERRUPT = 0, 1, 130  # errors bring their own: 2 and 3
 
@@ -35,7 +34,7 @@ def print_json(data: dict[str, Any]) -> None:
 
 
 def hand_over(
-    synthesis: Synthesis | FunctionSynthesis,
+    synthesis: AnySynthesis,
     output: str | None,
     *beside: tuple[str | None, Callable[[], str | bytes]],
     force: bool,

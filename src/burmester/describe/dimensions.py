@@ -98,7 +98,8 @@ def _of_dyad(
     def point(pivot: FloatArray, region: PivotRegion | None) -> tuple[str, str]:
         text = place(pivot)
         if region is not None and not region.determined:
-            return text, _not_determined(region)
+            along = f" along {math.degrees(region.direction):.0f}°" * region.determined_across
+            return text, NOT_DETERMINED + along
         return text, _give(region.half_width if region else 0.0, digits)
 
     def degrees(angle: float) -> str:
@@ -154,13 +155,6 @@ def sides_of(dyad: Dyad, decimals: Decimals) -> tuple[str, str, str]:
             return f"angle {one}", "-", "slider"
     line = f"through {others[0]},\nat {others[1]}"
     return (line, one, "slider") if isinstance(dyad, PR) else (one, line, "slider")
-
-
-def _not_determined(region: PivotRegion) -> str:
-    """A pivot's region that is too large for a half-width; in words, in which direction."""
-    if not region.determined_across:
-        return NOT_DETERMINED
-    return f"{NOT_DETERMINED} along {math.degrees(region.direction):.0f}°"
 
 
 def _give(value: float, digits: int, what: str = "") -> str:

@@ -78,6 +78,12 @@ class FamilyMap:
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.asarray(np.stack([x, y], axis=-1) / w[:, None])
 
+    def places_of(self, linkage: Linkage) -> list[int] | None:
+        """The numbers of a linkage's dyads along the curve; None where one is not on it."""
+        dyads = [each for each in (linkage.first, linkage.second) if isinstance(each, RR)]
+        known = [place for each in dyads if (place := self.nearest(each)) is not None]
+        return known if len(known) == 2 else None
+
     def nearest(self, dyad: Ground) -> int | None:
         """The number of the sample of a curve that is nearest to a dyad, by both pivots.
 

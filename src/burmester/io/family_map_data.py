@@ -51,7 +51,7 @@ def family_map_data(found: FamilyMap, recommended: Linkage | None = None) -> dic
             "position": found.position.tolist(),
             **_circles(found.first),
         }
-        data["recommended"] = _place(found, recommended)
+        data["recommended"] = None if recommended is None else found.places_of(recommended)
     else:
         data["chosen"] = _dyad(found.first)
         data["plane"] = _circles(found.second)
@@ -61,18 +61,6 @@ def family_map_data(found: FamilyMap, recommended: Linkage | None = None) -> dic
         "transmission_deg": _numbers(np.degrees(angle)),
         "driver": driver.tolist(),
     }
-
-
-def _place(found: FamilyMap, recommended: Linkage | None) -> list[int] | None:
-    """The numbers of the two dyads of a linkage along the curve."""
-    if recommended is None:
-        return None
-    places = [
-        found.nearest(each) if isinstance(each, Ground) else None
-        for each in (recommended.first, recommended.second)
-    ]
-    known = [place for place in places if place is not None]
-    return known if len(known) == len(places) else None
 
 
 def _circles(dyads: RR) -> dict[str, Any]:

@@ -74,7 +74,10 @@ def read_linkage(
             _require_unit(chosen.unit, unit)
             return chosen.linkage
         _require_unit(tree.get("length_unit"), unit)
-        _require_id(tree, id)
+        if id is not None and str(tree.get("id", id)).lower() != id.lower():
+            message = f"there is no linkage {printable(id)} in this file"
+            why, help = f"it has {shown(tree['id'])} only", "leave --id out"
+            raise InputError("E151", message, why=why, help=help)
         return six_bar_of(tree) if is_six_bar(tree) else _of_dyads(tree)
     except InputError as error:
         error.where = error.where or label
@@ -119,14 +122,6 @@ def _require_unit(stated: object, unit: str | None) -> None:
             f"the linkage is{in_unit(printable(stated)[:40])}, and the poses are{in_unit(unit)}",
             help=f"give both in one unit, such as {unit}",
         )
-
-
-def _require_id(tree: dict[str, Any], id: str | None) -> None:
-    """Refuse another id than that of the one linkage in a file: E151."""
-    if id is not None and str(tree.get("id", id)).lower() != id.lower():
-        message = f"there is no linkage {printable(id)} in this file"
-        why, help = f"it has {shown(tree['id'])} only", "leave --id out"
-        raise InputError("E151", message, why=why, help=help)
 
 
 def _of_dyads(tree: dict[str, Any]) -> tuple[GivenDyad, GivenDyad]:

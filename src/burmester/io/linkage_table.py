@@ -28,7 +28,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.tolerance_words import share_texts
 from burmester.wording import count, figure, in_unit, least_angle
 
-CLOSEST = 3  # linkages in the outcome, where none is usable
 LINKS = ("ground", "driver", "coupler", "follower")
 MOST_CUT = 3  # decimals that link lengths in the table may lose on a narrow screen
 GAP = 4  # columns between dimensions and sketch
@@ -100,15 +99,6 @@ def show_warnings(warnings: Sequence[Advice], console: Console) -> None:
         console.print()
     for warning in warnings:
         show("warning", warning, console)
-
-
-def closest_three(synthesis: Synthesis) -> list[FoundLinkage]:
-    """The closest linkages where none is usable, else none."""
-    if synthesis.usable:
-        return []
-    if synthesis.outcome.code == "R352":  # they are ranked so
-        return list(synthesis.linkages[:CLOSEST])
-    return explanation.by_nearness(synthesis.linkages, synthesis.length)[:CLOSEST]
 
 
 def usable_table(synthesis: Synthesis, console: Console) -> Table:

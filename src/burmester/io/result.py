@@ -46,14 +46,14 @@ if TYPE_CHECKING:  # few results hold any of these
     from burmester.certificates.certificate import Certificate
     from burmester.families.family import Family
     from burmester.sixbar.six_bars import SixBars
-    from burmester.synthesis.function_generation import FunctionSynthesis
+    from burmester.synthesis.function_generation import AnySynthesis
 
 SCHEMA = "burmester.synthesis/1"
 # What a result says of its search alone, and nothing gives again when it is read.
 SEARCH_KEYS = ("singular_values", "critical_points", "search")
 
 
-def synthesis_data(synthesis: Synthesis | FunctionSynthesis) -> dict[str, Any]:
+def synthesis_data(synthesis: AnySynthesis) -> dict[str, Any]:
     """A synthesis of any kind as an object ready for JSON."""
     if not isinstance(synthesis, Synthesis):
         from burmester.io.function_result import function_data

@@ -52,7 +52,7 @@ if TYPE_CHECKING:
     from burmester.functions.found_generator import FoundGenerator
     from burmester.sixbar.found import FoundSixBar
     from burmester.sixbar.six_bars import SixBars
-    from burmester.synthesis.function_generation import FunctionSynthesis
+    from burmester.synthesis.function_generation import AnySynthesis, FunctionSynthesis
 
 HELP = "make it with `burmester synthesize POSES -o result.json`"
 JUDGED_OTHERWISE = "W244"
@@ -77,7 +77,7 @@ class SavedResult(NamedTuple):
     """
 
     label: str
-    synthesis: Synthesis | FunctionSynthesis
+    synthesis: AnySynthesis
     refused: Mapping[str, InputError]
 
     def choose(self, id: str | None = None, option: str = "--linkage") -> Any:

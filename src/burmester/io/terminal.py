@@ -16,21 +16,23 @@ from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table, show_warnings, table_of
 from burmester.io.message import draw, message, note, print_trimmed, show
 from burmester.synthesis.result import JUDGED, Synthesis
+from burmester.verdicts.explanation import by_nearness
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import in_unit
 
 if TYPE_CHECKING:
     from burmester.sixbar.six_bars import SixBars
-    from burmester.synthesis.function_generation import FunctionSynthesis
+    from burmester.synthesis.function_generation import AnySynthesis
 
 # Columns; in a narrower terminal both sides of a dyad are in one column, or its length as well.
 NARROW, SLIM = 64, 48
 WIDE = 72  # columns; on fewer tables of six-bars have their first columns only
+CLOSEST = 3  # linkages in the outcome, where none is usable
 PLAIN = ("R300", "R305", "R307", "R308", "R340")  # outcomes that are told without their code
 
 
 def show_synthesis(
-    synthesis: Synthesis | FunctionSynthesis,
+    synthesis: AnySynthesis,
     console: Console,
     *,
     everything: bool = False,
@@ -56,7 +58,9 @@ def show_synthesis(
         _answer(synthesis, console)
         rest = [each for each in synthesis.linkages if not each.usable]
     else:
-        three = linkage_table.closest_three(synthesis)
+        ordered = synthesis.outcome.code == "R352"  # they are ranked by nearness
+        every = synthesis.linkages if ordered else by_nearness(synthesis.linkages, synthesis.length)
+        three = every[:CLOSEST]
         _no_answer(synthesis, three, console)
         rest = [each for each in synthesis.linkages if each not in three]
     if everything and rest:

@@ -23,7 +23,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from burmester.following.followed import Followed
-from burmester.fourbar.defects import Driven
 from burmester.io.linkage_data import dyad_data, number
 from burmester.linkages.evaluation import transmission_at_given_poses
 from burmester.numerics.arrays import FloatArray
@@ -52,6 +51,12 @@ class _Numbers:
             self._pieces.append(array)
             self._count += array.size
         return start
+
+    def of_way(self, way: dict[str, Any]) -> dict[str, Any]:
+        """Append the numbers of a way; the rest of it, and where they are."""
+        facts = {key: value for key, value in way.items() if key not in WAY}
+        start = self.add(*(way[name] for name in WAY))
+        return {**facts, "count": len(way["x"]), "start": start}
 
     def bytes(self) -> bytes:
         return b"".join(piece.tobytes() for piece in self._pieces)
@@ -101,7 +106,7 @@ def followed_frame(
             {
                 **one.facts,
                 "fresh": fresh,
-                "ways": None if ways is None else [_way(each, numbers) for each in ways.ways],
+                "ways": None if ways is None else [numbers.of_way(each) for each in ways.ways],
                 "at": None if ways is None else ways.at,
                 "poses": {"count": len(found.error.position), "start": numbers.add(one.places)},
             }
@@ -145,7 +150,7 @@ def _drawn(problem: SynthesisProblem, found: FoundLinkage) -> Drawn:
         "worst": number(error.worst),
         "worst_deg": number(math.degrees(float(error.angle.max()))),
         "combined": number(found.combined_error),
-        "transmission_deg": _least(driven),
+        "transmission_deg": number(math.degrees(driven.least_over_range)),
         "dyads": [each.id for each in found.dyads],
         "led": [dyad_data(each, places) for each in found.dyads_driver_first],
     }
@@ -159,13 +164,3 @@ def _drawn(problem: SynthesisProblem, found: FoundLinkage) -> Drawn:
         ]
     )
     return Drawn(found, facts, at_poses)
-
-
-def _least(driven: Driven) -> float | None:
-    return number(math.degrees(driven.least_over_range))
-
-
-def _way(way: dict[str, Any], numbers: _Numbers) -> dict[str, Any]:
-    facts = {key: value for key, value in way.items() if key not in WAY}
-    start = numbers.add(*(way[name] for name in WAY))
-    return {**facts, "count": len(way["x"]), "start": start}

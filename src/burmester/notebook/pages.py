@@ -26,6 +26,7 @@ import time
 import traceback
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager, suppress
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from burmester.api.result import Result
@@ -194,7 +195,8 @@ class Pages:
         """The whole search for a page, beside all else."""
         view, n, document = search.view, search.n, search.document
         loop, start = asyncio.get_running_loop(), time.monotonic()
-        search.say = lambda text: loop.call_soon_threadsafe(self._progress, view, n, text)
+        tell = partial(self._tell, view, n=n, kind="progress")
+        search.say = lambda text: loop.call_soon_threadsafe(lambda: tell(text=text))
 
         def searched(task: Task) -> tuple[Result, dict[str, Any]]:
             with _one_search:
@@ -238,9 +240,6 @@ class Pages:
             self._basis[view] = n
             answer = {"result": self._report, "was": self._was}
         self._tell(view, n=n, kind="solved", seconds=round(seconds, 3), **answer)
-
-    def _progress(self, view: str, n: int, text: str) -> None:
-        self._tell(view, n=n, kind="progress", text=text)
 
     def _refuse(self, view: str, n: int, error: Exception) -> None:
         self._tell(view, n=n, kind="refused", messages=[fault_data(error)])

@@ -9,14 +9,13 @@ import json
 from importlib import resources
 from typing import Any
 
-from burmester.synthesis.function_generation import FunctionSynthesis
-from burmester.synthesis.result import Synthesis
+from burmester.synthesis.function_generation import AnySynthesis, FunctionSynthesis
 from burmester.web.data import report_data
 from burmester.web.function_data import function_report
 from burmester.web.six_bar_data import six_bar_report
 
 
-def page(synthesis: Synthesis | FunctionSynthesis, title: str) -> str:
+def page(synthesis: AnySynthesis, title: str) -> str:
     """The report of a synthesis: a whole HTML document, scripts, styles and data within.
 
     It shows the function generators, or the six-bars where these were looked for, else four-bars.

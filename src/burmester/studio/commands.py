@@ -57,8 +57,11 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
 
 
 def _is_plain(value: object) -> bool:
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    return number or (isinstance(value, str) and value.isascii() and value.isalpha())
+    return _is_number(value) or (isinstance(value, str) and value.isascii() and value.isalpha())
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def _settings(given: Any) -> str:
@@ -95,10 +98,6 @@ def _numbers(link: Any) -> list[str] | None:
         pivot = link.get(name)
         values = [*pivot, *values] if isinstance(pivot, list) and len(pivot) == 2 else [None]
     return [repr(each) for each in values] if all(map(_is_number, values)) else None
-
-
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
 def plain_name(given: object) -> str:

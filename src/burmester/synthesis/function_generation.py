@@ -110,6 +110,9 @@ class FunctionSynthesis:
         return sorted(wanted[:most], key=lambda each: each.rank)
 
 
+AnySynthesis: TypeAlias = Synthesis | FunctionSynthesis
+
+
 def generate_function(task: FunctionTask) -> FunctionSynthesis:
     """The four-bars of a function task, judged and ranked; raises E192."""
     with one_thread():

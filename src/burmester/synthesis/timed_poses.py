@@ -118,7 +118,7 @@ def _dyads(problem: SynthesisProblem) -> tuple[tuple[Fit, ...], list[FoundDyad]]
         if number == side:
             kinds = tuple(kind for kind in (RR, RP) if kind.__name__ in limits.allowed)
             found = [each for each in found if isinstance(each.dyad, kinds)]
-            timed = [_with_errors(each, task) for each in nearest_timed(task.poses, task.timing)]
+            timed = [_found(each, task) for each in nearest_timed(task.poses, task.timing)]
             timed.sort(key=lambda each: each.rms_error)
             found = [*timed[: MOST_DRIVERS // 2], *found][:MOST_DRIVERS]
         lists.append([replace(each, limits=number + 1) for each in found[:MOST_OTHERS]])
@@ -147,12 +147,11 @@ def _drawn(problem: SynthesisProblem, side: int) -> list[FoundDyad]:
     z = np.stack([samples.dimensions, samples.dimensions], axis=1)
     own = LinkageBatch(kinds, z).from_canonical(target.frames)
     index = np.linspace(0, len(samples) - 1, min(len(samples), MOST_OTHERS)).astype(int)
-    return [_with_errors(own.linkage(int(k)).first, problem.task) for k in index]
+    return [_found(own.linkage(int(k)).first, problem.task) for k in index]
 
 
-def _with_errors(dyad: Dyad, task: Task) -> FoundDyad:
-    away = np.abs(dyad.residual(task.poses))
-    return FoundDyad("", dyad, float(np.sqrt((away**2).mean())), float(away.max()), minimum=False)
+def _found(dyad: Dyad, task: Task) -> FoundDyad:
+    return FoundDyad("", dyad, 0, 0, minimum=False).at(task.poses)
 
 
 def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> Outcome:

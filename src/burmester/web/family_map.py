@@ -67,7 +67,7 @@ def _curve(found: FamilyMap, linkages: list[Linkage]) -> dict[str, Any]:
         "fixed": _short(found.first.fixed_pivot),
         "moving": _short(found.first.moving_pivot),
         "length": _short(found.first.radius),
-        "places": [_places(found, each) for each in linkages],
+        "places": [found.places_of(each) for each in linkages],
     }
 
 
@@ -94,14 +94,6 @@ def _plane(found: FamilyMap, of: FoundLinkage) -> dict[str, Any]:
             "fixed": _short(second.fixed_pivot) if isinstance(second, RR) else None,
         },
     }
-
-
-def _places(found: FamilyMap, linkage: Linkage) -> list[int] | None:
-    """The numbers of a linkage's dyads along the curve; None where one is not on it."""
-    dyads = [each for each in (linkage.first, linkage.second) if isinstance(each, RR)]
-    places = [found.nearest(each) for each in dyads]
-    known = [place for place in places if place is not None]
-    return known if len(known) == 2 else None
 
 
 def _short(values: FloatArray) -> Any:

@@ -99,54 +99,80 @@ def _miss(found: FoundGenerator, task: FunctionTask) -> str:
 
 def _generator(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
     """A generator as a linkage that guides its coupler, with its own words and curves."""
-    said, lacks = _said(found, task), [each.message for each in found.defects]
-    verdict = "✓ usable" if found.usable else "✕ not usable"
-    links = [value for _, value in said["facts"][:4]]
-    least = said["transmission"]
+    one, lengths = found.generator, found.lengths(task.ground)
+    lacks = [each.message for each in found.defects]
     shortcomings = [*lacks, *found.shortcomings]
+    verdict = "✓ usable" if found.usable else "✕ not usable"
+    least, percent = found.least_transmission, 100 * found.max_error / task.output_span
+    transmission = f"{math.degrees(least):.0f}°" if math.isfinite(least) else "–"
+    transmits = {"–": "–", "0°": "down to 0°"}.get(transmission, f"{transmission} or more")
+    share = f"{figure(percent)} %" if math.isfinite(percent) else "–"
+    errors = {
+        "greatest error": _angle(found.max_error),
+        "of the output's range": "0 %" if found.is_exact else share,
+        "rms error": _angle(found.rms_error),
+        "least transmission angle": transmission,
+    }
+    links = [f"{length:.6g}" for length in lengths.values()]
     report, picture = _motion(found, task)
+    inputs, outputs, misses = _pair_degrees(found, task)
+    pairs = list(zip(inputs, outputs, misses, strict=True))
+    dots = [(x, y) for x, y, _ in pairs] if len(pairs) <= MOST_DOTS else []
+    way = report["ways"][0] if report["ways"] else {"drive": [], "output": []}
+    title = "output (°)" + (", wanted as dots" if dots else "")
     return {
         **report,
         "id": found.id,
         "type": found.type,
         "usable": found.usable,
         "picture": picture,
-        "panels": [_output_panel(report["ways"], found, task), _error_panel(found, task)],
+        "panels": [
+            {"title": title, "x": way["drive"], "y": way["output"], "dots": dots},
+            _error_panel(found, task),
+        ],
         "card": {
             "verdict": verdict,
             "facts": [
-                ["greatest error", said["max_error"]],
-                ["transmission", {"–": "–", "0°": "down to 0°"}.get(least, f"{least} or more")],
+                ["greatest error", errors["greatest error"]],
+                ["transmission", transmits],
                 ["links", links, "bm-detail bm-links"],
             ],
             "reason": f"It {'; '.join(shortcomings)}" if shortcomings else None,
         },
         "row": [
-            *(found.id, verdict, found.type, *links),
-            *(said[key] for key in ("max_error", "percent", "rms_error", "transmission")),
+            *(found.id, verdict, found.type, *links, *errors.values()),
             "; ".join(lacks) or "–",
         ],
-        "said": {"story": said["story"], "facts": said["facts"], "notes": []},
+        "said": {
+            "story": f"Usable: it {_miss(found, task)}."
+            if found.usable
+            else f"It {'; '.join(lacks)}.",
+            "facts": [
+                *zip(lengths, links, strict=True),
+                ("input link, at input 0", f"{math.degrees(float(one.input_phase)) % 360:.4f}°"),
+                ("output link, at output 0", f"{math.degrees(float(one.output_phase)) % 360:.4f}°"),
+                ("output pin, from input pin to output pivot", "left" if one.side > 0 else "right"),
+                *errors.items(),
+                ("longest link / shortest", figure(float(one.link_ratio))),
+                ("diagonal of the box of all pivots", figure(found.extent * task.ground)),
+            ],
+            "notes": [],
+        },
         "tables": [],
         "stops": {
             "caption": f"Pairs of angles, and what {found.id} makes of them",
             "heads": ["pair", "input", "output wanted", "output made", "error"],
-            "rows": [[str(k + 1), *row] for k, row in enumerate(_pair_texts(found, task))],
+            "rows": [[str(k), *_pair_texts(*pair)] for k, pair in enumerate(pairs, start=1)],
             "class": "bm-pair-table",
-            "folded": f"{len(task.inputs)} pairs" if len(task.inputs) > MOST_ROWS else None,
+            "folded": f"{len(pairs)} pairs" if len(pairs) > MOST_ROWS else None,
         },
     }
 
 
-def _output_panel(
-    ways: list[dict[str, Any]], found: FoundGenerator, task: FunctionTask
-) -> dict[str, Any]:
-    """The output along the way, with the pairs where these are few."""
-    inputs, outputs, _ = _pair_degrees(found, task)
-    dots = list(zip(inputs, outputs, strict=True)) if len(inputs) <= MOST_DOTS else []
-    way = ways[0] if ways else {"drive": [], "output": []}
-    title = "output (°)" + (", wanted as dots" if dots else "")
-    return {"title": title, "x": way["drive"], "y": way["output"], "dots": dots}
+def _pair_texts(x: float, y: float, error: float) -> list[str]:
+    """Input, output wanted, output made and error of a pair, given in degrees."""
+    made = f"{round(y + error, 4) + 0.0:.4f}°" if math.isfinite(error) else "–"
+    return [f"{x:.6g}°", f"{y:.6g}°", made, _angle(math.radians(error))]
 
 
 def _error_panel(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
@@ -169,51 +195,11 @@ def _pair_degrees(found: FoundGenerator, task: FunctionTask) -> tuple[list[float
     return tuple(np.degrees(v).tolist() for v in (task.inputs, task.outputs, found.errors))
 
 
-def _pair_texts(found: FoundGenerator, task: FunctionTask) -> list[list[str]]:
-    """Input, output wanted, output made and error of each pair."""
-    rows = []
-    for x, y, error in zip(*_pair_degrees(found, task), strict=True):
-        made = f"{round(y + error, 4) + 0.0:.4f}°" if math.isfinite(error) else "–"
-        rows.append([f"{x:.6g}°", f"{y:.6g}°", made, _angle(math.radians(error))])
-    return rows
-
-
 def _angle(angle: float) -> str:
     """An angle in degrees, to two digits."""
     if not math.isfinite(angle):
         return "–"
     return "exact" if abs(angle) < ROUNDING else f"{figure(math.degrees(angle))}°"
-
-
-def _said(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
-    """The figures of a generator in words."""
-    one, ground = found.generator, task.ground
-    least = found.least_transmission
-    transmission = f"{math.degrees(least):.0f}°" if math.isfinite(least) else "–"
-    percent = 100 * found.max_error / task.output_span
-    share = f"{figure(percent)} %" if math.isfinite(percent) else "–"
-    share = "0 %" if found.is_exact else share
-    reasons = [each.message for each in found.defects]
-    story = f"Usable: it {_miss(found, task)}." if found.usable else f"It {'; '.join(reasons)}."
-    return {
-        "story": story,
-        "facts": [
-            *((name, f"{length:.6g}") for name, length in found.lengths(ground).items()),
-            ("input link, at input 0", f"{math.degrees(float(one.input_phase)) % 360:.4f}°"),
-            ("output link, at output 0", f"{math.degrees(float(one.output_phase)) % 360:.4f}°"),
-            ("output pin, from input pin to output pivot", "left" if one.side > 0 else "right"),
-            ("greatest error", _angle(found.max_error)),
-            ("of the output's range", share),
-            ("rms error", _angle(found.rms_error)),
-            ("least transmission angle", transmission),
-            ("longest link / shortest", figure(float(one.link_ratio))),
-            ("diagonal of the box of all pivots", figure(found.extent * ground)),
-        ],
-        "max_error": _angle(found.max_error),
-        "rms_error": _angle(found.rms_error),
-        "percent": share,
-        "transmission": transmission,
-    }
 
 
 def _motion(found: FoundGenerator, task: FunctionTask) -> tuple[dict[str, Any], dict[str, Any]]:
