@@ -363,40 +363,33 @@ def read_poses(poses: str, **given: Any) -> Task:
     )
 
 
-def run_synthesis(poses: str, **given: Any) -> Synthesis:
-    """The synthesis for the file POSES, by the options of all groups."""
+def run_synthesis(poses: str, *, six_bars: bool, **given: Any) -> Synthesis:
+    """The synthesis for the file POSES, of four-bars or six-bars, by the options of all groups.
+
+    Raises E197 where an option has no meaning for what is looked for.
+    """
     from burmester.cli.progress_line import working
+    from burmester.errors import InputError
     from burmester.synthesis.motion_generation import synthesize
 
-    options = synthesis_options(given)
-    with working("reading the poses"):
-        return synthesize(read_poses(poses, **given), options)
-
-
-def run_six_bars(poses: str, **given: Any) -> Synthesis:
-    """The six-bars for the file POSES; raises E197 where an option has no meaning for them."""
-    from burmester.cli.progress_line import working
-    from burmester.sixbar.six_bars import SixBarOptions
-    from burmester.synthesis.six_bars import synthesize_six_bars
-
-    _refuse_options(_NOT_FOR_SIX_BARS, "--six-bars")
     numbers = {name: given[name] for name in OF_SIX_BARS if given[name] is not None}
-    options = synthesis_options({"time_limit": given["time_limit"]})
+    if six_bars:
+        _refuse_options(_NOT_FOR_SIX_BARS, "--six-bars")
+    for name in () if six_bars else numbers:
+        raise InputError(
+            "E197",
+            f"{OF_SIX_BARS[name]} is for six-bars, and they are not looked for",
+            help="give --six-bars as well, or leave it out",
+        )
+    options = synthesis_options({"time_limit": given["time_limit"]} if six_bars else given)
     with working("reading the poses"):
-        return synthesize_six_bars(read_poses(poses, **given), SixBarOptions(**numbers), options)
+        task = read_poses(poses, **given)
+        if not six_bars:
+            return synthesize(task, options)
+        from burmester.sixbar.six_bars import SixBarOptions
+        from burmester.synthesis.six_bars import synthesize_six_bars
 
-
-def require_six_bars(**given: Any) -> None:
-    """Refuse the options of six-bars where no six-bars are looked for; raises E197."""
-    from burmester.errors import InputError
-
-    for name, option in OF_SIX_BARS.items():
-        if given[name] is not None:
-            raise InputError(
-                "E197",
-                f"{option} is for six-bars, and they are not looked for",
-                help="give --six-bars as well, or leave it out",
-            )
+        return synthesize_six_bars(task, SixBarOptions(**numbers), options)
 
 
 def _refuse_options(names: tuple[str, ...], instead: str) -> None:

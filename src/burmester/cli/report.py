@@ -14,8 +14,6 @@ from burmester.cli.options import (
     SIX_BARS,
     SPECIFICATION,
     Sectioned,
-    require_six_bars,
-    run_six_bars,
     run_synthesis,
     with_options,
 )
@@ -40,7 +38,6 @@ def report(
     output: str | None,
     title: str | None,
     force: bool,
-    six_bars: bool,
     **given: Any,
 ) -> int:
     """Write a page on which the linkages for POSES move.
@@ -56,9 +53,7 @@ def report(
     name = "poses" if poses == "-" else os.path.basename(poses.removeprefix("case:"))
     path = file or output or f"{os.path.splitext(name)[0]}.html"
     files.require_writable(path, force=force, source=poses)
-    if not six_bars:
-        require_six_bars(**given)
-    synthesis = (run_six_bars if six_bars else run_synthesis)(poses, **given)
+    synthesis = run_synthesis(poses, **given)
     with working("drawing the page"):
         text = page(synthesis, printable(title or name))
     files.write(path, text, force=force)

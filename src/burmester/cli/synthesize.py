@@ -14,8 +14,6 @@ from burmester.cli.options import (
     SIX_BARS,
     SPECIFICATION,
     Sectioned,
-    require_six_bars,
-    run_six_bars,
     run_synthesis,
     with_options,
 )
@@ -58,7 +56,6 @@ def synthesize(
     file: str | None,
     output: str | None,
     force: bool,
-    six_bars: bool,
     **given: Any,
 ) -> int:
     """Find four-bars that guide a body through POSES.
@@ -75,9 +72,7 @@ def synthesize(
     if family_map is not None:
         require_map_file(family_map)
         files.require_writable(family_map, force=force, source=poses)
-    if not six_bars:
-        require_six_bars(**given)
-    synthesis = (run_six_bars if six_bars else run_synthesis)(poses, **given)
+    synthesis = run_synthesis(poses, **given)
     if family_map is not None:
         with working("drawing the map"):
             click.echo(write_map(synthesis, family_map, force=force), err=True)
