@@ -32,14 +32,9 @@ def family_map_of(
     if problem.is_special:
         return None
     first = synthesis.linkages[0].linkage if synthesis.linkages else None
-    bounds = _bounds(synthesis)
+    bounds = None
+    if synthesis.family is not None:
+        attempts = Assumptions.attempts(problem)
+        known = next(each for each, _ in attempts if each.bounds == synthesis.family.bounds)
+        bounds = PairBounds.assumed(known)
     return family_map(problem.task, first, bounds, samples=samples, columns=columns, rows=rows)
-
-
-def _bounds(synthesis: Synthesis) -> PairBounds | None:
-    """What the linkages of the family were held to; None where they were not chosen from one."""
-    if synthesis.family is None:
-        return None
-    attempts = Assumptions.attempts(synthesis.problem)
-    known = next(each for each, _ in attempts if each.bounds == synthesis.family.bounds)
-    return PairBounds.assumed(known)

@@ -21,7 +21,11 @@ def family_summary(
 ) -> tuple[Outcome, list[Advice]]:
     """The outcome and the warnings of a task whose linkages were chosen from a family."""
     poses = count(problem.given.poses.shape[0], "pose")
-    advice = [] if not family.bounds else [_assumed(family)]
+    advice = []
+    if family.bounds:
+        words, options = zip(*((each.message, each.option) for each in family.bounds), strict=True)
+        message = f"assumed, as the task does not say: {listed(words)}"
+        advice.append(Advice("W215", message, f"change it with {listed(options, 'or')}"))
     looked = f"{family.pairs:,} pairs of {family.dyads:,} dyads"
     usable = [each for each in linkages if each.usable]
     if not usable:
@@ -62,13 +66,4 @@ def none_within_limits(problem: SynthesisProblem) -> Outcome:
         where, help = "that can be built near the motion", "move a pose, or leave one out"
     return Outcome(
         "R309", f"no linkage: {poses} leave infinitely many dyads, and none was found {where}", help
-    )
-
-
-def _assumed(family: Family) -> Advice:
-    """What was assumed where the task says nothing, and the options that change it."""
-    return Advice(
-        "W215",
-        f"assumed, as the task does not say: {listed([each.message for each in family.bounds])}",
-        f"change it with {listed([each.option for each in family.bounds], 'or')}",
     )

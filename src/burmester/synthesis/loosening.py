@@ -160,11 +160,11 @@ def _length(
         return None
     words, range_ = [], [least, most]
     if min(radii) < least:
-        low = _down(max(least - share * (least - min(radii)), 0.0), least - min(radii))
+        low = _rounded(max(least - share * (least - min(radii)), 0.0), min(radii) - least)
         range_[0] = low
         words.append(f"a link of {_exact_length(low, task)} instead of at least {plain(least)}")
     if max(radii) > most:
-        high = _up(most + share * (max(radii) - most), max(radii) - most)
+        high = _rounded(most + share * (max(radii) - most), max(radii) - most)
         range_[1] = high
         words.append(f"a link of up to {_exact_length(high, task)} instead of {plain(most)}")
     changed = with_limits(task, limit.number, length=tuple(range_))
@@ -232,15 +232,11 @@ def _margin(
     return Loosening(limit, words, f"margin = {margin:g}", by, changed, found)
 
 
-def _up(value: float, amount: float) -> float:
-    """The value rounded up, by the digits of an amount."""
-    step = 10.0 ** (math.floor(math.log10(amount)) - DIGITS + 1)
-    return float(f"{math.ceil(value / step - 1e-9) * step:.12g}")
-
-
-def _down(value: float, amount: float) -> float:
-    step = 10.0 ** (math.floor(math.log10(amount)) - DIGITS + 1)
-    return float(f"{max(math.floor(value / step + 1e-9) * step, 0.0):.12g}")
+def _rounded(value: float, amount: float) -> float:
+    """A length rounded away from zero, or for a negative amount towards it, by its digits."""
+    step = 10.0 ** (math.floor(math.log10(abs(amount))) - DIGITS + 1)
+    outward = math.ceil(value / step - 1e-9) if amount > 0 else math.floor(value / step + 1e-9)
+    return float(f"{max(outward * step, 0.0):.12g}")
 
 
 def _exact_length(value: float, task: Task) -> str:

@@ -55,13 +55,15 @@ def explained(synthesis: Synthesis, solve: Solve) -> Synthesis:
     search = _search(synthesis, solve)
     if search is None:
         return synthesis
-    causes = sorted(search.loosened_alone(), key=lambda each: each.size)
-    if not causes:
-        causes = search.loosened_together()
-        return (
-            _with_causes(synthesis, causes, alone=False) if causes else _no_cause(synthesis, search)
-        )
-    return _with_causes(synthesis, causes, alone=True)
+    if causes := sorted(search.loosened_alone(), key=lambda each: each.size):
+        return _with_causes(synthesis, causes, alone=True)
+    if causes := search.loosened_together():
+        return _with_causes(synthesis, causes, alone=False)
+    if synthesis.outcome.code != "R309" or not search.hopeless():
+        return synthesis
+    why = "without any of the limits no sound linkage was found either: the poses are to blame"
+    help = "move a pose, or leave one out"
+    return replace(synthesis, outcome=replace(synthesis.outcome, why=why, help=help))
 
 
 def _search(synthesis: Synthesis, solve: Solve) -> _FewPoses | _ManyPoses | None:
@@ -69,15 +71,12 @@ def _search(synthesis: Synthesis, solve: Solve) -> _FewPoses | _ManyPoses | None
     task, code = synthesis.task, synthesis.outcome.code
     if task.path is not None or not any(stated_limits(task)):
         return None
-    if code in FEW and (not synthesis.works or _given_up(synthesis)):
+    given_up = synthesis.family is not None and synthesis.family.given_up
+    if code in FEW and (not synthesis.works or given_up):
         return _FewPoses.of(synthesis.problem, solve)
     if code in MANY and task.tolerances is None:
         return _ManyPoses(synthesis.problem, solve)
     return None
-
-
-def _given_up(synthesis: Synthesis) -> bool:
-    return synthesis.family is not None and synthesis.family.given_up
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -310,15 +309,6 @@ class _ManyPoses(_Search):
                 continue
             high, best = middle, replace(told, found=near.found)
         return best
-
-
-def _no_cause(synthesis: Synthesis, search: _Search) -> Synthesis:
-    """The synthesis where no limit is to blame, as far as a search can tell."""
-    if synthesis.outcome.code != "R309" or not search.hopeless():
-        return synthesis
-    why = "without any of the limits no sound linkage was found either: the poses are to blame"
-    help = "move a pose, or leave one out"
-    return replace(synthesis, outcome=replace(synthesis.outcome, why=why, help=help))
 
 
 def _with_causes(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bool) -> Synthesis:

@@ -203,7 +203,12 @@ def summary(
         return _none(problem.given, search, dyads + aside)
     usable = [each for each in linkages if each.usable]
     if problem.leaves_linkages_open and usable:
-        return _some_of_many(problem, len(linkages), len(usable))
+        asked = point_conditions(problem.given)
+        what = f"{asked} leave" if asked else "the poses, free as they are, leave"
+        some = (
+            f"of {len(linkages)} found, {len(usable)} {'is' if len(usable) == 1 else 'are'} usable"
+        )
+        return Outcome("R308", f"{what} infinitely many linkages; {some}")
     if len(search.dyads) < 2:
         dyads = f"links of low error beside {dyads}"
     all_of_them = f"{count(len(linkages), 'four-bar')} from {dyads}"
@@ -218,14 +223,6 @@ def summary(
         return _undetermined(problem, usable, message)
     approximate = isinstance(search.fits[0], FivePoseDyads) and search.meeting < 2
     return Outcome("R307" if approximate else "R300", message)
-
-
-def _some_of_many(problem: SynthesisProblem, found: int, usable: int) -> Outcome:
-    """Usable linkages where poses with free components leave infinitely many."""
-    asked = point_conditions(problem.given)
-    what = f"{asked} leave" if asked else "the poses, free as they are, leave"
-    some = f"of {found} found, {usable} {'is' if usable == 1 else 'are'} usable"
-    return Outcome("R308", f"{what} infinitely many linkages; {some}")
 
 
 def offering_six_bars(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
@@ -322,19 +319,12 @@ def _outside_tolerances(
     why += "; ".join(each.message for each in nearest.defects if each.kind == "assembly")
     help = "widen that tolerance, free a component that does not count, or leave a pose out"
     works = min(filter(only_too_far, linkages), key=worst, default=None)
-    bounded = task.requirements.within is not None or task.requirements.within_deg is not None
-    if (
-        works is not None
-        and math.isfinite(worst(works))
-        and not (bounded or _has_exact_parts(task))
-    ):
+    fixed = task.requirements.within is not None or task.requirements.within_deg is not None
+    fixed |= task.tolerances is not None and bool(task.tolerances.exact.any())
+    if works is not None and math.isfinite(worst(works)) and not fixed:
         times = math.ceil(100 * worst(works)) / 100
         help += f"; with all tolerances {times:g} times as wide {works.id} would be inside"
     return Outcome("R304", f"no linkage stays inside all tolerances: {message}", help, why)
-
-
-def _has_exact_parts(task: Task) -> bool:
-    return task.tolerances is not None and bool(task.tolerances.exact.any())
 
 
 def undetermined(

@@ -87,7 +87,8 @@ def linkages_near(task: Task, path: TracedPath, options: SynthesisOptions) -> Pa
     """Linkages near the points, or through them, and such as transmit better."""
     points, timed = task.poses.translation, path.crank_angles is not None
     if is_timed_exactly(task, path):
-        return _timed_exactly(points, path)
+        assert path.crank_angles is not None
+        return PathLinkages(*linkages_of_five_points(points, path.crank_angles))
     search = PathSearch.of(
         points,
         closed=path.closed,
@@ -128,12 +129,6 @@ def _nearest(
 
 def _of_fit(fit: CurveFit) -> PathLinkages:
     return PathLinkages(fit.linkages.batch(), fit.linkages.rows(fit.t))
-
-
-def _timed_exactly(points: FloatArray, path: TracedPath) -> PathLinkages:
-    """All linkages of five timed points."""
-    assert path.crank_angles is not None
-    return PathLinkages(*linkages_of_five_points(points, path.crank_angles))
 
 
 def _with_cognates(found: PathLinkages) -> PathLinkages:

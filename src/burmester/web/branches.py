@@ -90,8 +90,9 @@ def branches_of(found: FoundLinkage, poses: Displacement, scene: float, frames: 
             place = float(np.interp(along, s, np.arange(frames)))
             at[pose] = (len(ways), round(frames - 1 - place if falls else place, 9))
         first = next((at[pose] for pose in np.flatnonzero(on).tolist()), None)
-        if own.loop.turns and first is not None:
-            _count_from(way["drive"], first[1])
+        if own.loop.turns and first is not None:  # there the drive is between ±180°
+            turns = round(float(np.interp(first[1], np.arange(frames), way["drive"])) / 360)
+            way["drive"] = [round(each - 360 * turns, 9) for each in way["drive"]]
         dead = branch.dead[::-1] if falls else branch.dead
         ways.append(
             {
@@ -125,12 +126,6 @@ def _branches(circuits: Circuits, circuit: np.ndarray, parameter: FloatArray) ->
             found.append(_Branch(number, 0, (0.0, np.inf), False, (True, False)))
             found.append(_Branch(number, 1, (-np.inf, 0.0), False, (False, True)))
     return found
-
-
-def _count_from(drive: list[float], frame: float) -> None:
-    """Shift angles in degrees by whole turns, so that the one at a frame is between ±180."""
-    turns = round(float(np.interp(frame, np.arange(len(drive)), drive)) / 360)
-    drive[:] = [round(each - 360 * turns, 9) for each in drive]
 
 
 def _cut(parameter: FloatArray) -> float:

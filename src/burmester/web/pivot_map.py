@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from burmester.dyads.pivot_map import fixed_pivot_map, grid
-from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import RP, RR
 from burmester.synthesis.result import Synthesis
-from burmester.verdicts.found_linkage import FoundLinkage
 
 FEWEST_POSES = 4  # three poses are met exactly from every pivot
 COLUMNS, ROWS = 96, 72  # pivots of the grid
@@ -34,7 +31,9 @@ def pivot_map(synthesis: Synthesis, scene: float) -> dict[str, Any] | None:
     at = task.poses.translation
     low, high = at.min(axis=0), at.max(axis=0)
     middle = (low + high) / 2
-    pivots = _fixed_pivots(synthesis.linkages, synthesis.dyads)
+    every = [*synthesis.dyads, *(dyad for found in synthesis.linkages for dyad in found.dyads)]
+    points = [each.dyad.fixed_pivot for each in every if isinstance(each.dyad, RR | RP)]
+    pivots = np.array(points).reshape(-1, 2)
     near = pivots[(np.abs(pivots - middle) <= FARTHEST_PIVOT * scene).all(axis=-1)]
     if len(near):
         low, high = np.minimum(low, near.min(axis=0)), np.maximum(high, near.max(axis=0))
@@ -43,8 +42,7 @@ def pivot_map(synthesis: Synthesis, scene: float) -> dict[str, Any] | None:
     centre, half = (low + high) / 2, (high - low) / 2
     half = np.maximum(half, half[::-1] * np.array([COLUMNS / ROWS, ROWS / COLUMNS]))
     low, high = centre - half, centre + half
-    points = grid(low, high, COLUMNS, ROWS)
-    rms = fixed_pivot_map(task.poses, points, task.weights).rms_error
+    rms = fixed_pivot_map(task.poses, grid(low, high, COLUMNS, ROWS), task.weights).rms_error
     if (~(rms >= LEAST_ERROR * scene)).mean() > MOST_EXACT:
         return None  # a translation or a rotation: most pivots meet all poses, or have no error
     levels = np.log10(np.maximum(rms, LEAST_ERROR * scene))
@@ -56,10 +54,3 @@ def pivot_map(synthesis: Synthesis, scene: float) -> dict[str, Any] | None:
         "rows": ROWS,
         "log10_rms": flat,
     }
-
-
-def _fixed_pivots(linkages: Sequence[FoundLinkage], dyads: Sequence[FoundDyad]) -> np.ndarray:
-    """Fixed pivots (n, 2) of all dyads."""
-    every = [*dyads, *(dyad for found in linkages for dyad in found.dyads)]
-    points = [each.dyad.fixed_pivot for each in every if isinstance(each.dyad, RR | RP)]
-    return np.array(points).reshape(-1, 2)
