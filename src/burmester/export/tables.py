@@ -29,9 +29,8 @@ from burmester.export.reference import (
     require_equal,
     require_places,
 )
-from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
-from burmester.io.linkage_data import six_bar_data
+from burmester.io.linkage_data import dimensions_data, six_bar_data
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.tolerance_boxes import poses_counted
@@ -197,7 +196,7 @@ def _dyads_data(chosen: FoundLinkage, options: Options) -> dict[str, Any]:
         "length_unit": stated_unit(chosen, options),
         "driver": "first",
         "dyads": [
-            {"id": name, **_dyad(dyad)}
+            {"id": name, **dimensions_data(dyad)}
             for name, dyad in zip(chosen.ids, (linkage.first, linkage.second), strict=True)
         ],
     }
@@ -207,20 +206,4 @@ def _dyads_data(chosen: FoundLinkage, options: Options) -> dict[str, Any]:
     data["coupler"] = poses_data(chosen.error.places)
     data["position_error"] = {"max": float(chosen.error.position.max())}
     data["angle_error_deg"] = {"max": math.degrees(float(chosen.error.angle.max()))}
-    return data
-
-
-def _dyad(dyad: Dyad) -> dict[str, Any]:
-    data: dict[str, Any] = {"kind": type(dyad).__name__}
-    if isinstance(dyad, PP):
-        return data | {"angle_deg": math.degrees(float(dyad.angle))}
-    if isinstance(dyad, RR | RP):
-        data["fixed_pivot"] = dyad.fixed_pivot.tolist()
-    if isinstance(dyad, PR | RP):
-        normal = math.degrees(float(dyad.normal_angle))
-        data["line"] = {"normal_deg": normal, "offset": float(dyad.offset)}
-    if isinstance(dyad, RR | PR):
-        data["moving_pivot"] = dyad.moving_pivot.tolist()
-    if isinstance(dyad, RR):
-        data["radius"] = float(dyad.radius)
     return data

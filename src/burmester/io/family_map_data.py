@@ -6,16 +6,16 @@ transmission angle of a pair that does not work, a pivot at infinity) is null.
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 
 from burmester.families.family_map import FamilyMap
-from burmester.families.pair_verdicts import CLASS_WORDS, Ground
-from burmester.fourbar.dyad import PR, RP, RR
+from burmester.families.pair_verdicts import CLASS_WORDS
+from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.regions import Polygon
+from burmester.io.linkage_data import dimensions_data
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.links import LINK_RATIO, LONGEST_LINK, SHORTEST_LINK
@@ -53,7 +53,7 @@ def family_map_data(found: FamilyMap, recommended: Linkage | None = None) -> dic
         }
         data["recommended"] = None if recommended is None else found.places_of(recommended)
     else:
-        data["chosen"] = _dyad(found.first)
+        data["chosen"] = dimensions_data(found.first)
         data["plane"] = _circles(found.second)
         data["poles"] = _numbers(found.poles)
     return data | {
@@ -69,24 +69,6 @@ def _circles(dyads: RR) -> dict[str, Any]:
         "moving_pivot": _numbers(dyads.moving_pivot),
         "radius": _numbers(dyads.radius),
     }
-
-
-def _dyad(dyad: Ground) -> dict[str, Any]:
-    """One dyad by its kind's own dimensions."""
-    data: dict[str, Any] = {"kind": type(dyad).__name__}
-    match dyad:
-        case RR():
-            data |= _circles(dyad)
-        case PR():
-            data["moving_pivot"] = dyad.moving_pivot.tolist()
-        case RP():
-            data["fixed_pivot"] = dyad.fixed_pivot.tolist()
-    if not isinstance(dyad, RR):
-        data["line"] = {
-            "normal_deg": math.degrees(dyad.normal_angle),
-            "offset": float(dyad.offset),
-        }
-    return data
 
 
 def _numbers(values: FloatArray) -> Any:

@@ -10,11 +10,10 @@ from typing import Any
 
 import numpy as np
 
-from burmester.fourbar.dyad import RR
 from burmester.functions.found_generator import FoundGenerator
 from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
-from burmester.io.linkage_data import FUNCTION_SCHEMA, number, pins_data
+from burmester.io.linkage_data import FUNCTION_SCHEMA, dimensions_data, number
 from burmester.io.reading.stated_requirements import requirements_data
 from burmester.synthesis.function_generation import FunctionSynthesis
 
@@ -111,7 +110,7 @@ def _linkage(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
         "input_phase_deg": math.degrees(float(one.input_phase)) % 360,
         "output_phase_deg": math.degrees(float(one.output_phase)) % 360,
         "side": int(one.side),
-        "dyads": [pins_data(d) for d in (dyads.first, dyads.second) if isinstance(d, RR)],
+        "dyads": [dimensions_data(dyads.first), dimensions_data(dyads.second)],
         "structural_error_deg": {
             "max": _degrees(found.max_error),
             "rms": _degrees(found.rms_error),

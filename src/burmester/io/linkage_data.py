@@ -50,38 +50,28 @@ def dyad_data(found: FoundDyad, places: Displacement) -> dict[str, Any]:
     }
     if found.limits:
         data["limits"] = found.limits
-    match dyad:
-        case RR():
-            data |= pins_data(dyad)
-        case PR():
-            data["line"] = _line(dyad, places)
-            data["moving_pivot"] = dyad.moving_pivot.tolist()
-        case RP():
-            data["fixed_pivot"] = dyad.fixed_pivot.tolist()
-            data["line"] = _line(dyad, places)
-        case PP():
-            data["angle_deg"] = math.degrees(dyad.angle)
+    data |= dimensions_data(dyad)
+    if isinstance(dyad, PR | RP):
+        point = dyad.middle_of_travel(places).tolist()
+        data["line"] |= {"point": point, "direction_deg": direction_deg(dyad)}
     return data
 
 
-def pins_data(dyad: RR) -> dict[str, Any]:
-    """The kind and the dimensions of a link between two pins."""
-    return {
-        "kind": "RR",
-        "fixed_pivot": dyad.fixed_pivot.tolist(),
-        "moving_pivot": dyad.moving_pivot.tolist(),
-        "radius": float(dyad.radius),
-    }
-
-
-def _line(dyad: PR | RP, places: Displacement) -> dict[str, Any]:
-    """A slider's line by its normal, and by the middle of its travel with its direction."""
-    return {
-        "normal_deg": math.degrees(dyad.normal_angle),
-        "offset": float(dyad.offset),
-        "point": dyad.middle_of_travel(places).tolist(),
-        "direction_deg": direction_deg(dyad),
-    }
+def dimensions_data(dyad: Dyad) -> dict[str, Any]:
+    """The kind and the dimensions of a dyad, a line by its normal."""
+    data: dict[str, Any] = {"kind": type(dyad).__name__}
+    if isinstance(dyad, PP):
+        return data | {"angle_deg": math.degrees(dyad.angle)}
+    if isinstance(dyad, RR | RP):
+        data["fixed_pivot"] = dyad.fixed_pivot.tolist()
+    if isinstance(dyad, PR | RP):
+        normal = math.degrees(dyad.normal_angle)
+        data["line"] = {"normal_deg": normal, "offset": float(dyad.offset)}
+    if isinstance(dyad, RR | PR):
+        data["moving_pivot"] = dyad.moving_pivot.tolist()
+    if isinstance(dyad, RR):
+        data["radius"] = float(dyad.radius)
+    return data
 
 
 def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[str, Any]:

@@ -19,13 +19,12 @@ from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
 from burmester.errors import BurmesterError
-from burmester.fourbar.dyad import RR
 from burmester.geometry.regions import Line, Point, Region, Segment
 from burmester.io.linkage_data import (
+    dimensions_data,
     dyad_data,
     linkage_data,
     number,
-    pins_data,
     six_bar_data,
 )
 from burmester.io.pose_data import crank_data, degrees_of, poses_data, tolerances_data
@@ -142,7 +141,7 @@ def _cognates(synthesis: Synthesis, found: FoundLinkage) -> dict[str, Any]:
     told = [
         {
             "type": each.type,
-            "dyads": [pins_data(d) for d in (each.first, each.second) if isinstance(d, RR)],
+            "dyads": [dimensions_data(each.first), dimensions_data(each.second)],
         }
         for each in cognates_of(found, synthesis.task)
         if each.links is not None
