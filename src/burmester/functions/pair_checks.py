@@ -29,17 +29,13 @@ def pair_findings(task: FunctionTask) -> tuple[Advice, ...]:
     """What stands out in the pairs of a task; nothing in those of a function."""
     if task.function is not None:
         return _turns(task)
-    found = list(_turns(task))
+    found = [*_turns(task)]
     if (odd := _odd_pair(task)) is not None:
         index, away = odd
-        found = [
-            Advice(
-                "W241",
-                f"pair {index + 1} stands out, by {figure(math.degrees(away))} deg of its output",
-                f"look at pair {index + 1} again, or leave it out",
-                "the other pairs lie on a smooth curve, and it lies beside that",
-            )
-        ]
+        text = f"pair {index + 1} stands out, by {figure(math.degrees(away))} deg of its output"
+        help = f"look at pair {index + 1} again, or leave it out"
+        why = "the other pairs lie on a smooth curve, and it lies beside that"
+        found = [Advice("W241", text, help, why)]
     inputs, outputs = np.degrees(task.inputs), np.degrees(task.outputs)
     if max(np.abs(inputs).max(), np.abs(outputs).max()) < SMALL_ANGLE:
         turned, made = figure(float(np.ptp(inputs))), figure(float(np.ptp(outputs)))

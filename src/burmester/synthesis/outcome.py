@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from burmester.dyads.critical_points import CriticalDyads
@@ -40,39 +40,35 @@ SHOWN_ANGLE = 1e-6  # degrees; an angle lower by less is as good
 
 def dyad_advice(
     problem: SynthesisProblem, found: DyadSearch, linkages: Sequence[FoundLinkage] = ()
-) -> list[Advice]:
+) -> Iterator[Advice]:
     """What a user should know about the dyads; linkages: those that are listed, of these dyads."""
     if problem.leaves_linkages_open:  # start values: their poses are partly made up
-        return _thin_regions(problem)
-    warnings = _nearly_sliders(problem, found, linkages)
+        yield from _thin_regions(problem)
+        return
+    yield from _nearly_sliders(problem, found, linkages)
     for fit in found.fits:
         if isinstance(fit, FivePoseDyads):
-            warnings += _off_poses(problem, found)
+            yield from _off_poses(problem, found)
         elif not isinstance(fit, BestDyads):
             continue
         elif isinstance(fit.search, CriticalDyads):
-            warnings += _unaccounted(problem, found, fit, fit.search)
+            yield from _unaccounted(problem, found, fit, fit.search)
         elif fit.search.lost or fit.search.unsettled:
-            warnings.append(
-                Advice(
-                    "W207",
-                    f"{count(fit.search.lost, 'path')} of the search and "
-                    f"{count(fit.search.unsettled, 'way')} down from it were lost: a locally best "
-                    "dyad may be missing",
-                    "move a limit a little and compare",
-                )
+            yield Advice(
+                "W207",
+                f"{count(fit.search.lost, 'path')} of the search and "
+                f"{count(fit.search.unsettled, 'way')} down from it were lost: a locally best "
+                "dyad may be missing",
+                "move a limit a little and compare",
             )
-    warnings += _thin_regions(problem)
+    yield from _thin_regions(problem)
     if found.left_out:
-        warnings.append(
-            Advice(
-                "W206",
-                f"{count(found.left_out, 'solution')} left out as no dyad: an endless link with no "
-                "slider in its place, poses with two different angles only, or all digits lost",
-                "give poses that differ more, above all in their angles",
-            )
+        yield Advice(
+            "W206",
+            f"{count(found.left_out, 'solution')} left out as no dyad: an endless link with no "
+            "slider in its place, poses with two different angles only, or all digits lost",
+            "give poses that differ more, above all in their angles",
         )
-    return warnings
 
 
 def _nearly_sliders(
@@ -99,26 +95,23 @@ def _nearly_sliders(
     ]
 
 
-def _off_poses(problem: SynthesisProblem, found: DyadSearch) -> list[Advice]:
+def _off_poses(problem: SynthesisProblem, found: DyadSearch) -> Iterator[Advice]:
     """What is said of dyads that should meet all five poses and do not."""
     some = found.dyads[: found.meeting]
     within = within_digits(Found.of(some), GivenPoses.of(problem.task, problem.length))
     off = [each.id for each, met in zip(some, within, strict=True) if not met]
-    if not off:
-        return []
-    return [
-        Advice(
+    if off:
+        yield Advice(
             "W207",
             f"rounding took digits of {listed(off)}, which should meet all poses and "
             f"{'does' if len(off) == 1 else 'do'} not: a dyad may be missing",
             "give poses with more rotation between them, or origins nearer to them",
         )
-    ]
 
 
 def _unaccounted(
     problem: SynthesisProblem, found: DyadSearch, fit: BestDyads, search: CriticalDyads
-) -> list[Advice]:
+) -> Iterator[Advice]:
     """What is not accounted for of a task without limits, if anything."""
     help = "compare with --method pencil; poses that turn little, or of a special motion, are the "
     help += "usual reason"
@@ -136,17 +129,15 @@ def _unaccounted(
             f"{'does' if meeting < 2 else 'do'}: a dyad is missing, or the digits do not "
             "determine it"
         )
-        return [Advice("W207", message, help)]
-    if known < COUNT:
+    elif known < COUNT:
         message = f"{known} of {COUNT} critical points were told apart: a locally best dyad may be "
-        return [Advice("W207", message + "missing", help)]
-    if fit.unfinished:
-        message = (
-            f"{count(fit.unfinished, 'way')} down to a nearer dyad had to be given up: a locally "
-            "best dyad may be missing"
-        )
-        return [Advice("W207", message, help)]
-    return []
+        message += "missing"
+    elif fit.unfinished:
+        message = f"{count(fit.unfinished, 'way')} down to a nearer dyad had to be given up: a "
+        message += "locally best dyad may be missing"
+    else:
+        return
+    yield Advice("W207", message, help)
 
 
 def _thin_regions(problem: SynthesisProblem) -> list[Advice]:
@@ -371,41 +362,36 @@ def _pivot_freedom(found: FoundLinkage, task: Task) -> str:
     return f"its lines may be moved by about ±{length_of(widest, task)} ({extent})"
 
 
-def sample_advice(problem: SynthesisProblem, found: Sequence[FoundLinkage]) -> list[Advice]:
+def sample_advice(problem: SynthesisProblem, found: Sequence[FoundLinkage]) -> Iterator[Advice]:
     """W220: the linkages were looked for on a sample of many poses."""
     sample = sample_refined(problem)
     if sample is None or not found:
-        return []
+        return
     some, of_all = len(sample.index), sample.of_all
     worst = " and those that they miss by most" if problem.options.norm == "worst" else ""
     message = f"linkages were looked for on {some} of the {of_all} poses{worst}, and judged at all"
     each = math.ceil(of_all / MAX_POSES_REFINED)
-    return [
-        Advice(
-            "W220",
-            message,
-            f"take one pose in {each}, with --every {each}, and all of them are taken alike",
-            "a linkage has nine dimensions, and more poses hardly change them; where nothing "
-            "limits the closest ones, their last steps count all poses",
-        )
-    ]
+    yield Advice(
+        "W220",
+        message,
+        f"take one pose in {each}, with --every {each}, and all of them are taken alike",
+        "a linkage has nine dimensions, and more poses hardly change them; where nothing "
+        "limits the closest ones, their last steps count all poses",
+    )
 
 
-def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> list[Advice]:
+def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> Iterator[Advice]:
     """What a user should know about the linkages that are usable; code: of the outcome."""
     usable = [each for each in linkages if each.usable]
     loose = [each for each in usable if not each.determined]
-    warnings = []
     # Of special motions the outcome itself says how free the pivots are.
     if loose and code != "R305" and not code.startswith("R31"):
         ids = [each.id for each in loose]
-        warnings.append(
-            Advice(
-                "W209",
-                f"the poses leave pivots of {listed(ids)} open; of {ids[0]}, "
-                f"{_pivot_freedom(loose[0], task)}",
-                "give more digits, or poses with more rotation between them",
-            )
+        yield Advice(
+            "W209",
+            f"the poses leave pivots of {listed(ids)} open; of {ids[0]}, "
+            f"{_pivot_freedom(loose[0], task)}",
+            "give more digits, or poses with more rotation between them",
         )
     if usable and not task.requirements.transmission_deg:
         best = usable[0]
@@ -421,16 +407,13 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> l
                 help = f"take {other.id}, which has {least_angle(reached)} or more and {near}"
             if math.degrees(reached) >= USUAL_TRANSMISSION:  # so there is one for sure
                 help += f"; or ask for more with --min-transmission {USUAL_TRANSMISSION:.0f}"
-            warnings.append(
-                Advice(
-                    "W210",
-                    f"{best.id} transmits badly: its transmission angle falls to "
-                    f"{least_angle(least)} between the poses, and "
-                    f"{USUAL_TRANSMISSION:.0f}° is a usual limit",
-                    help,
-                )
+            yield Advice(
+                "W210",
+                f"{best.id} transmits badly: its transmission angle falls to "
+                f"{least_angle(least)} between the poses, and "
+                f"{USUAL_TRANSMISSION:.0f}° is a usual limit",
+                help,
             )
-    return warnings
 
 
 def _accounted(search: CriticalDyads) -> int:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import Advice
 from burmester.progress import limited, step
@@ -57,34 +59,28 @@ def _outcome(task: Task, result: SixBars) -> Outcome:
     )
 
 
-def _advice(result: SixBars) -> list[Advice]:
+def _advice(result: SixBars) -> Iterator[Advice]:
     """What was assumed, what was free, and whether one would build the best of them."""
-    advice = []
     if result.assumed:
         words, options = (list(each) for each in zip(*result.assumed, strict=True))
         message = f"assumed, as the task does not say: {listed(words)}"
-        advice.append(Advice("W234", message, f"change it with {listed(options, 'or')}"))
+        yield Advice("W234", message, f"change it with {listed(options, 'or')}")
     if result.free_poses:
         free = count(result.free_poses, "pose")
-        advice.append(
-            Advice(
-                "W235",
-                f"{POSES - result.free_poses} poses leave a six-bar free; {free} between them "
-                f"{'was' if result.free_poses == 1 else 'were'} drawn at random",
-                f"give {POSES} poses, if the way between them counts",
-            )
+        yield Advice(
+            "W235",
+            f"{POSES - result.free_poses} poses leave a six-bar free; {free} between them "
+            f"{'was' if result.free_poses == 1 else 'were'} drawn at random",
+            f"give {POSES} poses, if the way between them counts",
         )
     if result.found and result.found[0].shortcomings:
         first = result.found[0]
-        advice.append(
-            Advice(
-                "W236",
-                f"no six-bar was found that meets the standard of linkages to build; {first.id} "
-                f"{listed(first.shortcomings)}",
-                f"look at more chains, such as --chains {MORE * result.options.chains}, give the "
-                "pivots more room, or move a pose",
-                f"the standard is a transmission angle of {TRANSMISSION.standard:g}° or more and "
-                "links of like lengths, within some sizes of the motion",
-            )
+        yield Advice(
+            "W236",
+            f"no six-bar was found that meets the standard of linkages to build; {first.id} "
+            f"{listed(first.shortcomings)}",
+            f"look at more chains, such as --chains {MORE * result.options.chains}, give the "
+            "pivots more room, or move a pose",
+            f"the standard is a transmission angle of {TRANSMISSION.standard:g}° or more and "
+            "links of like lengths, within some sizes of the motion",
         )
-    return advice
