@@ -32,7 +32,7 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export import FORMATS as EVERY
 from burmester.export import Options, export
 from burmester.export.drawings.sheet import laid_lengthwise
-from burmester.export.parts.distances import distance
+from burmester.export.parts.distances import distances
 from burmester.export.parts.plates import assembly_of
 from burmester.export.parts.stock import stock_for
 from burmester.fourbar.dyad import PR
@@ -72,10 +72,10 @@ def touching(assembly):
         corners = laid.place.act(laid.plate.skeleton)
         found["texts"] += len(laid.lines)
         for one in laid.lines:
-            found["on a plate"] += distance(one.box, corners) < laid.plate.radius
+            found["on a plate"] += distances(one.box, corners) < laid.plate.radius
         for one, two in itertools.permutations(laid.lines, 2):
-            found["on text"] += distance(one.box, two.box) <= 0
-            found["on a line"] += any(distance(one.box, each) <= 0 for each in two.lines)
+            found["on text"] += distances(one.box, two.box) <= 0
+            found["on a line"] += any(distances(one.box, each) <= 0 for each in two.lines)
     return found
 
 

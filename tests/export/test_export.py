@@ -92,7 +92,7 @@ def test_holes_and_slots_have_metal_around_them(name):
 def test_holes_meet_all_along_the_motion(name):
     chosen = saved(name)
     made = assembly_of(chosen, Options())
-    near = SPANS * span_of(chosen, made.scale)
+    near = SPANS * span_of(chosen, made.reference.scale)
     for k in range(0, made.motion.shape[0], 40):
         place = made.motion[k]
         for pin in made.pins:
@@ -111,10 +111,10 @@ def test_holes_meet_all_along_the_motion(name):
                 assert min(gaps) <= near, (pin, joined)
     # The places of the result are on that motion.
     for k in range(6):
-        d, turn = complex_places(chosen, made.scale)
+        d, turn = complex_places(chosen, made.reference.scale)
         motion = made.motion["coupler"]
         away = np.abs(motion.translation @ [1, 1j] - d[k])
-        away += made.scale * np.abs(np.exp(1j * motion.angle) - turn[k])
+        away += made.reference.scale * np.abs(np.exp(1j * motion.angle) - turn[k])
         assert away.min() <= 100 * near
 
 

@@ -62,7 +62,7 @@ def check_linkage(dyads, rows):
     if not isinstance(dyads[0], PR):
         assert 0 <= motion.drive[0] < 2 * np.pi
     assert (turn > -1e-12).all() or (turn < 1e-12).all()
-    reached = motion.reached
+    reached = np.flatnonzero(np.isfinite(motion.pose_shares))
     share = motion.pose_shares[reached]
     assert share.min() == 0
     assert share.max() == pytest.approx(1, abs=1e-12)
@@ -143,7 +143,10 @@ def test_of_two_branches_the_one_with_more_poses():
     where, phi = (both[side, np.arange(7)] for both in witness.places(*dyads, drive))
     rows = np.column_stack([where.real, where.imag, phi])
     motion = Motion.of(saved(*dyads, rows), 50)
-    assert motion.reached.tolist() == np.flatnonzero(side == 1).tolist()
+    assert (
+        np.flatnonzero(np.isfinite(motion.pose_shares)).tolist()
+        == np.flatnonzero(side == 1).tolist()
+    )
     assert motion.drive[0] == pytest.approx(drive[1] + 2 * np.pi)  # within the first turn
     assert motion.drive[-1] == pytest.approx(drive[5] + 2 * np.pi)
     assert off_witness(Linkage(*dyads), motion)[1].max() < 1e-9
@@ -154,7 +157,7 @@ def test_poses_on_two_circuits():
     side = np.array([0, 1, 1, 0, 1, 1])
     rows = np.column_stack([each[side, np.arange(6)] for each in (where.real, where.imag, phi)])
     motion = Motion.of(saved(*PAPER, rows), 50)
-    assert motion.reached.tolist() == [1, 2, 4, 5]
+    assert np.flatnonzero(np.isfinite(motion.pose_shares)).tolist() == [1, 2, 4, 5]
     assert off_witness(Linkage(*PAPER), motion)[1].max() < 1e-9
 
 

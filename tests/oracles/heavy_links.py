@@ -81,7 +81,7 @@ def weighed(chosen, made, density=2700.0):
         for name, dyad in sides.items():
             own = dyad.fixed_pivot if isinstance(dyad, RP) else dyad.moving_pivot
             there = owner == ("ground" if isinstance(dyad, RP) else "coupler")
-            near = np.hypot(*(own * made.scale - [x, y])) < 1e-6 * made.dimensions.width
+            near = np.hypot(*(own * made.reference.scale - [x, y])) < 1e-6 * made.dimensions.width
             if not isinstance(dyad, RR) and there and near:
                 owner, x, y = name, 0.0, 0.0
         radius = pin.diameter / 2

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Final, Self, final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from burmester.errors import InputError
 from burmester.export.link_places import LinkPlaces
@@ -119,11 +119,6 @@ class Motion:
             driven.turns_fully,
             bool(whole and driven.turns_fully),
         )
-
-    @property
-    def reached(self) -> NDArray[np.intp]:
-        """The numbers, from 0, of the poses that the driver reaches."""
-        return np.flatnonzero(np.isfinite(self.pose_shares))
 
 
 def _driven(chosen: FoundLinkage) -> Driven:

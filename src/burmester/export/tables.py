@@ -47,7 +47,7 @@ def write_csv(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the table; raises E163."""
     motion = Motion.of(chosen, 2)
     shares = np.linspace(0, 1, MOTION_ROWS)
-    reached = motion.reached
+    reached = np.flatnonzero(np.isfinite(motion.pose_shares))
     met = motion.pose_shares[reached]
     # Where a pose and a step are one place, the pose's row stands for both.
     shares = shares[np.abs(shares[:, None] - met).min(axis=1) > 0.01 / MOTION_ROWS]

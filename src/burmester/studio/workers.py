@@ -178,11 +178,6 @@ class Workers:
         self._background: set[asyncio.Task[None]] = set()
         self._closed = False
 
-    @property
-    def pids(self) -> list[int]:
-        """The numbers of all processes."""
-        return [each.pid for each in (*self._idle, *self._lent)]
-
     async def open(self, number: int, *words: str) -> None:
         """Start workers, so that there are so many at least; words: what each does first."""
         while not self._closed and self._size < min(number, self._most):

@@ -34,6 +34,7 @@ LETTERS: Final = 2.5  # mm: height of text, the least of ISO 3098 that copies we
 SPACING: Final = 6.0  # mm: between plates
 OVERLAP: Final = 15.0  # mm: of pages that are put together
 MOST_PAGES: Final = 60
+SHARES: Final = (0.25, 0.75)  # of a side: where its two crosses are
 
 
 @final
@@ -77,8 +78,7 @@ def pages_of(assembly: Assembly, decimals: int, dimensions: bool) -> Pages:
     for size in ((width, height), (height, width)):
         low = np.array([MARGIN, MARGIN + FOOT])
         high = np.array([size[0] - MARGIN, size[1] - MARGIN - HEAD])
-        number = _count(laid, high - low)
-        if number > MOST_PAGES:
+        if sum(math.prod(_grid(each, high - low)) for each in laid) > MOST_PAGES:
             continue
         pages = tuple(_pages(laid, low, high))
         if best is None or len(pages) < len(best.pages):
@@ -93,11 +93,6 @@ def pages_of(assembly: Assembly, decimals: int, dimensions: bool) -> Pages:
             help="write a drawing instead: --to dxf",
         )
     return best
-
-
-def _count(laid: list[Laid], room: FloatArray) -> int:
-    """How many pages the plates take, at most."""
-    return sum(math.prod(_grid(each, room)) for each in laid)
 
 
 def _grid(laid: Laid, room: FloatArray) -> tuple[int, int]:
@@ -174,17 +169,7 @@ def _tiles(laid: Laid, low: FloatArray, high: FloatArray) -> Iterator[Page]:
 def _crosses(room: FloatArray, sides: tuple[bool, bool, bool, bool]) -> FloatArray:
     """Two crosses (n, 2) at each side, left, right, below and above, that has a neighbour."""
     (width, height), half = room.tolist(), OVERLAP / 2
-    across = [
-        (half, 0.0, 1.0),
-        (width - half, 0.0, 1.0),
-        (0.0, half, 0.0),
-        (0.0, height - half, 0.0),
-    ]
-    return np.array(
-        [
-            (x, share * height) if upright else (share * width, y)
-            for (x, y, upright), has in zip(across, sides, strict=True)
-            if has
-            for share in (0.25, 0.75)
-        ]
-    ).reshape(-1, 2)
+    upright = [[(x, share * height) for share in SHARES] for x in (half, width - half)]
+    level = [[(share * width, y) for share in SHARES] for y in (half, height - half)]
+    pairs = zip(upright + level, sides, strict=True)
+    return np.array([pair for pair, has in pairs if has]).reshape(-1, 2)

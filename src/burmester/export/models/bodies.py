@@ -74,15 +74,11 @@ def shapes(body: BodyParts, made: Assembly) -> list[Shape]:
     found = list[Shape]()
     for plate in body.plates:
         low, high = _inset(plate, made)
-        middle, height, width = (low + high) / 2, high - low, 2 * plate.radius * METRES
-        corners = plate.skeleton * METRES
-        for one, two in _sides(plate):
-            way, centre = two - one, np.append((one + two) / 2, middle)
-            size = (float(np.linalg.norm(way)), width, height)
-            found.append(Shape("box", centre, math.atan2(way[1], way[0]), size))
-        for corner in corners:
-            size = (width, width, height)
-            found.append(Shape("cylinder", np.append(corner, middle), 0.0, size))
+        width = 2 * plate.radius * METRES
+        found += [_bar(one, two, width, (low, high)) for one, two in _sides(plate)]
+        for corner in plate.skeleton * METRES:
+            size = (width, width, high - low)
+            found.append(Shape("cylinder", np.append(corner, (low + high) / 2), 0.0, size))
     for pin in body.pins:
         low, high = _inset(pin, made)
         centre = np.array([pin.x * METRES, pin.y * METRES, (low + high) / 2])
@@ -105,13 +101,17 @@ def rim(corners: FloatArray, made: Assembly) -> list[Shape]:
     """Flat bars along the edges of the body's outline (n, 2), metres, as high as its plate."""
     carrier = made.plate(made.body)
     assert carrier is not None
-    low, high = _inset(carrier, made)
-    found = list[Shape]()
-    for one, two in zip(corners, np.roll(corners, -1, axis=0), strict=True):
-        way, centre = two - one, np.append((one + two) / 2, (low + high) / 2)
-        size = (float(np.linalg.norm(way)), made.dimensions.thickness * METRES, high - low)
-        found.append(Shape("box", centre, math.atan2(way[1], way[0]), size))
-    return found
+    heights, width = _inset(carrier, made), made.dimensions.thickness * METRES
+    ends = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+    return [_bar(one, two, width, heights) for one, two in ends]
+
+
+def _bar(one: FloatArray, two: FloatArray, width: float, heights: tuple[float, float]) -> Shape:
+    """A box between two points (2,)."""
+    (low, high), way = heights, two - one
+    centre = np.append((one + two) / 2, (low + high) / 2)
+    size = (float(np.linalg.norm(way)), width, high - low)
+    return Shape("box", centre, math.atan2(way[1], way[0]), size)
 
 
 def _inset(part: Plate | Pin, made: Assembly) -> tuple[float, float]:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.export.models.bodies import INSET, METRES, Shape, parts_of_bodies, rim, shapes
-from burmester.export.models.driver_load import STANDARD_GRAVITY, DriverLoad, require_up
+from burmester.export.models.driver_load import STANDARD_GRAVITY, require_up
 from burmester.export.models.joints import JointMotion
 from burmester.export.models.mass_properties import MassProperties, require_density
 from burmester.export.options import Options
@@ -92,10 +92,6 @@ class DynamicModel:
         """The hinges (k, 2) of the bodies in their frames."""
         tree = self.reference.tree
         return np.array([ORIGIN if each.slides else each.joint.hole(each.body) for each in tree])
-
-    def load(self) -> DriverLoad:
-        """What the driver bears at the poses."""
-        return DriverLoad.of(self.reference, self.masses, self.up)
 
     def damping(self) -> FloatArray:
         """Of the joints (k,): N m s, or N s/m of slides."""

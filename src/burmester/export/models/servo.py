@@ -11,7 +11,7 @@ from typing import Final, NamedTuple, final
 
 import numpy as np
 
-from burmester.export.models.driver_load import STANDARD_GRAVITY
+from burmester.export.models.driver_load import STANDARD_GRAVITY, DriverLoad
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.numerics.arrays import FloatArray
 
@@ -49,7 +49,7 @@ class Servo(NamedTuple):
         """A servo with critical damping for the median of the inertia at the poses."""
         step = min(LONGEST_STEP, STEP_SHARE * math.sqrt(model.reference.span / STANDARD_GRAVITY))
         step = float(f"{step:.1e}")
-        load = model.load()
+        load = DriverLoad.of(model.reference, model.masses, model.up)
         finite = load.inertia[np.isfinite(load.inertia)]
         inertia = float(np.median(finite)) if len(finite) else model.masses[model.driver].about_z()
         share = ARMATURE if len(model.reference.closures) == 1 else LOOPS_ARMATURE

@@ -43,16 +43,6 @@ class Assembly:
     pose: int
 
     @property
-    def poses(self) -> LinkPlaces:
-        """Where the links are at the poses (N,)."""
-        return self.reference.at_poses
-
-    @property
-    def scale(self) -> float:
-        """Millimetres per unit of the task's lengths."""
-        return self.reference.scale
-
-    @property
     def body(self) -> str:
         """The link whose frame is M."""
         return self.reference.body
@@ -69,7 +59,7 @@ class Assembly:
     @property
     def drawn(self) -> LinkPlaces:
         """Where the links are in the drawing of the assembly."""
-        return self.poses[self.pose]
+        return self.reference.at_poses[self.pose]
 
 
 def assembly_of(chosen: Candidate, options: Options) -> Assembly:

@@ -121,7 +121,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         lines += [
             "",
             f"// x, y, angle in degrees: of the {plate.owner} at the poses, and along the motion.",
-            f"{own}poses = {_places(plate.at(assembly.poses))};",
+            f"{own}poses = {_places(plate.at(assembly.reference.at_poses))};",
             f"{own}motion = {_places(plate.at(assembly.motion)[pick])};",
             f"{own}place = $t == 0 ? {own}poses[pose - 1] "
             f": {own}motion[floor($t * len({own}motion))];",
