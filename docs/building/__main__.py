@@ -30,6 +30,8 @@ def main(folder: Path) -> int:
     ):  # fmt: skip
         return code
     notebooks.give_outputs(folder)
+    for report in sorted((laid_out / "gallery").glob("*-report.html")):
+        shutil.copy(report, folder / "gallery")  # written by the cells of a page that shows it
     shutil.rmtree(run, ignore_errors=True)
     for each in REMAINS:
         path = folder / each

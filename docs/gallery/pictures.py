@@ -38,7 +38,7 @@ def run(page):
     script = Path(f"{page.stem}.py")
     cells = CELL.findall(page.read_text(encoding="utf-8"))
     script.write_text(
-        "".join(each for each in cells if not re.search(r"\.(animate|export)\(", each))
+        "".join(each for each in cells if not re.search(r"\.(animate|export|report)\(", each))
     )
     return runpy.run_path(str(script))
 

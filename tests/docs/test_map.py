@@ -88,9 +88,9 @@ def test_links_lead_somewhere(page):
     text = page.read_text(encoding="utf-8")
     links = re.findall(r"\]\(([^)\s]+)\)|(?:src|srcset)=\"([^\"]+)\"", text)
     for link in (one or other for one, other in links):
-        if "://" in link:
-            continue
         path, _, anchor = link.partition("#")
+        if "://" in link or f'.report("{path}"' in text:  # a cell of the page writes it
+            continue
         target = page.parent / path if path else page
         if target.resolve() in MADE:
             assert not anchor, link

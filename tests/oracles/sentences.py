@@ -10,7 +10,7 @@ ROLE = re.compile(r"\{[\w:]+\}(?=`)")
 MATHS = re.compile(r"\$\$.*?\$\$|\$[^$\n]+\$", re.DOTALL)
 BEGINS = re.compile(r"^\s*(?:[-*+] |\d+\. |> )")
 ENDS = re.compile(
-    r"(?<!\b[A-Z]\.)(?<!\be\.g\.)(?<!\bi\.e\.)(?<!\bNo\.)(?<=[.!?])[”\"')*_]*\s+(?=\S)"
+    r"(?<!\b[A-EG-LN-Z]\.)(?<!\be\.g\.)(?<!\bi\.e\.)(?<!\bNo\.)(?<=[.!?])[”\"')*_]*\s+(?=\S)"
 )
 WORD = re.compile(r"\w")
 
