@@ -50,40 +50,23 @@ class Ways(NamedTuple):
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)
-class BarOfLinkage:
-    """A bar of one linkage: between a point of F, or none, and points of M.
-
-    number: its place in `BAR_NAMES`.
-    """
-
-    number: int
-    ground: FloatArray | None
-    moving: FloatArray
-
-    def ends(self, places: Displacement) -> FloatArray:
-        """The ends (n, 2, 2) in F at places (n,)."""
-        at = places[:, None].act(self.moving)
-        if self.ground is None:
-            return np.asarray(at)
-        return np.stack([np.broadcast_to(self.ground, at[:, 0].shape), at[:, 0]], axis=1)
-
-
-@final
-@dataclass(frozen=True, slots=True, eq=False)
 class Pair:
-    """A moving part and what it must not touch.
+    """A moving part of a linkage and what it must not touch.
 
     part, obstacle: their names.
-    body, bar: the part, one of the two, or both where they must not touch each other; the bar is
-        then shortened by `lug` at its moving pivot.
+    body, bar: the part, one of the two, or both where they must not touch each other; the bar, a
+        number of `BAR_NAMES`, is then shortened by `lug` at its moving pivot.
+    pins: (m, 2), of the bar in M.
     region: the obstacle in F.
     width: of the bar.
     """
 
+    linkage: Linkage
     part: str
     obstacle: str
     body: Polygon | None
-    bar: BarOfLinkage | None
+    bar: int | None
+    pins: FloatArray
     region: Polygon | None
     width: float
     lug: float = 0.0
@@ -99,7 +82,8 @@ class Pair:
             assert self.body is not None
             assert self.region is not None
             return moved(self.body, places), area(self.region)
-        ends = self.bar.ends(places)
+        one = Linkage(self.linkage.first[None], self.linkage.second[None])
+        ends = bars_of(one, places[None])[0, :, self.bar]
         if self.region is not None:
             return segments(ends), area(self.region)
         assert self.body is not None
@@ -112,26 +96,30 @@ class Pair:
             out = out + ways.of_points(self.body.vertices)
         if self.bar is not None:
             # Of a grounded link no point goes farther than its moving pivot.
-            out = out + ways.of_points(self.bar.moving)
+            out = out + ways.of_points(self.pins)
         return out
 
 
 def pairs_of(linkage: Linkage, body: Polygon | None, around: Surroundings) -> list[Pair]:
     """All that must not touch of one linkage, driven by its first dyad."""
-    bars = _bars(linkage)
-    width = around.link_width
-    out = []
-    for name, region in zip(around.names, around.keep_out, strict=True):
+    dyads, width, out = (linkage.first, linkage.second), around.link_width, list[Pair]()
+    pins = {k: dyad.moving_pivot[None] for k, dyad in enumerate(dyads) if isinstance(dyad, RR | PR)}
+    if len(pins) == 2:
+        pins[2] = np.concatenate([pins[0], pins[1]])
+    for name, keep_out in zip(around.names, around.keep_out, strict=True):
+        region = keep_out.polygon
         if body is not None:
-            out.append(Pair(BODY, name, body, None, region.polygon, 0.0))
-        out += [Pair(BAR_NAMES[b.number], name, None, b, region.polygon, width) for b in bars]
+            out.append(Pair(linkage, BODY, name, body, None, np.empty((0, 2)), region, 0.0))
+        for bar, own in pins.items():
+            out.append(Pair(linkage, BAR_NAMES[bar], name, None, bar, own, region, width))
     if body is not None and around.body_in_plane:
-        for bar in bars:
-            if bar.ground is None:
+        for bar, dyad in enumerate(dyads):
+            if not isinstance(dyad, RR):
                 continue
-            lug = float(lugs(bar.moving, body, around)[0])
+            lug = float(lugs(pins[bar], body, around)[0])
             if np.isfinite(lug):
-                out.append(Pair(BAR_NAMES[bar.number], BODY, body, bar, None, width, lug))
+                own = pins[bar]
+                out.append(Pair(linkage, BAR_NAMES[bar], BODY, body, bar, own, None, width, lug))
     return out
 
 
@@ -149,21 +137,6 @@ def shortened(ends: FloatArray, lug: FloatArray) -> FloatArray:
     with np.errstate(invalid="ignore", divide="ignore"):
         share = np.clip(1 - lug / length, 0.0, 1.0)
     return np.stack([ends[..., 0, :], ends[..., 0, :] + share[..., None] * along], axis=-2)
-
-
-def _bars(linkage: Linkage) -> list[BarOfLinkage]:
-    """The bars of one linkage."""
-    out = []
-    pins = []
-    for number, dyad in enumerate((linkage.first, linkage.second)):
-        if isinstance(dyad, RR | PR):
-            pins.append(dyad.moving_pivot)
-            ground = dyad.fixed_pivot if isinstance(dyad, RR) else None
-            points = dyad.moving_pivot[None] if isinstance(dyad, RR) else np.stack([pins[-1]] * 2)
-            out.append(BarOfLinkage(number, ground, points))
-    if len(pins) == 2:
-        out.append(BarOfLinkage(2, None, np.stack(pins)))
-    return out
 
 
 def bars_of(linkage: Linkage, places: Displacement) -> FloatArray:
