@@ -16,7 +16,7 @@ from burmester.errors import BurmesterError
 from burmester.export import Options
 from burmester.export.drawings import dxf, svg
 from burmester.export.drawings.sheet import laid_lengthwise
-from burmester.export.parts.distances import distances
+from burmester.export.parts.outlines import distances
 from burmester.export.parts.plates import assembly_of
 from tests.oracles.common_tasks import in_line
 from tests.oracles.handed_over import NAMES, dxf_unit, joints, saved, scale_of, written

@@ -16,8 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.errors import InputError
-from burmester.export.link_places import LinkPlaces
-from burmester.export.reference import Reference
+from burmester.export.reference import LinkPlaces, Reference
 from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.defects import Driven, judge
 from burmester.fourbar.dyad import PP

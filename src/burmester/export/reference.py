@@ -12,13 +12,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple, Self, final
+from typing import TYPE_CHECKING, Any, Final, NamedTuple, Self, final, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.errors import BurmesterError, InputError
-from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
@@ -33,7 +32,31 @@ if TYPE_CHECKING:
 
 PRECISION = 1e-9  # of the span: the largest deviation of a file from the linkage
 SIDES = ("driver", "follower")
+GROUND: Final = "ground"
 ORIGIN = np.zeros(2)
+
+
+@final
+class LinkPlaces:
+    """Where the frames of links are in F, at places (*,) of the motion: by the name of a link."""
+
+    def __init__(self, of: Mapping[str, Displacement]) -> None:
+        self._of = of
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The axes of the places."""
+        return next(iter(self._of.values())).shape
+
+    @overload
+    def __getitem__(self, key: str) -> Displacement: ...
+    @overload
+    def __getitem__(self, key: Any) -> LinkPlaces: ...
+    def __getitem__(self, key: Any) -> Displacement | LinkPlaces:
+        """The places (*,) of a link by its name, or some places of all links by their indices."""
+        if isinstance(key, str):
+            return self._of[key]
+        return LinkPlaces({name: each[key] for name, each in self._of.items()})
 
 
 @final

@@ -18,12 +18,13 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.motion import Motion
 from burmester.export.numbers import decimals_within, rounded
 from burmester.export.options import Options, stated_unit
 from burmester.export.reference import (
+    GROUND,
     PRECISION,
+    LinkPlaces,
     Reference,
     as_rows,
     require_equal,

@@ -22,12 +22,11 @@ import numpy as np
 from burmester.export.drawings.drawing import Drawing, Item, Kind, require_drawing
 from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, read_dimensions
 from burmester.export.escaping import dxf_text
-from burmester.export.link_places import GROUND
 from burmester.export.numbers import error_within
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import stock_for
-from burmester.export.reference import fault, require_equal
+from burmester.export.reference import GROUND, fault, require_equal
 from burmester.synthesis.result import Candidate
 
 ezdxf: Any = import_module("ezdxf")

@@ -13,9 +13,9 @@ from typing import Literal, NamedTuple, final
 
 import numpy as np
 
-from burmester.export.link_places import GROUND
 from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.plates import Assembly
+from burmester.export.reference import GROUND
 from burmester.numerics.arrays import FloatArray
 
 METRES = 1e-3  # metres in a millimetre

@@ -6,9 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from burmester.export.link_places import GROUND
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.reference import ORIGIN, Limb
+from burmester.export.reference import GROUND, ORIGIN, Limb
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 

@@ -12,9 +12,8 @@ from typing import Final, NamedTuple, Self, final
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.export.link_places import GROUND
 from burmester.export.models.mass_properties import MassProperties
-from burmester.export.reference import Reference
+from burmester.export.reference import GROUND, Reference
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
 STANDARD_GRAVITY: Final = 9.80665  # m/s²

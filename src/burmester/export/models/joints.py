@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
-from burmester.export.link_places import LinkPlaces
 from burmester.export.motion import Motion
-from burmester.export.reference import Reference
+from burmester.export.reference import LinkPlaces, Reference
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate

@@ -19,7 +19,6 @@ import numpy as np
 
 from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
-from burmester.export.link_places import GROUND
 from burmester.export.models.bodies import Shape
 from burmester.export.models.body_tree import Body, Site, Tree, tree_of
 from burmester.export.models.driver_load import STANDARD_GRAVITY
@@ -28,7 +27,7 @@ from burmester.export.models.read_back import Link, require_pose
 from burmester.export.models.servo import Servo
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import PRECISION, require_equal
+from burmester.export.reference import GROUND, PRECISION, require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 

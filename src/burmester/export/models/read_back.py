@@ -9,10 +9,9 @@ import cmath
 from collections.abc import Mapping
 from typing import Literal, NamedTuple
 
-from burmester.export.link_places import GROUND
 from burmester.export.models.body_tree import tree_of
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.reference import PRECISION, require_equal
+from burmester.export.reference import GROUND, PRECISION, require_equal
 
 
 class Link(NamedTuple):

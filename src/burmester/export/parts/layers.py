@@ -17,11 +17,11 @@ from typing import NamedTuple
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.parts.dimensions import WALL, Dimensions
-from burmester.export.parts.distances import distances
 from burmester.export.parts.links import Arrangement, Links
+from burmester.export.parts.outlines import distances
 from burmester.export.parts.plate import Pin, Plate, plate_of
+from burmester.export.reference import GROUND, LinkPlaces
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 

@@ -14,10 +14,9 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.motion import all_places
-from burmester.export.parts.distances import distances
-from burmester.export.reference import Reference
+from burmester.export.parts.outlines import distances
+from burmester.export.reference import GROUND, LinkPlaces, Reference
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 

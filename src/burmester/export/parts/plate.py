@@ -8,14 +8,14 @@ from typing import final
 
 import numpy as np
 
-from burmester.export.link_places import LinkPlaces
-from burmester.export.parts.distances import distances
 from burmester.export.parts.outlines import (
     angle_outline,
     convex_hull,
+    distances,
     points_on,
     rounded_hull,
 )
+from burmester.export.reference import LinkPlaces
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 

@@ -11,14 +11,13 @@ from dataclasses import dataclass
 from typing import final
 
 from burmester.errors import InputError
-from burmester.export.link_places import LinkPlaces
 from burmester.export.options import Options, unit_of
 from burmester.export.parts.dimensions import Dimensions, dimensions_of
 from burmester.export.parts.layers import arranged
 from burmester.export.parts.links import Links
 from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.stock import stock_for
-from burmester.export.reference import Reference
+from burmester.export.reference import LinkPlaces, Reference
 from burmester.synthesis.result import Candidate
 
 

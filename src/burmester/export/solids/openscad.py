@@ -19,11 +19,17 @@ import numpy as np
 
 from burmester.export.description import description
 from burmester.export.escaping import line_comment
-from burmester.export.link_places import GROUND, LinkPlaces
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import PRECISION, Reference, as_rows, require_equal
+from burmester.export.reference import (
+    GROUND,
+    PRECISION,
+    LinkPlaces,
+    Reference,
+    as_rows,
+    require_equal,
+)
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate

@@ -12,10 +12,10 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from burmester.export.link_places import GROUND
 from burmester.export.parts.outlines import outline_moments, rounded_hull, slot_outline
 from burmester.export.parts.plate import Plate
 from burmester.export.parts.plates import Assembly
+from burmester.export.reference import GROUND
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 
