@@ -27,7 +27,7 @@ from burmester.errors import Advice, Finding, InputError
 from burmester.fourbar.dyad import PP, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import FUNCTION_SCHEMA
-from burmester.io.linkage_values import assumed_of, dyad_of, number, text_of
+from burmester.io.linkage_values import assumed_of, dyad_of, fault, number, text_of
 from burmester.io.reading.file_content import read_source
 from burmester.io.reading.pose_table import held_float
 from burmester.io.reading.poses import read_task
@@ -325,7 +325,15 @@ def _options(tree: dict[str, Any]) -> SynthesisOptions:
 def _dyad(given: Any, where: str) -> FoundDyad:
     """A dyad of the file, its errors left open; raises E150."""
     try:
-        dyad = _dimensions(given, where)
+        if not isinstance(given, dict):
+            raise fault(f"{where} is {shown(given)}, not an object", HELP)
+        if given.get("kind") == "PP":
+            angle = math.radians(number(given.get("angle_deg"), f"{where}.angle_deg"))
+            dyad: Dyad | OpenLink = PP(np.asarray(angle))
+        else:
+            dyad = dyad_of(given, where, HELP)
+        if isinstance(dyad, OpenLink):
+            raise fault(f"{where}.radius is missing", HELP)
     except InputError as error:
         raise _bad_result(f"$.{error.message}", error.why) from None
     id = given.get("id")
@@ -334,18 +342,6 @@ def _dyad(given: Any, where: str) -> FoundDyad:
     limits = given.get("limits", 0)
     minimum = given.get("minimum", True)
     return FoundDyad(id, dyad, 0.0, 0.0, minimum is True, limits if limits in (1, 2) else 0)
-
-
-def _dimensions(given: Any, where: str) -> Dyad:
-    if not isinstance(given, dict):
-        raise _bad_result(f"{where} is {shown(given)}, not an object")
-    if given.get("kind") == "PP":
-        angle = number(given.get("angle_deg"), f"{where}.angle_deg")
-        return PP(np.asarray(math.radians(angle)))
-    dyad = dyad_of(given, where, HELP)
-    if isinstance(dyad, OpenLink):
-        raise _bad_result(f"{where}.radius is missing")
-    return dyad
 
 
 def _linkages(

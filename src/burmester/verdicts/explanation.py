@@ -113,15 +113,22 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
     """What to change where none of the linkages is usable, so that one becomes usable."""
     task, near = problem.given, by_nearness(linkages, problem.length)
     # For each set of options the nearest linkage that they make usable.
-    nearest_with: dict[tuple[str, ...], FoundLinkage] = {}
+    nearest_with: dict[frozenset[str], tuple[FoundLinkage, tuple[str, ...]]] = {}
     for each in near:
-        options = options_for(each, problem)
-        if options:
-            nearest_with.setdefault(tuple(option.split()[0] for option in options), each)
-    nearest = sorted(nearest_with.values(), key=lambda each: len(options_for(each, problem)))
+        if options := options_for(each, problem):
+            names = frozenset(option.split()[0] for option in options)
+            nearest_with.setdefault(names, (each, options))
+    ways = sorted(nearest_with.items(), key=lambda way: len(way[1][1]))
     # More options for a greater error are no help.
-    nearest = [each for k, each in enumerate(nearest) if not _is_beaten(each, nearest[:k], problem)]
-    softer = nearest_with.get(("--min-transmission",))
+    told = [
+        way
+        for k, (names, way) in enumerate(ways)
+        if not any(
+            fewer <= names and other.combined_error <= way[0].combined_error
+            for fewer, (other, _) in ways[:k]
+        )
+    ]
+    softer = nearest_with.get(frozenset({"--min-transmission"}))
     if softer is not None:  # beside the nearest one, the one with the best transmission angle
         alike = [
             each
@@ -129,9 +136,12 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
             if not each.defects and {why.kind for why in each.violations} == {"transmission"}
         ]
         best = max(alike, key=lambda each: each.driven.least_over_range)
-        if best is not softer:
-            nearest.insert(1, best)
-    texts = [_would_do(each, problem) for each in nearest[:MAX_HINTS]]
+        if best is not softer[0]:
+            told.insert(1, (best, options_for(best, problem)))
+    texts = [
+        f"with {' '.join(options)} {each.id} would do (it {nearness(each, task, problem.length)})"
+        for each, options in told[:MAX_HINTS]
+    ]
     if near[0].error_before_rounding is not None:
         texts.insert(0, "round less")
     stuck = next((each for each in near[0].defects if each.kind in ("circuit", "branch")), None)
@@ -146,23 +156,6 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
     if any(why.kind == "clearance" for why in near[0].violations):
         texts.append("make room where it touches")
     return "; or ".join(texts) or "move a pose"
-
-
-def _is_beaten(
-    found: FoundLinkage, others: Sequence[FoundLinkage], problem: SynthesisProblem
-) -> bool:
-    """Whether another linkage comes as near, and needs no option that this one does without."""
-    names = {option.split()[0] for option in options_for(found, problem)}
-    return any(
-        {option.split()[0] for option in options_for(each, problem)} <= names
-        and each.combined_error <= found.combined_error
-        for each in others
-    )
-
-
-def _would_do(found: FoundLinkage, problem: SynthesisProblem) -> str:
-    how = nearness(found, problem.given, problem.length)
-    return f"with {' '.join(options_for(found, problem))} {found.id} would do (it {how})"
 
 
 def options_for(found: JudgedLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
