@@ -11,6 +11,7 @@ from burmester.requirements.transmission import TRANSMISSION
 from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.stated_limits import stated_limits
+from burmester.verdicts.assumptions import assumed_advice
 from burmester.verdicts.explanation import in_short
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import count, listed
@@ -21,11 +22,7 @@ def family_summary(
 ) -> tuple[Outcome, list[Advice]]:
     """The outcome and the warnings of a task whose linkages were chosen from a family."""
     poses = count(problem.given.poses.shape[0], "pose")
-    advice = []
-    if family.bounds:
-        words, options = zip(*((each.message, each.option) for each in family.bounds), strict=True)
-        message = f"assumed, as the task does not say: {listed(words)}"
-        advice.append(Advice("W215", message, f"change it with {listed(options, 'or')}"))
+    advice = [assumed_advice("W215", family.bounds)] if family.bounds else []
     looked = f"{family.pairs:,} pairs of {family.dyads:,} dyads"
     usable = [each for each in linkages if each.usable]
     if not usable:

@@ -14,6 +14,7 @@ from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.assumptions import assumed_advice
 from burmester.wording import count, least_angle, listed
 
 MORE = 10  # times as many chains are proposed where none was found
@@ -62,9 +63,7 @@ def _outcome(task: Task, result: SixBars) -> Outcome:
 def _advice(result: SixBars) -> Iterator[Advice]:
     """What was assumed, what was free, and whether one would build the best of them."""
     if result.assumed:
-        words, options = (list(each) for each in zip(*result.assumed, strict=True))
-        message = f"assumed, as the task does not say: {listed(words)}"
-        yield Advice("W234", message, f"change it with {listed(options, 'or')}")
+        yield assumed_advice("W234", result.assumed)
     if result.free_poses:
         free = count(result.free_poses, "pose")
         yield Advice(

@@ -22,11 +22,11 @@ from burmester.progress import time_for
 from burmester.refinement.kept_limits import DyadLimitsConstraint
 from burmester.tasks.limits import Limits
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.assumptions import REACH, WIDE, Assumptions
+from burmester.verdicts.assumptions import REACH, WIDE, Assumptions, assumed_advice
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside
 from burmester.verdicts.ranking import closest_usable, digits_leave_open, ranked, states_tolerance
-from burmester.wording import figure, listed
+from burmester.wording import figure
 
 ERROR_RATIO = 1.5  # a linkage with usual pivots comes first up to this many times the first's error
 
@@ -147,12 +147,8 @@ def _advice(
 ) -> Advice:
     """W215: what was assumed of the pivots, and which linkage is nearer without it."""
     options = "--fixed-pivot", "--moving-pivot"
-    bounds = [each for each in assumed.bounds if each.option in options]
+    advice = assumed_advice("W215", [each for each in assumed.bounds if each.option in options])
     id = next(each.id for each in linkages if each.linkage is farther.linkage)
     ratio = farther.combined_error / linkages[0].combined_error
-    return Advice(
-        "W215",
-        f"assumed, as the task does not say: {listed([each.message for each in bounds])}",
-        f"change it with {listed([each.option for each in bounds], 'or')}; or take {id}, whose "
-        f"error is {figure(ratio)} times that of L1",
-    )
+    nearer = f"or take {id}, whose error is {figure(ratio)} times that of L1"
+    return replace(advice, help=f"{advice.help}; {nearer}")

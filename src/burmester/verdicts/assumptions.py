@@ -7,12 +7,13 @@ told, with the option that changes it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final, Self, final
+from typing import Final, NamedTuple, Self, final
 
 import numpy as np
 
+from burmester.errors import Advice
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.requirement import Bounds
@@ -21,6 +22,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.requirement_check import not_asked
+from burmester.wording import listed
 
 REACH: Final = 1.0  # motion sizes; how far pivots may lie from the body's places where none says
 WIDE: Final = 3.0  # the same, where nothing works within that
@@ -28,13 +30,18 @@ FAR: Final = 12.0  # the same, where nothing works at all; poses that hardly tur
 OUTLINE_SHARE: Final = 0.1  # of an outline's diagonal; how far beside the body its pivots may lie
 
 
-@final
-@dataclass(frozen=True, slots=True)
-class Bound:
+class Bound(NamedTuple):
     """Something that is assumed, in words, and the option that changes it."""
 
     message: str
     option: str
+
+
+def assumed_advice(code: str, assumed: Sequence[tuple[str, str]]) -> Advice:
+    """What was assumed where the task says nothing, and the options that change it."""
+    words, options = zip(*assumed, strict=True)
+    message = f"assumed, as the task does not say: {listed(words)}"
+    return Advice(code, message, f"change it with {listed(options, 'or')}")
 
 
 @final
