@@ -8,11 +8,12 @@ E158 pivots alone, and points that do not say how long their link is
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import TypeAlias, final
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from burmester.errors import Advice, InputError
 from burmester.fourbar.circuits import Circuits
@@ -147,15 +148,8 @@ def require_linkage(dyads: tuple[Dyad, Dyad], task: Task, *, assembled: bool = F
 
 def _require_dyad(number: int, dyad: Dyad, task: Task) -> None:
     """Refuse numbers that cannot be computed with, and links without length."""
-    for each in fields(dyad):
-        value = np.asarray(getattr(dyad, each.name))
-        if not np.isfinite(value).all() or np.abs(value).max() > MOST:
-            raise InputError(
-                "E112",
-                f"a number of D{number} is too large to compute with",
-                why=f"its {each.name.replace('_', ' ')} is {value.tolist()}",
-                help="write the lengths in another unit",
-            )
+    numbers = {each.name: getattr(dyad, each.name) for each in fields(dyad)}
+    require_computable(f"D{number}", numbers)
     if (away := _farthest(dyad, task)) > FARTHEST * _size(task):
         raise InputError(
             "E112",
@@ -180,6 +174,19 @@ def _require_dyad(number: int, dyad: Dyad, task: Task) -> None:
             help="move one of them: the fixed pivot is in the frame of the ground, the moving one "
             "in that of the body",
         )
+
+
+def require_computable(what: str, numbers: Mapping[str, ArrayLike]) -> None:
+    """Refuse dimensions that are too large to compute with: E112."""
+    for name, given in numbers.items():
+        value = np.asarray(given)
+        if not np.isfinite(value).all() or np.abs(value).max() > MOST:
+            raise InputError(
+                "E112",
+                f"a number of {what} is too large to compute with",
+                why=f"its {name.replace('_', ' ')} is {value.tolist()}",
+                help="write the lengths in another unit",
+            )
 
 
 def _size(task: Task) -> float:

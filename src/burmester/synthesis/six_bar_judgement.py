@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import InputError
 from burmester.progress import limited, step
@@ -14,9 +12,10 @@ from burmester.sixbar.judged import judged_six_bar
 from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.sixbar.search_space import FEWEST, POSES, require_kept
 from burmester.sixbar.six_bars import SixBarOptions, SixBars
+from burmester.synthesis.given_linkage import require_computable
 from burmester.synthesis.judgement import judged_outcome
 from burmester.synthesis.result import Synthesis, with_time_limit
-from burmester.tasks.motion_task import MOST, Task
+from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
@@ -81,15 +80,7 @@ def judged_at_poses(
 def _require_links(linkage: SixBar, problem: SynthesisProblem) -> None:
     """Refuse numbers that cannot be computed with, E112, and links without length, E154."""
     task, size = problem.given, problem.motion_size
-    for name, given in linkage.numbers().items():
-        value = np.asarray(given)
-        if not np.isfinite(value).all() or np.abs(value).max() > MOST:
-            raise InputError(
-                "E112",
-                "a number of the six-bar is too large to compute with",
-                why=f"its {name.replace('_', ' ')} is {value.tolist()}",
-                help="write the lengths in another unit",
-            )
+    require_computable("the six-bar", linkage.numbers())
     skeleton = linkage.skeleton
     lengths = dict(zip(skeleton.bars, linkage.lengths().tolist(), strict=True))
     for bar, length in lengths.items():
