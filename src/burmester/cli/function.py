@@ -143,9 +143,7 @@ def function(
     if check:
         for name, value in {**given, "plot": plot, "report": report, "file": file}.items():
             if name in NOT_CHECKED and value is not None:
-                raise _contradiction(
-                    f"--check and {_option(name)} are given", "give one of the two"
-                )
+                raise contradiction(f"--check and {_option(name)} are given", "give one of the two")
         return _check(task, source, notes, as_json=as_json)
     for each in (file, plot, report):
         if each is not None:
@@ -167,7 +165,7 @@ def function(
     return EXIT_FOUND if synthesis.usable else EXIT_NOTHING
 
 
-def _contradiction(message: str, help: str, why: str | None = None) -> InputError:
+def contradiction(message: str, help: str, why: str | None = None) -> InputError:
     """E194: settings that are missing or exclude each other."""
     from burmester.errors import InputError
 
@@ -187,7 +185,7 @@ def _task(source: str, given: dict[str, Any]) -> FunctionTask:
         if stated:
             option = _option(stated[0])
             file = "; a file to write is named by -o" if stated[0] == "output" else ""
-            raise _contradiction(
+            raise contradiction(
                 f"{option} is given, and the file states the pairs",
                 f"leave {option} out, or write it into the table [function] of a TOML file{file}",
             )
@@ -197,13 +195,13 @@ def _task(source: str, given: dict[str, Any]) -> FunctionTask:
             if not stated and not any(sign in source for sign in "x()*+ "):
                 _content(source)  # which says that there is no such file
             option = _option(name)
-            raise _contradiction(f"{option} is missing", f"give {option}, as in {EXAMPLE}")
+            raise contradiction(f"{option} is missing", f"give {option}, as in {EXAMPLE}")
     low, colon, high = given["x"].partition(":")
     ends = Source("--x", given["x"])
     if not colon:
-        raise _contradiction("--x has no range", "give both ends, such as --x 1:2")
+        raise contradiction("--x has no range", "give both ends, such as --x 1:2")
     if given["output"].lower().endswith(TABLES):
-        raise _contradiction(
+        raise contradiction(
             "--output is the range of the output link, in degrees",
             f"give --output 60, say, and name the file by -o {given['output']}",
         )
@@ -271,12 +269,12 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
     if links is not None:
         for name in ("linkage", "id", "ground"):
             if given[name] is not None:
-                raise _contradiction(
+                raise contradiction(
                     f"--links and --{name} are given", f"leave --{name} out, or --links"
                 )
         every = lengths_from_texts("--links", [links])
         if len(every) != 4:
-            raise _contradiction(
+            raise contradiction(
                 f"--links has {len(every)} numbers, and a four-bar has four links",
                 "give the ground link, the input link, the coupler and the output link, such as "
                 "--links 1,0.5,1.2,0.9",
@@ -286,7 +284,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
         return judge_links(replace(task, ground=ground), (a, r, b), side)
     for name, needed in (("side", "--links"), ("id", "--linkage")):
         if given[name] is not None and (name == "side" or linkage is None):
-            raise _contradiction(
+            raise contradiction(
                 f"--{name} is given, and no {needed}", f"leave --{name} out, or give {needed}"
             )
     if linkage is None:

@@ -12,6 +12,7 @@ from typing import Any, Final
 
 import click
 
+from burmester.cli.function import contradiction
 from burmester.cli.output import CONTENT, NOTES
 
 TAKE_PAIRS: Final = ("check", "synthesize", "report", "judge")
@@ -37,7 +38,7 @@ def words_of_function(
     file = "--report" if name == "report" else "-o"
     plain = [file if w == "-o" or (w == "--output" and not expression) else w for w in plain]
     if name == "judge" and "--links" not in plain and "--linkage" not in plain:
-        raise _e194(
+        raise contradiction(
             "there is no linkage to judge",
             "give its lengths, such as --links 1,0.5,1.2,0.9, or --linkage FILE",
         )
@@ -90,18 +91,12 @@ def _refuse_angle(output: Any) -> None:
         float(output)
     except (TypeError, ValueError):
         return
-    raise _e194(
+    raise contradiction(
         f"--output {output} may be an angle or a file",
         f"for a function say `burmester function EXPRESSION --x FROM:TO --input DEG --output "
         f"{output}`; for a file of that name say -o {output}",
         "the output link of a function turns by degrees, and no function is given",
     )
-
-
-def _e194(message: str, help: str, why: str | None = None) -> Exception:
-    from burmester.errors import InputError
-
-    return InputError("E194", message, why=why, help=help)
 
 
 def _warn(context: click.Context, name: str, words: list[str]) -> None:
