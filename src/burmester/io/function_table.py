@@ -115,31 +115,22 @@ def _pair_errors(found: FoundGenerator, task: FunctionTask, console: Console) ->
 
 def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) -> None:
     wide = console.width >= NARROW
-    table = new_table("Function generators, the best first", gap=1 if wide else 0)
-    table.add_column("", no_wrap=True)
-    table.add_column("type")
-    for name in ("input", "coupler", "output"):
-        table.add_column(name, justify="right", no_wrap=True)
-    for name in ("max error", "%", "rms", "transm.")[:: 1 if wide else 3]:
-        table.add_column(name, justify="right", no_wrap=True)
+    some = 1 if wide else 3
+    figures = ("max error", "%", "rms", "transm.")[::some]
+    rows = []
     for each in shown:
         _, *lengths = each.lengths(task.ground).values()
-        percent = "0" if each.is_exact else figure(100 * each.max_error / task.output_span)
-        figures = [
+        least = math.degrees(each.least_transmission)
+        cells = (
             f"{_degrees(each.max_error)}°",
-            percent,
+            "0" if each.is_exact else figure(100 * each.max_error / task.output_span),
             f"{_degrees(each.rms_error)}°",
-            f"{math.degrees(each.least_transmission):.0f}°"
-            if math.isfinite(each.least_transmission)
-            else "-",
-        ]
-        table.add_row(
-            each.id,
-            each.type,
-            *(f"{length:.4g}" for length in lengths),
-            *figures[:: 1 if wide else 3],
+            f"{least:.0f}°" if math.isfinite(least) else "-",
         )
-    print_trimmed(table, console)
+        rows.append((each.id, each.type, *(f"{each:.4g}" for each in lengths), *cells[::some]))
+    heads = ("", "type", "input", "coupler", "output", *figures)
+    title = "Function generators, the best first"
+    print_trimmed(table_of(heads, rows, title, left=2, gap=1 if wide else 0), console)
     for each in shown:
         if not each.usable:
             reasons = f"{each.id} {listed([d.message for d in each.defects])}"

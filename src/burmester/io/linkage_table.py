@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from rich import box
 from rich.cells import cell_len
-from rich.console import Console, Group
+from rich.console import Console, Group, JustifyMethod
 from rich.table import Table
 from rich.text import Text
 
@@ -58,10 +58,14 @@ def table_of(
     left: int = 1,
     gap: int = 1,
 ) -> Table:
-    """A table of these columns, the first ones set to the left; what rows have more is left out."""
+    """A table of these columns, the first ones set to the left; what rows have more is left out.
+
+    No cell is wrapped, but that of a type.
+    """
     table = new_table(title, gap)
     for k, head in enumerate(heads):
-        table.add_column(head, justify="left" if k < left else "right", no_wrap=True)
+        side: JustifyMethod = "left" if k < left else "right"
+        table.add_column(head, justify=side, no_wrap=head != "type")
     for row in rows:
         table.add_row(*row[: len(heads)])
     return table
@@ -103,26 +107,23 @@ def show_warnings(warnings: Sequence[Advice], console: Console) -> None:
 
 def usable_table(synthesis: Synthesis, console: Console) -> Table:
     """Usable linkages, with as many columns and decimals as the console has room for."""
-    usable = synthesis.usable
-    decimals = [decimals_of(synthesis, found) for found in usable]
-    pins = [
-        each.lengths for each, found in zip(decimals, usable, strict=True) if found.linkage.links
-    ]
-    most = max(pins, default=0)
+    decimals = [decimals_of(synthesis, found) for found in synthesis.usable]
+    both = zip(decimals, synthesis.usable, strict=True)
+    most = max((each.lengths for each, found in both if found.linkage.links), default=-1)
     cuts = [most - cut for cut in range(min(MOST_CUT, most) + 1)]
     trials = [(most, 1, True), *((places, 0, dyads) for dyads in (True, False) for places in cuts)]
-    for places, gap, dyads in trials if pins else ():
+    for places, gap, dyads in trials if cuts else ():
         shown = [replace(each, lengths=min(each.lengths, places)) for each in decimals]
-        table = _usable(synthesis, usable, shown, gap, dyads=dyads)
+        table = _usable(synthesis, shown, gap, dyads=dyads)
         if places < most:
             table.title = f"{table.title}; links to {count(places, 'decimal')}"
         if _width(table) <= console.width:
             return table
     for gap, dyads in ((1, True), (0, True), (0, False)):
-        table = _usable(synthesis, usable, None, gap, dyads=dyads)
+        table = _usable(synthesis, None, gap, dyads=dyads)
         if _width(table) <= console.width:
             return table
-    return _usable(synthesis, usable, None, 0, dyads=False, quality=False)
+    return _usable(synthesis, None, 0, dyads=False, quality=False)
 
 
 def _width(table: Table) -> int:
@@ -135,39 +136,34 @@ def _width(table: Table) -> int:
 
 def _usable(
     synthesis: Synthesis,
-    usable: Sequence[FoundLinkage],
     decimals: Sequence[Decimals] | None,
     gap: int,
     *,
-    dyads: bool = True,
+    dyads: bool,
     quality: bool = True,
 ) -> Table:
-    table = new_table("Usable, the best first", gap)
-    table.add_column("", no_wrap=True)
-    table.add_column("type")
+    usable = synthesis.usable
+    # Of the longest name, the second word stands under the first.
+    types = [each.type.replace("inverted ", "inverted\n") for each in usable]
+    doubts = [" ±" if each.other_types else "" for each in usable]
+    columns: dict[str, Sequence[str]] = {"": [each.id for each in usable]}
+    columns["type"] = [f"{kind}{doubt}" for kind, doubt in zip(types, doubts, strict=True)]
     if dyads:
-        table.add_column("dyads", no_wrap=True)
-    for name in LINKS if decimals is not None else ():
-        table.add_column(name, justify="right", no_wrap=True)
-    near = synthesis.task.surroundings is not None
-    figures = (*(("ext.", "sens.") if quality else ()), *(("clear",) if near else ()))
-    for name in ("worst", "angle", "transm.", *figures):
-        table.add_column(name, justify="right", no_wrap=True)
-    for k, found in enumerate(usable):
-        clear = found.clearance
-        # Of the longest name, the second word stands under the first.
-        kind = found.type.replace("inverted ", "inverted\n") + (" ±" if found.other_types else "")
-        table.add_row(
-            found.id,
-            kind,
-            *((" ".join(dyad.id for dyad in found.dyads_driver_first),) if dyads else ()),
-            *(() if decimals is None else links(found, decimals[k])),
-            *worst_errors(synthesis, found),
-            least_angle(found.driven.least_over_range),
-            *(in_short(found.quality) if quality else ()),
-            *(("-" if clear is None else figure(clear.least),) if near else ()),
-        )
-    return table
+        columns["dyads"] = [" ".join(each.ids) for each in usable]
+    if decimals is not None:
+        lengths = (links(each, own) for each, own in zip(usable, decimals, strict=True))
+        columns |= zip(LINKS, zip(*lengths, strict=True), strict=True)
+    errors = (worst_errors(synthesis, each) for each in usable)
+    columns |= zip(("worst", "angle"), zip(*errors, strict=True), strict=True)
+    columns["transm."] = [least_angle(each.least_transmission) for each in usable]
+    if quality:
+        figures = (in_short(each.quality) for each in usable)
+        columns |= zip(("ext.", "sens."), zip(*figures, strict=True), strict=True)
+    if synthesis.task.surroundings is not None:
+        near = (each.clearance for each in usable)
+        columns["clear"] = ["-" if each is None else figure(each.least) for each in near]
+    rows = zip(*columns.values(), strict=True)
+    return table_of(list(columns), rows, "Usable, the best first", left=2 + dyads, gap=gap)
 
 
 def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage], width: int) -> Group:
