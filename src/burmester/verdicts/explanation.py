@@ -160,11 +160,13 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
 
 def options_for(found: JudgedLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
     """The options that would make a linkage usable; none where no option helps."""
-    asked, options = problem.given.requirements, []
+    asked, options, share = problem.given.requirements, [], found.within_tolerance
+    # Nothing but a greatest error keeps it from its poses then, and no tolerance of one.
+    bounded = math.isfinite(found.error.worst) and (share is None or bool((share <= 1).all()))
     for defect in found.defects:
         if defect.kind == "order" and not asked.any_order:
             options.append("--any-order")
-        elif defect.kind == "assembly" and _is_only_bounded(found):
+        elif defect.kind == "assembly" and bounded:
             options += _error_bounds(found, problem)
         else:
             return ()
@@ -184,12 +186,6 @@ def options_for(found: JudgedLinkage, problem: SynthesisProblem) -> tuple[str, .
         return ()
     options += cures
     return tuple(sorted(set(options), reverse=True))  # --within first
-
-
-def _is_only_bounded(found: JudgedLinkage) -> bool:
-    """Whether nothing but a greatest error keeps a linkage from its poses: no tolerance of one."""
-    share = found.within_tolerance
-    return math.isfinite(found.error.worst) and (share is None or bool((share <= 1).all()))
 
 
 def _error_bounds(found: JudgedLinkage, problem: SynthesisProblem) -> list[str]:

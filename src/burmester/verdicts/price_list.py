@@ -48,7 +48,7 @@ def price_list(linkages: Sequence[FoundLinkage], task: Task) -> list[Price]:
     kept: list[Price] = []
     for ratio in RATIOS:
         for angle in ANGLES_DEG if ratio == math.inf else ANGLES_DEG[1:]:
-            some = [each for each in usable if _keeps(each, angle, ratio)]
+            some = [e for e in usable if e.transmission_deg >= angle and e.link_ratio <= ratio]
             least = max(min((each.miss for each in some), default=0.0), met)
             nearest = next((each for each in some if each.miss <= (1 + SAME_MISS) * least), None)
             if nearest is not None and nearest not in kept:
@@ -64,10 +64,6 @@ def _priced(found: FoundLinkage) -> Price:
     ratio = max(links) / min(links) if links and min(links) > 0 else math.inf
     degrees = math.degrees(found.driven.least_over_range)
     return Price(found, found.combined_error, None, degrees, ratio)
-
-
-def _keeps(price: Price, angle: float, ratio: float) -> bool:
-    return price.transmission_deg >= angle and price.link_ratio <= ratio
 
 
 def _marks(price: Price) -> tuple[int, int]:
