@@ -314,39 +314,36 @@ def _pose_errors(
     synthesis: Synthesis, found: FoundLinkage, branches: Branches
 ) -> list[dict[str, Any]]:
     """At each pose: the place of the coupler, its errors, and the frame of a way where it is."""
-    error = found.error
-    transmission = transmission_at_given_poses(found, synthesis.problem)
+    task, error = synthesis.task, found.error
+    transmission = np.degrees(transmission_at_given_poses(found, synthesis.problem)).tolist()
+    used = None if found.within_tolerance is None else share_texts(found, task)
     rows = []
     for pose, at in enumerate(branches.at):
-        x, y = error.places.translation[pose]
-        row: dict[str, Any] = {
-            "x": number(x),
-            "y": number(y),
-            "angle_deg": number(math.degrees(error.places.angle[pose])),
-            "position": number(error.position[pose]),
-            "turned_deg": number(math.degrees(error.angle[pose])),
-            "transmission_deg": number(math.degrees(transmission[pose])),
-            "way": None if at is None else at[0],
-            "frame": None if at is None else at[1],
-        }
-        shares: tuple[str | None, str | None] = (None, None)
-        if found.within_tolerance is not None:
-            x, y, turn = share_texts(found, synthesis.task)[pose]
-            shares = (f"{x} | {y}", turn)
-        row["said"] = {
+        turned, least = float(error.angle[pose]), transmission[pose]
+        said = {
             "position": digits.position_error(synthesis, float(error.position[pose])),
-            "turned": "free"
-            if synthesis.task.free_angles[pose]
-            else digits.angle_error(float(error.angle[pose])),
-            "transmission": f"{math.degrees(transmission[pose]):.1f}°"
-            if math.isfinite(transmission[pose])
-            else "-",
+            "turned": "free" if task.free_angles[pose] else digits.angle_error(turned),
+            "transmission": f"{least:.1f}°" if math.isfinite(least) else "-",
         }
-        for key, share in zip(("position", "turned"), shares, strict=True):
-            said = row["said"][key]
-            if share is not None and set(share.split(" | ")) != {said}:
-                row["said"][key] += f" ({share})"
-        rows.append(row)
+        if used is not None:
+            x, y, turn = used[pose]
+            for key, share in (("position", f"{x} | {y}"), ("turned", turn)):
+                if set(share.split(" | ")) != {said[key]}:
+                    said[key] += f" ({share})"
+        way, frame = at or (None, None)
+        rows.append(
+            {
+                "x": number(error.places.translation[pose, 0]),
+                "y": number(error.places.translation[pose, 1]),
+                "angle_deg": number(math.degrees(error.places.angle[pose])),
+                "position": number(error.position[pose]),
+                "turned_deg": number(math.degrees(turned)),
+                "transmission_deg": number(least),
+                "way": way,
+                "frame": frame,
+                "said": said,
+            }
+        )
     return rows
 
 
