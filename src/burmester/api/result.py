@@ -11,7 +11,6 @@ from typing import (
     TYPE_CHECKING,
     Any,
     Generic,
-    Protocol,
     Self,
     SupportsIndex,
     TypeVar,
@@ -27,7 +26,7 @@ from burmester.describe import six_bar_words
 from burmester.describe.sentences import best_sentences
 from burmester.io import files
 from burmester.io.result import json_line, synthesis_data
-from burmester.synthesis.result import Outcome, Synthesis, chosen
+from burmester.synthesis.result import Kind, Outcome, Synthesis, chosen
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -37,19 +36,6 @@ if TYPE_CHECKING:
 
 LINES = 12  # of a `repr`, at most
 SENTENCES = 5  # of these, above the table; `outcome` and `warnings` have them all
-
-
-class _Named(Protocol):
-    """What every result has some of, by rank."""
-
-    @property
-    def id(self) -> str: ...
-
-    @property
-    def usable(self) -> bool: ...
-
-
-Kind = TypeVar("Kind", bound=_Named)
 
 
 class AnyResult(Generic[Kind]):

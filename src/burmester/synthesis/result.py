@@ -126,20 +126,25 @@ class Synthesis:
         return any(each.usable and each.determined for each in self.linkages)
 
 
-class _Named(Protocol):
+class Ranked(Protocol):
+    """What every result has some of, by rank."""
+
     @property
     def id(self) -> str: ...
 
+    @property
+    def usable(self) -> bool: ...
 
-Named = TypeVar("Named", bound=_Named)
+
+Kind = TypeVar("Kind", bound=Ranked)
 
 
 def chosen(
-    every: Sequence[Named],
+    every: Sequence[Kind],
     which: int | str | None,
     outcome: Outcome,
     cure: str = "choose one of them, such as",
-) -> Named:
+) -> Kind:
     """The one of an id, or at a place by rank, the first for None; raises E151.
 
     cure: how one is chosen, before its id.
