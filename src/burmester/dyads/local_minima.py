@@ -226,17 +226,12 @@ def is_hard(known: NDArray[np.int_], seen: Displacement, share: FloatArray) -> N
 
 
 def starts_of_one(
-    points: ComplexArray,
-    lines: tuple[PR, RP],
-    seen: Displacement,
-    share: FloatArray,
-    more: FloatArray | None = None,
+    points: ComplexArray, lines: tuple[PR, RP], seen: Displacement, share: FloatArray
 ) -> FloatArray:
     """The circles of `starts_down`, for one task."""
     on_ground, in_body = lines
-    pivots = None if more is None else more[None]
     own = on_ground[None], in_body[None]
-    return starts_down(points[None], own, seen[None], share[None], pivots)[1]
+    return starts_down(points[None], own, seen[None], share[None])[1]
 
 
 def with_errors(

@@ -61,12 +61,8 @@ EQUALLY_NEAR: Final = 1e-9  # relative; squared distances that differ by less ar
 MEETING_MARGIN: Final = 1e-9  # circuits meet where `Location.circuit_margin` is no larger
 
 
-def on_circuits(
-    batch: LinkageBatch, poses: Displacement, length: float, only: int | None = None
-) -> Displacement:
+def on_circuits(batch: LinkageBatch, poses: Displacement, length: float) -> Displacement:
     """The nearest places (k, 2, N) to poses (N,) or (k, N) on both circuits of linkages (k,).
-
-    only: the number of the one circuit that is looked at; nan on the other.
 
     In frames where lengths are about 1 (`pose_error.error_frames`).  nan where the circuit does not
     exist.  Newton's method starts from the nearest of some hundred samples of the circuit; that no
@@ -78,7 +74,7 @@ def on_circuits(
     effort = THOROUGH if number <= MAX_POSES_THOROUGH else QUICK
     if not count:
         return places_of(out, length)
-    search = _CircuitSearch.of(batch, length, effort, only)
+    search = _CircuitSearch.of(batch, length, effort)
     at_once = POSES_PER_BLOCK
     if effort is QUICK:
         at_once = max(POSES_PER_BLOCK, PLACES_PER_BLOCK // (2 * count))
@@ -146,11 +142,10 @@ class _CircuitSearch:
     spacing: FloatArray
 
     @classmethod
-    def of(cls, batch: LinkageBatch, length: float, effort: SearchEffort, only: int | None) -> Self:
+    def of(cls, batch: LinkageBatch, length: float, effort: SearchEffort) -> Self:
         """The search on the circuits (k, 2) of linkages (k,), sampled."""
         circuits = Circuits.of(batch, as_given=True)
-        wanted = np.isin((0, 1), (0, 1) if only is None else only)
-        row, side = np.nonzero(circuits.exists & wanted)
+        row, side = np.nonzero(circuits.exists)
         share, samples = sampled(circuits[row, side], length, effort.samples)
         after = _distance_to_next(samples, length)
         gap = np.roll(share, -1, axis=-1) - share

@@ -6,7 +6,7 @@ apart; no two things differ by colour only.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from io import BytesIO
 from itertools import pairwise
@@ -266,11 +266,10 @@ def _extent(ax: Axes) -> tuple[FloatArray, FloatArray]:
     return np.where(flat, low - 0.5, low), np.where(flat, high + 0.5, high)
 
 
-def settle_labels(ax: Axes, obstacles: Iterable[ArrayLike] = ()) -> list[Annotation]:
+def settle_labels(ax: Axes) -> list[Annotation]:
     """Move the labels of `label` to where they cover neither each other nor what is drawn.
 
     Of 8 directions and 4 distances each label takes the best one left, its preferred one first.
-    obstacles: more points (*, 2) in data coordinates to keep free.
     """
     canvas = ax.figure.canvas
     renderer = canvas.get_renderer()  # type: ignore[attr-defined]
@@ -291,7 +290,6 @@ def settle_labels(ax: Axes, obstacles: Iterable[ArrayLike] = ()) -> list[Annotat
         for patch in ax.patches
         if isinstance(patch, Polygon)
     ]
-    drawn += [ax.transData.transform(np.reshape(o, (-1, 2))) for o in obstacles]
     drawn += [ax.transData.transform([t.xy for t in own])] if own else []
     points = np.concatenate(drawn) if drawn else np.zeros((0, 2))
     points = points[np.isfinite(points).all(axis=-1)]
