@@ -23,7 +23,7 @@ from burmester.errors import InputError
 from burmester.export import FORMATS, Options, export
 from burmester.export.escaping import (
     dxf_text,
-    line_comment,
+    one_line,
     python_docstring,
     step_text,
     xml_attribute,
@@ -59,7 +59,7 @@ def test_a_docstring_of_python_holds_it(text):
 
 @each_payload
 def test_a_comment_of_openscad_holds_it(text):
-    assert tokens(f"// {line_comment(text)}\ncube(1);") == tokens("// x\ncube(1);")
+    assert tokens(f"// {one_line(text)}\ncube(1);") == tokens("// x\ncube(1);")
 
 
 @each_payload

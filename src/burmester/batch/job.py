@@ -272,7 +272,10 @@ class _Job:
                             limit=self.limit,
                         )
                         complete = dispatch.run(every)
-                self._require_unchanged()
+                if not self.source.unchanged():
+                    message = "the tasks were changed while they were read"
+                    help = "run the batch again, into another folder"
+                    raise InputError("E101", message, where=self.source.name, help=help)
         except BaseException:
             with suppress(InputError):  # a full disk, say: what ended the run is told
                 manifest.finish(complete=False)
@@ -295,15 +298,6 @@ class _Job:
             message = "the tasks cannot be read any more"
             where = self.source.name
             raise InputError("E101", message, where=where, why=why, help=help) from None
-
-    def _require_unchanged(self) -> None:
-        if not self.source.unchanged():
-            raise InputError(
-                "E101",
-                "the tasks were changed while they were read",
-                where=self.source.name,
-                help="run the batch again, into another folder",
-            )
 
     def _tick(self) -> None:
         if self.progress is not None:

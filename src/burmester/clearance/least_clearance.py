@@ -87,7 +87,8 @@ def clearance_between_poses(
         return None
     size = _size(frames, body)
     apart = np.stack([pair.distances(frames.places) for pair in pairs])
-    backwards = _is_falling(driven.parameter)
+    known = driven.parameter[np.isfinite(driven.parameter)]
+    backwards = bool(known[-1] < known[0])  # the poses come in the sense of a falling parameter
     while True:
         pair, index = _least(apart, backwards)
         best = float(apart[pair, index])
@@ -141,12 +142,6 @@ def _size(frames: MotionFrames, body: Polygon | None) -> float:
     if body is not None:
         points.append(frames.places[:, None].act(body.vertices).reshape(-1, 2))
     return float(np.linalg.norm(np.ptp(np.concatenate(points), axis=0)))
-
-
-def _is_falling(parameter: FloatArray) -> bool:
-    """Whether the poses come in the sense of a falling parameter."""
-    known = parameter[np.isfinite(parameter)]
-    return bool(known[-1] < known[0])
 
 
 def _least(apart: FloatArray, backwards: bool) -> tuple[int, int]:

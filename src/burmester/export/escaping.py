@@ -19,29 +19,20 @@ MOST = 1000  # characters; programs that read DXF take a little more than 2000
 _DXF_CODES = re.compile(r"%(?=%)|\\(?=[UM]\+)|\^")
 
 
-def _one_line(text: str) -> str:
+def one_line(text: str) -> str:
+    """A text on one line: behind // in OpenSCAD, whose comment ends with it, and in a PDF."""
     plain = printable(text)
     return plain if len(plain) <= MOST else f"{plain[: MOST - 3]}..."
 
 
 def python_docstring(text: str) -> str:
     '''A text inside """, where neither a quote nor a backslash ends or starts anything.'''
-    return _one_line(text).replace("\\", r"\\").replace('"', r"\"")
-
-
-def line_comment(text: str) -> str:
-    """A text behind // in OpenSCAD: the comment ends with its line."""
-    return _one_line(text)
-
-
-def pdf_text(text: str) -> str:
-    """A line on a page, and its title: Matplotlib writes any other sign as it is."""
-    return _one_line(text)
+    return one_line(text).replace("\\", r"\\").replace('"', r"\"")
 
 
 def xml_text(text: str) -> str:
     """A text between the tags of XML."""
-    return escape(_one_line(text))
+    return escape(one_line(text))
 
 
 def xml_attribute(text: str) -> str:
@@ -51,14 +42,14 @@ def xml_attribute(text: str) -> str:
 
 def xml_comment(text: str) -> str:
     """A text inside a comment of XML, where two hyphens may not follow each other."""
-    return re.sub("-(?=-|$)", "- ", _one_line(text))
+    return re.sub("-(?=-|$)", "- ", one_line(text))
 
 
 def dxf_text(text: str) -> str:
     r"""A TEXT of DXF without codes of its own: %%d, \U+00B0 and ^J get a blank between."""
-    return _DXF_CODES.sub(lambda found: f"{found[0]} ", _one_line(text))
+    return _DXF_CODES.sub(lambda found: f"{found[0]} ", one_line(text))
 
 
 def step_text(text: str) -> str:
     """A text of STEP: printable ASCII without quotes and backslashes, "_" for all else."""
-    return re.sub(r"[^ -~]|['\"\\]", "_", _one_line(text))[:MOST_STEP]
+    return re.sub(r"[^ -~]|['\"\\]", "_", one_line(text))[:MOST_STEP]

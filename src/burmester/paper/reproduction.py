@@ -58,7 +58,10 @@ def compare_cases(
         _table4(first),
         _equations19(first),
         _figure4(first),
-        _table6(second),
+        Section(
+            "Table 6: singular values of [A], approximate motion",
+            tuple(_singular_values(second, "Table 6")),
+        ),
         _table7(second),
         _equations22(second),
         _table8(second),
@@ -211,11 +214,6 @@ def _figure4(fit: PaperFit) -> Section:
     square = np.sqrt(squared).mean(axis=-1) ** 2
     rows += compare_columns("Fig. 4", ("r1 squared", "r2 squared"), (1.53, 21.82), square, ".2f")
     return Section("Fig. 4: the two circles, exact motion", tuple(rows))
-
-
-def _table6(fit: PaperFit) -> Section:
-    title = "Table 6: singular values of [A], approximate motion"
-    return Section(title, tuple(_singular_values(fit, "Table 6")))
 
 
 def _table7(fit: PaperFit) -> Section:

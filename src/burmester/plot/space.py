@@ -53,11 +53,6 @@ class ImageSpace(NamedTuple):
     labels: list[Annotation]
 
 
-def standard_camera() -> Camera:
-    """From the left in front, a little from above."""
-    return Camera.at(np.radians(-145.0), np.radians(22.0))
-
-
 def scene_of(
     quadrics: ArrayLike,
     box: Box,
@@ -168,7 +163,7 @@ def image_space(
     else:
         loops = [np.asarray(loop, dtype=np.float64) for loop in curve]
     places = np.zeros((0, 4)) if poses is None else poses.as_image_point()
-    camera = standard_camera() if camera is None else camera
+    camera = Camera.at(np.radians(-145.0), np.radians(22.0)) if camera is None else camera
     if box is None:
         box = _box_around(loops, places)
     scene = (

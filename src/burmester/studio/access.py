@@ -12,6 +12,7 @@ import ipaddress
 import secrets
 import time
 from collections.abc import Iterable
+from contextlib import suppress
 from typing import Any, Final, TypeAlias
 
 from burmester.errors import BurmesterError
@@ -129,7 +130,7 @@ class Access:
         if not self._everywhere:
             return False
         # Under a name of its own anybody could lead here (DNS rebinding); not so under an address.
-        return name == self._host or _is_address(name)
+        return name == self._host or _address(name) is not None
 
     def _is_known(self, scope: Any) -> bool:
         if scope["type"] == "websocket":
@@ -140,10 +141,8 @@ class Access:
 
 def is_loopback(host: str) -> bool:
     """Whether only this machine can reach a host."""
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return host.lower() == "localhost"
+    address = _address(host)
+    return host.lower() == "localhost" if address is None else address.is_loopback
 
 
 def refusal(status: int, why: str, help: str | None = None) -> bytes:
@@ -215,9 +214,7 @@ def _same(one: str, other: str) -> bool:
     return secrets.compare_digest(one.encode(errors="replace"), other.encode())
 
 
-def _is_address(name: str) -> bool:
-    try:
-        ipaddress.ip_address(name.removeprefix("[").removesuffix("]"))
-    except ValueError:
-        return False
-    return True
+def _address(name: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
+    with suppress(ValueError):
+        return ipaddress.ip_address(name.removeprefix("[").removesuffix("]"))
+    return None

@@ -10,7 +10,6 @@ from __future__ import annotations
 import asyncio
 import json
 import time
-from collections.abc import Callable
 from contextlib import AbstractContextManager, suppress
 from typing import Any, Literal, TypeAlias
 
@@ -139,6 +138,9 @@ class Session:
             def waits(before: int) -> None:
                 state.later(self._tell(n, "waiting", before=before))
 
+            def said(text: str) -> None:
+                state.later(self._tell(n, "progress", text=text))
+
             async with state.turns.turn(waits), state.workers.lent(key) as worker:
                 is_own = worker is self._live and worker.holder is self
                 before = await self._snapshot(worker, text) if is_own else None
@@ -147,9 +149,7 @@ class Session:
                     body = known.report
                 else:
                     await self._tell(n, "solving", since=time.time())
-                    head, body = await state.solve(
-                        worker, key, text.encode(), self._progress(n), limit_s
-                    )
+                    head, body = await state.solve(worker, key, text.encode(), said, limit_s)
                     if head["kind"] == "failed":
                         await self._send(n, "refused", body)
                         return
@@ -190,9 +190,6 @@ class Session:
         if self._live is not None and self._live is not worker and self._live.holder is self:
             self._live.holder = None
         self._live, self._from, worker.holder = worker, n, self
-
-    def _progress(self, n: int) -> Callable[[str], object]:
-        return lambda text: self._state.later(self._tell(n, "progress", text=text))
 
     async def _refuse(self, n: int, why: str) -> None:
         await self._send(n, "refused", as_json({"messages": [InputError("400", why).to_dict()]}))

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
+from itertools import chain, zip_longest
 from typing import Literal, NamedTuple, Self, TypeAlias, final
 
 import numpy as np
@@ -90,10 +90,6 @@ class Drawing:
         ]
         dimensions = [(part.plate.name, line) for part in sheet.parts for line in part.lines]
         return cls(assembly, sheet, notes, tuple(items), tuple(dimensions))
-
-    def dimension_items(self) -> list[Item]:
-        """The items of all dimension lines."""
-        return [item for plate, line in self.dimensions for item in items_of_line(line, plate)]
 
 
 def items_of_line(line: DimensionLine, group: str) -> Iterable[Item]:
@@ -191,7 +187,8 @@ def require_drawing(
     The holes of the assembly are at the pivots of the linkage, too.  escaped: how the format
     writes a text.
     """
-    require_items(read, [*drawing.items, *drawing.dimension_items()], tolerance, escaped)
+    lines = (items_of_line(line, plate) for plate, line in drawing.dimensions)
+    require_items(read, [*drawing.items, *chain(*lines)], tolerance, escaped)
     holes = [each for each in read if each.role == "hole"]
     for pivot in pivots_of(drawing.assembly):
         if pivot.point is not None:

@@ -36,7 +36,7 @@ from burmester.export.drawings.drawing import (
 )
 from burmester.export.drawings.pages import LETTERS, MARGIN, Page, Pages, pages_of
 from burmester.export.drawings.sheet import notes_on
-from burmester.export.escaping import pdf_text
+from burmester.export.escaping import one_line
 from burmester.export.options import Options
 from burmester.export.parts.holes import axis_deviation, pivots_of
 from burmester.export.parts.outlines import rounded_hull
@@ -67,7 +67,7 @@ STYLE: Final[dict[Any, Any]] = {  # whatever a person's own style says
 def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the pages; raises E162."""
     assembly, pages = _pages(chosen, options)
-    said = [pdf_text(each) for each in description(chosen, options, "mm")]
+    said = [one_line(each) for each in description(chosen, options, "mm")]
     head = [said[0].rstrip("."), notes_on(assembly)[0]]
     if assembly.assumed:
         head.append(said[-1])
@@ -113,8 +113,8 @@ def _frame(pages: Pages, page: Page) -> Iterable[Item]:
         yield Item("circle", "mark", np.array([*mark, 4.0]))
         yield from cross(mark, 4.0, "overlap")
     if page.tiled:
-        corners = np.array([pages.low, [pages.high[0], pages.low[1]], pages.high])
-        corners = np.vstack([corners, [pages.low[0], pages.high[1]]])
+        (x, y), (u, v) = pages.low, pages.high
+        corners = np.array([[x, y], [u, y], [u, v], [x, v]])
         yield from _lines(np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), "mark")
     length, divisions, _ = pages.ruler
     at = MARGIN + length * np.arange(divisions + 1) / divisions

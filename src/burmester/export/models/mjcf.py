@@ -67,7 +67,8 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         "  </default>",
         "  <worldbody>",
         f'    <light pos="{_xyz(middle, 3 * reference.span)}" dir="0 0 -1"/>',
-        *_ground(model, tree.ground),
+        *(f"    {each}" for each in _geoms(model.shapes[GROUND], GROUND_COLOUR)),
+        *(f"    {_site(each)}" for each in tree.ground),
         *(f"    {line}" for each in tree.bodies for line in _body(model, each, start, servo)),
     ]
     turning = model.joints.turning[model.motor]
@@ -144,13 +145,6 @@ def _small(model: DynamicModel) -> list[str]:
         name
         for name, body in model.masses.items()
         if name != "ground" and min(body.mass, *np.linalg.eigvalsh(body.inertia)) < LEAST
-    ]
-
-
-def _ground(model: DynamicModel, marks: Iterable[Site]) -> list[str]:
-    """The ground's plates and pins, and marks of its pivots."""
-    return [f"    {each}" for each in _geoms(model.shapes["ground"], GROUND_COLOUR)] + [
-        f"    {_site(each)}" for each in marks
     ]
 
 

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from burmester.export.description import description
-from burmester.export.escaping import line_comment
+from burmester.export.escaping import one_line
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.parts.plates import Assembly, assembly_of
@@ -77,7 +77,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the model."""
     assembly = assembly_of(chosen, options)
     made = assembly.dimensions
-    lines = [f"// {line_comment(line)}" for line in description(chosen, options, "mm")]
+    lines = [f"// {one_line(line)}" for line in description(chosen, options, "mm")]
     lines += [
         "// View > Animate plays the motion, with FPS 25 and Steps 100. At $t = 0 the "
         f"{assembly.body} is",

@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from burmester.export.parts.collisions import collision
 from burmester.export.parts.holes import axes_of, axis_deviation, pivots_of, rim_deviation
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, fault
-from burmester.export.solids.solid_parts import Part, area_of, laid, parts_of, placed
+from burmester.export.solids.solid_parts import area_of, laid, parts_of, placed
 from burmester.export.solids.step_order import settle
 from burmester.export.solids.stl import Triangles, read_stl, shells_of, volume_of
 from burmester.numerics.arrays import FloatArray
@@ -56,7 +56,10 @@ def write_stl(chosen: Candidate, path: Path, options: Options) -> None:
     """Write all parts as a binary STL: each a closed shell of its own, flat, or in its place."""
     cad, made = import_module("build123d"), assembly_of(chosen, options)
     parts = parts_of(cad, made)
-    _write_stl(cad, parts if options.assembled else laid(parts, made), path)
+    parts = parts if options.assembled else laid(parts, made)
+    whole = cad.Compound(children=[placed(cad, part) for part in parts])
+    if not cad.export_stl(whole, str(path), FACET_LENGTH, FACET_ANGLE):
+        raise OSError(f"{path} cannot be written")
 
 
 def write_flat(chosen: Candidate, path: Path, options: Options) -> None:
@@ -141,12 +144,6 @@ def _require_rims(made: Assembly, rims: Mapping[str, FloatArray], tolerance: flo
         away = min(rim_deviation(joint, rims[each], radius) for each in joint.plates)
         if not away <= tolerance:
             raise fault(f"a hole of the {joint.plates[0]} is {away:.3g} mm from its pivot")
-
-
-def _write_stl(cad: Any, parts: list[Part], path: Path) -> None:
-    whole = cad.Compound(children=[placed(cad, part) for part in parts])
-    if not cad.export_stl(whole, str(path), FACET_LENGTH, FACET_ANGLE):
-        raise OSError(f"{path} cannot be written")
 
 
 def _checked_shells(path: Path, made: Assembly) -> tuple[list[Triangles], float]:
