@@ -1,5 +1,7 @@
 """How Sphinx builds the pages, of the sources that `docs.building` lays out; see `scripts/docs`."""
 
+from pathlib import Path
+
 from burmester import __version__
 
 project = "burmester"
@@ -44,7 +46,7 @@ html_title = "burmester"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_copy_source = False
-html_search_scorer = "_static/scorer.js"  # the glossary before how the code is built
+html_search_scorer = str(Path(__file__).parent / "building" / "scorer.js")
 html_show_sourcelink = False
 html_show_sphinx = False
 html_theme_options = {"source_repository": "", "top_of_page_buttons": []}

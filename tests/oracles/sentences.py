@@ -5,9 +5,10 @@ import re
 from tests.oracles.markdown import Document
 
 CODE = re.compile(r"`[^`]*`")
-LINK = re.compile(r"!?\[([^\]]*)\](?:\([^)]*\)|\{[^}]*\})?")
+LINK = re.compile(r"!?\[([^\]]*)\](?:\([^)]*\)|\{[^}]*\}|\[[^\]]*\])?")
 ROLE = re.compile(r"\{[\w:]+\}(?=`)")
 MATHS = re.compile(r"\$\$.*?\$\$|\$[^$\n]+\$", re.DOTALL)
+ADDRESS = re.compile(r"\[[^\]]+\]: \S+$")  # of links that stand elsewhere by their name
 BEGINS = re.compile(r"^\s*(?:[-*+] |\d+\. |> )")
 ENDS = re.compile(
     r"(?<!\b[A-EG-LN-Z]\.)(?<!\be\.g\.)(?<!\bi\.e\.)(?<!\bNo\.)(?<=[.!?])[”\"')*_]*\s+(?=\S)"
@@ -24,7 +25,7 @@ def texts_of(page, tables=True):
         if line.lstrip().startswith(("|", "#")):
             found += re.split(r"(?<!\\)\|", line.strip().strip("|# ")) if tables else []
             found.append("")
-        elif not line.strip():
+        elif not line.strip() or ADDRESS.match(line):
             found.append("")
         elif BEGINS.match(line):
             found.append(BEGINS.sub("", line))
