@@ -31,7 +31,7 @@ from benchmarks.search_witness import task_of
 from benchmarks.sound_paths import shape
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import box
-from burmester.io.reading.limits_text import limits_from_options
+from burmester.io.reading.specification_text import limits_from_options
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task

@@ -17,7 +17,7 @@ with atheris.instrument_imports(include=["burmester.io", "tomllib", "json"]):
     import burmester.io.reading.tables.parquet
     import burmester.io.reading.tables.pose_rows
     import burmester.io.reading.trees.documents
-    import burmester.io.reading.trees.requirements_tree  # noqa: F401
+    import burmester.io.reading.trees.specification_tree  # noqa: F401
 
 from tests.oracles.file_verdicts import judged
 from tests.oracles.fuzzed_files import STRANGE_WORDS, File, any_file

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from burmester import cli
-from burmester.io.reading.limits_text import limits_from_options
+from burmester.io.reading.specification_text import limits_from_options
 from burmester.tasks.limits import Limits
 from burmester.tasks.option_table import LIMIT_OPTIONS
 from burmester.tasks.option_table import OPTIONS as OPTION_TABLE

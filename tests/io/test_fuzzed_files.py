@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from burmester.cli import main
 from burmester.errors import InputError
-from burmester.io.reading import limits_text, option_text, requirements_text
+from burmester.io.reading import option_text, specification_text
 from burmester.io.reading.pose_table import Source
 from burmester.io.reading.poses import read_task
 from tests.oracles import fuzzed_files, plain_reader, recordings
@@ -235,15 +235,15 @@ TEXTS = st.one_of(
 def test_texts_of_options_are_taken_or_refused(text):
     """Every option of `synthesize` with a text of its own."""
     readers = [
-        lambda: limits_text.limits_from_options(fixed_pivot=[text]).limits(),
-        lambda: limits_text.limits_from_options(length=[text]).limits(),
-        lambda: limits_text.limits_from_options(kinds=[text]).limits(),
-        lambda: requirements_text.requirements_from_options(min_transmission=text),
-        lambda: requirements_text.requirements_from_options(types=[text]),
-        lambda: requirements_text.requirements_from_options(footprint=text),
-        lambda: requirements_text.requirements_from_options(link_ratio=text),
-        lambda: requirements_text.requirements_from_options(within=text),
-        lambda: requirements_text.pose_sigma(text),
+        lambda: specification_text.limits_from_options(fixed_pivot=[text]).limits(),
+        lambda: specification_text.limits_from_options(length=[text]).limits(),
+        lambda: specification_text.limits_from_options(kinds=[text]).limits(),
+        lambda: specification_text.requirements_from_options(min_transmission=text),
+        lambda: specification_text.requirements_from_options(types=[text]),
+        lambda: specification_text.requirements_from_options(footprint=text),
+        lambda: specification_text.requirements_from_options(link_ratio=text),
+        lambda: specification_text.requirements_from_options(within=text),
+        lambda: specification_text.pose_sigma(text),
         lambda: option_text.lengths_from_texts("--stock", [text]),
         lambda: option_text.positive_from_text(Source("--round", text), text),
     ]

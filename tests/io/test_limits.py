@@ -8,8 +8,8 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Point, Polygon, Segment
-from burmester.io.reading.limits_text import limits_from_options
 from burmester.io.reading.poses import read_task
+from burmester.io.reading.specification_text import limits_from_options
 from burmester.io.reading.tables import pose_rows
 from burmester.tasks.limits import Limits
 from tests.oracles.marked import carets, marked

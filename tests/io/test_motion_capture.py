@@ -24,7 +24,7 @@ from burmester.api.result import Result
 from burmester.api.synthesize import synthesize
 from burmester.diagnosis.odd_pose import odd_pose
 from burmester.errors import InputError
-from burmester.io.reading.markers.rigid_body import fit_rigid_body
+from burmester.io.reading.markers.tracked_points import fit_rigid_body
 from burmester.io.reading.poses import read_task
 from burmester.tasks.motion_task import Task
 from tests.oracles import recordings

@@ -7,8 +7,8 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Segment
-from burmester.io.reading.limits_text import limits_from_options
 from burmester.io.reading.poses import read_task
+from burmester.io.reading.specification_text import limits_from_options
 from burmester.io.result import task_data
 from burmester.live.document import document_of, task_file, task_of
 

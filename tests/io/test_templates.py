@@ -22,7 +22,7 @@ from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.io import templates
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.stated_requirements import FILE_KEYS
+from burmester.io.reading.specification import REQUIREMENTS
 from burmester.tasks.length_per_radian import default_length_per_radian
 from tests.oracles import witness
 from tests.oracles.drawings import dxf, svg
@@ -304,7 +304,7 @@ def test_every_block_is_tried_below():
         True
     ] * 12
     keys = ("weight", "name", "exact", "tolerance", "free", "axes")
-    keys += ("fixed_pivot", "moving_pivot", "length", "kinds", *FILE_KEYS)
+    keys += ("fixed_pivot", "moving_pivot", "length", "kinds", *REQUIREMENTS)
     keys += ("direction_deg", "tolerance_deg", "through", "travel")
     assert "#[limits.rail]\n" in templates.text()
     for key in keys:

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from burmester.cli.check import check
 from burmester.errors import InputError
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.requirements_text import pose_tolerance
+from burmester.io.reading.specification_text import pose_tolerance
 from burmester.io.result import task_data
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances

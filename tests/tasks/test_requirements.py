@@ -11,8 +11,8 @@ from burmester.errors import InputError
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.regions import Line, Point, Polygon, Segment, box
-from burmester.io.reading.requirements_text import requirements_from_options
-from burmester.io.reading.stated_requirements import combined_requirements
+from burmester.io.reading.specification import combined_requirements
+from burmester.io.reading.specification_text import requirements_from_options
 from burmester.requirements.types import DRIVERS, GROUPS, TYPES
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_task import Task

@@ -295,7 +295,8 @@ class ResultSixBar(FoundSixBar, Chosen):
     """A `FoundSixBar` that can be drawn and handed over."""
 
     def _dimensions(self) -> str:
-        return plain_html((), six_bar_words.dimension_rows(self), ())
+        rows = six_bar_words.joint_rows(self) + six_bar_words.length_rows(self)
+        return plain_html((), rows, ())
 
     def __repr__(self) -> str:
         return six_bar_words.headline(self)

@@ -22,13 +22,12 @@ from burmester.io.reading.functions.function_file import settings_of
 from burmester.io.reading.functions.function_options import FunctionSettings
 from burmester.io.reading.pose_table import PoseTable, Source, held_float
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.specification import TOP_KEYS
 from burmester.io.reading.trees.documents import read_toml
 from burmester.io.reading.trees.locations import Document, close_match
 from burmester.io.reading.trees.node import Field, Node
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.tasks.motion_task import Task
-from burmester.tasks.option_table import OPTIONS
+from burmester.tasks.option_table import OPTIONS, TOP_KEYS
 from burmester.tasks.options import SynthesisOptions
 from burmester.wording import listed
 

@@ -233,7 +233,7 @@ def _content(source: str) -> bytes:
 
 def _settings(given: dict[str, Any]) -> FunctionSettings:
     from burmester.io.reading.functions.function_options import FunctionSettings
-    from burmester.io.reading.requirements_text import requirements_from_options
+    from burmester.io.reading.specification_text import requirements_from_options
 
     ground = _number(given, "ground")
     return FunctionSettings(

@@ -221,9 +221,7 @@ def _requirement(each: Requirement) -> Decorator:
 
 
 _LIMITS: dict[str, Decorator] = {
-    each.name: _specification(
-        f"--{each.name.replace('_', '-')}", metavar=each.metavar, multiple=True, help=each.help
-    )
+    each.name: _specification(each.option, metavar=each.metavar, multiple=True, help=each.help)
     for each in LIMIT_OPTIONS
 }
 SPECIFICATION: tuple[Decorator, ...] = (
@@ -335,8 +333,7 @@ def pose_arguments(given: dict[str, Any]) -> list[str]:
 
 def read_poses(poses: str, **given: Any) -> Task:
     """The task in the file POSES, by the options of POSES and, if given, of SPECIFICATION."""
-    from burmester.io.reading import requirements_text as text
-    from burmester.io.reading.limits_text import limits_from_options
+    from burmester.io.reading import specification_text as text
     from burmester.io.reading.outline_options import OutlineOptions
     from burmester.io.reading.poses import read_task
 
@@ -344,7 +341,7 @@ def read_poses(poses: str, **given: Any) -> Task:
     if "length" in given:
         limits = {name: given[name] for name in _LIMITS}
         requirements = text.requirements_from_options(**given)
-        specification = limits_from_options(**limits)._replace(requirements=requirements)
+        specification = text.limits_from_options(**limits)._replace(requirements=requirements)
         outlines = OutlineOptions(given["body"], given["keep_out"], given["link_width"])
         further = {
             "specification": specification,

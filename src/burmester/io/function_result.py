@@ -14,7 +14,7 @@ from burmester.functions.found_generator import FoundGenerator
 from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
 from burmester.io.linkage_data import FUNCTION_SCHEMA, dimensions_data, number
-from burmester.io.reading.stated_requirements import requirements_data
+from burmester.io.reading.specification import requirements_data
 from burmester.synthesis.function_generation import FunctionSynthesis
 
 LINK_KEYS = ("input", "coupler", "output")

@@ -206,7 +206,8 @@ def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Itera
         both = Table.grid(padding=(0, GAP, 0, 0))
         both.add_row(table, Text("\n".join(drawn)))
         yield both
-    if synthesis.task.gives_room and best.within_tolerance is not None:
+    tolerances = synthesis.task.tolerances
+    if tolerances is not None and tolerances.gives_room and best.within_tolerance is not None:
         yield _shares(synthesis, best)
     quality = quality_note(best, synthesis.task)
     if quality is not None:

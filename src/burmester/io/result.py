@@ -28,8 +28,7 @@ from burmester.io.linkage_data import (
     six_bar_data,
 )
 from burmester.io.pose_data import crank_data, degrees_of, poses_data, tolerances_data
-from burmester.io.reading.stated_requirements import requirements_data
-from burmester.io.reading.stated_surroundings import surroundings_data
+from burmester.io.reading.specification import requirements_data, surroundings_data
 from burmester.linkages.nearby_linkages import Move, greatest_move, moves
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.limits import KINDS, Limits

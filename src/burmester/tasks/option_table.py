@@ -113,25 +113,47 @@ OPTIONS: Final = (
 
 
 class LimitOption(NamedTuple):
-    """One limit on a dyad, by its name in `Limits` and in files; given once or for each dyad."""
+    """One limit on a dyad, by its name in `Limits` and in files; given once or for each dyad.
+
+    kind: of its value, a region, a range of lengths, kinds of dyads, or the line of a slider.
+    """
 
     name: str
+    kind: Literal["region", "range", "kinds", "line"]
     metavar: str
     help: str
 
+    @property
+    def option(self) -> str:
+        """Its option of the command."""
+        return f"--{self.name.replace('_', '-')}"
+
 
 LIMIT_OPTIONS: Final = (
-    LimitOption("fixed_pivot", "REGION", "Region of a fixed pivot, on the ground."),
-    LimitOption("moving_pivot", "REGION", "Region of a moving pivot, on the body."),
+    LimitOption("fixed_pivot", "region", "REGION", "Region of a fixed pivot, on the ground."),
+    LimitOption("moving_pivot", "region", "REGION", "Region of a moving pivot, on the body."),
     LimitOption(
-        "length", "MIN:MAX", "Length of the link of an RR dyad; MIN or MAX may be left out."
+        "length",
+        "range",
+        "MIN:MAX",
+        "Length of the link of an RR dyad; MIN or MAX may be left out.",
     ),
-    LimitOption("kinds", "RR,PR,RP", "Kinds of dyads allowed: links RR, sliders PR, slots RP."),
+    LimitOption(
+        "kinds", "kinds", "RR,PR,RP", "Kinds of dyads allowed: links RR, sliders PR, slots RP."
+    ),
     LimitOption(
         "rail",
+        "line",
         "LINE",
         'The rail of a slider on the ground, such as "direction:0+-2 through:0,0 '
         'travel:box:0,-5:400,5"; each part may be left out.',
     ),
-    LimitOption("slot", "LINE", "The same of a slot in the body, on the body."),
+    LimitOption("slot", "line", "LINE", "The same of a slot in the body, on the body."),
 )
+
+# The tables at the top of a task in a file, and all keys there.
+TABLES: Final = (
+    "pose_sigma", "tolerance", "body", "keep_out", "surroundings", "limits", "requirements", "path",
+    "crank",
+)  # fmt: skip
+TOP_KEYS: Final = ("poses", "angle_unit", "length_unit", *TABLES)

@@ -1,4 +1,4 @@
-"""The text of an option: its numbers and regions, and errors with carets below what is faulty.
+"""The text of an option: its numbers, and errors with carets below what is faulty.
 
 Numbers have a decimal point.  What does not fit is E131, or a code that the caller names.
 """
@@ -10,17 +10,11 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from burmester.errors import InputError
-from burmester.geometry.regions import Region
 from burmester.io.reading.pose_table import NUMBER, Source, plain_number, shown, unheld
-from burmester.io.reading.specification import SHAPES
 from burmester.tasks.option_table import Option
-from burmester.wording import count
 
 ANY = "any"
-REGION_HELP = "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
 
 
 def option_text(option: str, texts: Sequence[str]) -> str:
@@ -145,24 +139,3 @@ def lengths_from_texts(option: str, texts: Sequence[str]) -> tuple[float, ...]:
             out.append(positive_from_text(source, cell, at))
             at += len(cell) + 1
     return tuple(out)
-
-
-def region_from_text(source: Source, help: str = REGION_HELP) -> Region:
-    """The region in a text; raises E131, or E132 for an empty box, with a caret."""
-    head, colon, rest = source.text.partition(":")
-    shape = head.strip() if colon else "point"
-    if shape not in SHAPES:
-        raise option_fault(source, f"there is no region {shown(shape)}", help, width=len(head))
-    at = len(head) + 1 if colon else 0
-    points, (number, make) = [], SHAPES[shape]
-    for part in (rest if colon else source.text).split(":"):
-        points.append(numbers_from_text(source, part, at, "a point X,Y", help))
-        at += len(part) + 1
-    if number not in (None, len(points)):
-        message = f"a {shape} takes {count(number, 'point')}, not {len(points)}"
-        raise option_fault(source, message, help)
-    try:
-        return make(np.array(points))
-    except InputError as error:
-        error.where = source.where(0, len(source.text))
-        raise

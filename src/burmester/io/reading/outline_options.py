@@ -13,7 +13,7 @@ from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.option_text import number_from_text, option_text
 from burmester.io.reading.pose_table import Source
-from burmester.io.reading.stated_surroundings import StatedSurroundings
+from burmester.io.reading.specification import StatedSurroundings
 from burmester.tasks.surroundings import KeepOut, Surroundings
 
 

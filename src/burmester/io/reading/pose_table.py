@@ -13,8 +13,7 @@ from numpy.typing import NDArray
 
 from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
-from burmester.io.reading.specification import Specification
-from burmester.io.reading.stated_surroundings import StatedSurroundings
+from burmester.io.reading.specification import Specification, StatedSurroundings
 from burmester.io.reading.stated_tolerances import DefaultTolerance, StatedTolerances
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked

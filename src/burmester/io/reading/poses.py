@@ -52,8 +52,7 @@ from burmester.io.reading.pose_table import (
     resolution_by_digits,
 )
 from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
-from burmester.io.reading.specification import Specification
-from burmester.io.reading.stated_requirements import combined_requirements, one_line
+from burmester.io.reading.specification import Specification, combined_requirements, one_line
 from burmester.io.reading.stated_tolerances import (
     DefaultTolerance,
     combined_tolerances,
@@ -245,7 +244,7 @@ def _table(
     """The table in a file, by its first bytes and its suffix."""
     label = label_of(path)
     if _DRAWING.search(path):
-        from burmester.io.reading.outlines.drawn_path import drawing_named, read_drawn_path
+        from burmester.io.reading.outlines.outline_file import drawing_named, read_drawn_path
 
         if (drawing := drawing_named(path)) is not None:
             for option, value in {"columns": columns, "sheet": sheet, "points": points}.items():
@@ -285,7 +284,7 @@ def _rows(
     from burmester.io.reading.tables.pose_rows import read_poses
 
     if columns is None and (header := read_marker_header(source)) is not None:
-        from burmester.io.reading.markers.marker_choice import chosen_markers
+        from burmester.io.reading.markers.marker_recording import chosen_markers
 
         return chosen_markers(header, points)
     _require_no_points(source.label, points)
@@ -386,7 +385,7 @@ def _task(
     body, body_notes = outlines.body_beside(table.body, table.length_unit)
     around, region_notes = outlines.surroundings_beside(table.surroundings, table.length_unit)
     numbers = 2 * rows.points or 3  # in a row, before its weight
-    path, timing = _timing(table, crank, angle_unit, clockwise="clockwise" in convention)
+    path, timing = _timing(table, tracked, crank, angle_unit, "clockwise" in convention)
     if table.tolerance and tolerance:
         message = "the tolerance of all poses is in the file and in --pose-tolerance"
         where = one_line(table.tolerance.where, tolerance.where)
@@ -440,7 +439,11 @@ def _radians(degrees: float | None) -> float | None:
 
 
 def _timing(
-    table: PoseTable, asked: CrankOptions, angle_unit: str | None, *, clockwise: bool
+    table: PoseTable,
+    tracked: TrackedRows,
+    asked: CrankOptions,
+    angle_unit: str | None,
+    clockwise: bool,
 ) -> tuple[TracedPath | None, CrankTiming | None]:
     """How the crank times the rows: of points alone a path, else the poses; raises E186."""
     options = CrankOptions(
@@ -448,7 +451,7 @@ def _timing(
         table.crank.within if asked.within is None else asked.within,
     )
     path, given = table.path, table.rows.crank
-    if given is None or not np.isfinite(given).any():
+    if given is None or not (np.isfinite(given).any() or path):
         if options != CrankOptions():
             raise InputError(
                 "E186",
@@ -464,19 +467,15 @@ def _timing(
             help="name the column crank_deg or crank_rad",
         )
     angles = (np.radians(given) if unit == "deg" else given) * (-1.0 if clockwise else 1.0)
-    if np.isnan(table.rows.values[:, 2]).all() and not table.rows.points:
-        closed = path is not None and path.closed
-        return TracedPath(closed, _all_timed(angles)), None
-    return path, CrankTiming(angles, options.absolute, options.within)
-
-
-def _all_timed(angles: FloatArray) -> FloatArray:
-    """The crank angles of points, where each has one; raises E186."""
+    if not np.isnan(table.rows.values[:, 2]).all() or table.rows.points:
+        return path, CrankTiming(angles, options.absolute, options.within)
     if (blank := np.isnan(angles)).any():
-        message = f"row {int(blank.argmax()) + 1} has no crank angle"
+        row = int(tracked.numbers[blank.argmax()])
+        message = f"row {row + 1} has no crank angle"
         help = "give every point its crank angle, or delete the column"
-        raise InputError("E186", message, help=help)
-    return angles
+        where = table.locate_row(row) if table.locate_row else None
+        raise InputError("E186", message, where=where, help=help)
+    return TracedPath(path is not None and path.closed, angles), None
 
 
 def _angle_unit(table: PoseTable, values: FloatArray, angle_unit: str | None) -> str:

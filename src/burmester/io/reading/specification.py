@@ -4,34 +4,26 @@ Each limit (region of the fixed pivot, region of the moving pivot, length of the
 dyads, rail, slot) is stated not at all, once for both dyads of a linkage, or twice, once for each.
 A point stated once is for one dyad alone: two dyads that share a pivot only turn about it.  A rail
 or slot stated once is for one dyad, too; what such a dyad does not have is then for the other.
+A requirement on the whole linkage is stated once: in the file or on the command line.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 from burmester.errors import InputError
-from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
-from burmester.io.reading.stated_requirements import StatedRequirement, one_line
-from burmester.numerics.arrays import FloatArray
+from burmester.geometry.regions import Point, Region
+from burmester.requirements.table import ASKED
 from burmester.tasks.limits import Kind, Limits
 from burmester.tasks.option_table import LIMIT_OPTIONS
 from burmester.tasks.rails import Rail
-
-LengthRange: TypeAlias = tuple[float, float]
-OptionalRegion: TypeAlias = Region | None  # None leaves a dyad free
-OptionalKinds: TypeAlias = frozenset[Kind] | None
-
-# The tables at the top of a task in a file, and all keys there.
-TABLES = (
-    "pose_sigma", "tolerance", "body", "keep_out", "surroundings", "limits", "requirements", "path",
-    "crank",
-)  # fmt: skip
-TOP_KEYS = ("poses", "angle_unit", "length_unit", *TABLES)
+from burmester.tasks.requirements import Requirements
+from burmester.tasks.surroundings import KeepOut, Surroundings
 
 LIMITS = tuple(each.name for each in LIMIT_OPTIONS)
+REQUIREMENTS = tuple(each.name for each in ASKED)  # the keys under `requirements` in a file
 
 # What a dyad with a rail and one with a slot have none of, and their kinds.
 _LACKING: Mapping[str, tuple[str, ...]] = {
@@ -40,14 +32,19 @@ _LACKING: Mapping[str, tuple[str, ...]] = {
 }
 _KIND: Mapping[str, Kind] = {"rail": "PR", "slot": "RP"}
 
-# Name of a region: its number of points (None: any number), and its constructor.
-SHAPES: Mapping[str, tuple[int | None, Callable[[FloatArray], Region]]] = {
-    "point": (1, lambda points: Point(points[0])),
-    "line": (2, lambda points: Line(*points)),
-    "segment": (2, lambda points: Segment(*points)),
-    "box": (2, lambda points: box(*points)),
-    "polygon": (None, Polygon),
-}
+
+class StatedRequirement(NamedTuple):
+    """One requirement: a field of `Requirements`, its value, and its location."""
+
+    field: str
+    value: Any
+    where: str
+
+
+def one_line(*locations: str) -> str:
+    """Several locations in one line, without the lines of text that a single one is shown with."""
+    known = list(dict.fromkeys(filter(None, locations)))
+    return known[0] if len(known) == 1 else ", and ".join(w.partition("\n")[0] for w in known)
 
 
 class Specification(NamedTuple):
@@ -56,10 +53,10 @@ class Specification(NamedTuple):
     where: the locations of the limits, by their names; a requirement has its own.
     """
 
-    fixed_pivot: tuple[OptionalRegion, ...] = ()
-    moving_pivot: tuple[OptionalRegion, ...] = ()
-    length: tuple[LengthRange | None, ...] = ()
-    kinds: tuple[OptionalKinds, ...] = ()
+    fixed_pivot: tuple[Region | None, ...] = ()
+    moving_pivot: tuple[Region | None, ...] = ()
+    length: tuple[tuple[float, float] | None, ...] = ()
+    kinds: tuple[frozenset[Kind] | None, ...] = ()
     rail: tuple[Rail | None, ...] = ()
     slot: tuple[Rail | None, ...] = ()
     where: Mapping[str, str] = MappingProxyType({})
@@ -150,3 +147,74 @@ class Specification(NamedTuple):
             if value is not None:
                 out[name] = value
         return out
+
+
+def checked_requirement(
+    field: str, value: Any, where: str, fault_at: str | None = None
+) -> StatedRequirement:
+    """A requirement that is valid by itself; raises the errors of `Requirements`.
+
+    fault_at: the location that the error shows, where it is narrower than `where`.
+    """
+    try:
+        Requirements(**{field: value})
+    except InputError as error:
+        error.where = fault_at or where
+        raise
+    return StatedRequirement(field, value, where)
+
+
+def combined_requirements(stated: Sequence[StatedRequirement]) -> Requirements:
+    """All requirements together; raises E108 for one given twice, and E132 as `Requirements`."""
+    known: dict[str, StatedRequirement] = {}
+    for each in stated:
+        if each.field in known:
+            subject = ASKED[REQUIREMENTS.index(each.field)].subject
+            raise InputError(
+                "E108",
+                f"{subject} given twice",
+                where=one_line(known[each.field].where, each.where),
+                help="leave one of the two out",
+            )
+        known[each.field] = each
+    try:
+        return Requirements(**{field: each.value for field, each in known.items()})
+    except InputError as error:
+        # No others contradict each other.
+        error.where = one_line(
+            *(each.where for each in stated if each.field in ("types", "driver"))
+        )
+        raise
+
+
+def requirements_data(requirements: Requirements) -> dict[str, Any]:
+    """The table `requirements` of a file with the same ones; empty where there are none."""
+    return {each.name: each.plain(bound) for each, bound in requirements.bounds.items()}
+
+
+class StatedSurroundings(NamedTuple):
+    """Surroundings as stated: regions, the other fields of `Surroundings`, and where."""
+
+    keep_out: tuple[KeepOut, ...] = ()
+    values: Mapping[str, Any] = MappingProxyType({})
+    where: str = ""
+
+    def surroundings(self) -> Surroundings | None:
+        """The surroundings, or None where nothing is stated."""
+        if not self.keep_out and not self.values:
+            return None
+        return Surroundings(self.keep_out, **self.values)
+
+
+def surroundings_data(around: Surroundings) -> dict[str, Any]:
+    """The surroundings as a file may hold them: the keys `keep_out` and `surroundings`."""
+    regions = []
+    for each in around.keep_out:
+        region: dict[str, Any] = {"polygon": each.polygon.vertices.tolist()}
+        regions.append({"name": each.name, **region} if each.name else region)
+    values = {
+        "link_width": around.link_width,
+        "margin": around.margin,
+        "body_in_plane": around.body_in_plane,
+    }
+    return {"keep_out": regions, "surroundings": values}

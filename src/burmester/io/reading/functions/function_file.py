@@ -27,7 +27,7 @@ from burmester.io.reading.pose_table import Source
 from burmester.io.reading.tables.text_source import text_source
 from burmester.io.reading.trees.documents import json_tree, toml_tree
 from burmester.io.reading.trees.node import Field, Fields, Node
-from burmester.io.reading.trees.requirements_tree import REQUIREMENT_FIELDS
+from burmester.io.reading.trees.specification_tree import REQUIREMENT_FIELDS
 
 _NUMBER: Final = Field(Node.number)
 _SETTINGS: Final[Fields] = {

@@ -1,5 +1,6 @@
-"""A recording of markers: the places of some of them, frame by frame.
+"""A recording of markers: which of them are on the body, and their places frame by frame.
 
+The markers are those that --points names, or the only two.
 A marker is missing where its place is blank, NaN, 0,0,0 as lost markers are exported, or of a low
 likelihood.  Numbers are read as in any CSV file.
 """
@@ -10,19 +11,28 @@ import functools
 import re
 from array import array
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
+from burmester.io.files import quoted
 from burmester.io.reading.markers.marker_header import AXES, CONFIDENCE, MarkerHeader
-from burmester.io.reading.pose_table import NUMBER_LIKE, decimals, no_poses, plain_number
+from burmester.io.reading.pose_table import (
+    NUMBER_LIKE,
+    Source,
+    decimals,
+    no_poses,
+    plain_number,
+    shown,
+)
 from burmester.io.reading.row_selection import RowLabels
 from burmester.io.reading.tables.cell_numbers import CellNumbers
 from burmester.io.reading.tables.grid import Row, split_cells
 from burmester.numerics.arrays import FloatArray
-from burmester.wording import listed
+from burmester.wording import listed, shortened
 
 MIN_LIKELIHOOD = 0.6  # DeepLabCut's own default; a place less likely counts as missing
 MAX_COORDINATE = 1e60  # beyond it, fourth powers leave a double's range
@@ -30,6 +40,9 @@ MAX_COORDINATE = 1e60  # beyond it, fourth powers leave a double's range
 _LINE = re.compile(r"(?m)^.*\S.*$")
 _PLAIN = re.compile(r"-?[0-9]{1,9}\.[0-9]{1,15}")
 _MISSING = ("", "nan", "na", "n/a", "-nan", "-nan(ind)", "null", "none", "-")
+MAX_SUGGESTED = 24  # markers among which a pair is looked for that stays on one body
+MIN_MOTION = 0.1  # of the motion of the marker that moves most; one that moves less is at rest
+MAX_LISTED = 12  # markers that a message lists
 
 
 class MarkerRecording(NamedTuple):
@@ -182,3 +195,88 @@ def _labels(frames: list[str], times: list[str], separator: str) -> RowLabels:
         return np.array([float(text) for text, _ in plain]) if known else None
 
     return RowLabels(len(frames), frames if are_frames else (), are_frames, seconds)
+
+
+def chosen_markers(header: MarkerHeader, points: str | None) -> MarkerRecording:
+    """The recording of the markers that `points` names.
+
+    points: names separated by commas; None takes the only two of a file.  Raises E102 to E108,
+    and E114 where the markers are not known or not chosen.
+    """
+    if points is None:
+        if len(header.markers) == 2:
+            return read_recording(header, tuple(header.markers))._replace(chosen=True)
+        raise _no_choice(header)
+    names = tuple(_marker(word, header, points) for word in points.split(","))
+    if len(names) < 2 or len(set(names)) < len(names):
+        message = "a pose takes two different markers or more"
+        raise _refusal(header, message, points)
+    return read_recording(header, names)
+
+
+def _marker(word: str, header: MarkerHeader, points: str) -> str:
+    """The marker that a word names: by its name, without capitals, or without its subject."""
+    word = word.strip()
+    if word in header.markers:
+        return word
+    small, names = word.lower(), list(header.markers)
+    for short in (names, [name.rpartition(":")[2] for name in names]):
+        found = [name for name, each in zip(names, short, strict=True) if each.lower() == small]
+        if len(found) == 1:
+            return found[0]
+    raise _refusal(header, f"there is no marker {shown(word)} in this file", points)
+
+
+def _refusal(header: MarkerHeader, message: str, points: str) -> InputError:
+    where = Source("--points", points).where(0, len(points))
+    why, pair = _known_markers(header), _suggested(header)
+    return InputError("E114", message, where=where, why=why, help=f"pass --points {_joined(pair)}")
+
+
+def _no_choice(header: MarkerHeader) -> InputError:
+    """E114, with a command that works: the pair whose distance varies least."""
+    count, label = len(header.markers), header.source.label
+    path = "-" if label == "<stdin>" else quoted(label)
+    pair = _joined(_suggested(header))
+    help = (
+        "name two markers of the body (the origin first, the x axis points to the second), or "
+        f"more to fit them all: `burmester synthesize {path} --points {pair}`"
+    )
+    message = f"this is a recording of {count} markers, and --points names none of them"
+    return InputError("E114", message, where=header.where, why=_known_markers(header), help=help)
+
+
+def _known_markers(header: MarkerHeader) -> str:
+    return f"its markers are {listed(shortened(list(header.markers), MAX_LISTED))}"
+
+
+def _joined(names: Sequence[str]) -> str:
+    """Names as the option takes them, in quotes where a shell needs them."""
+    return quoted(",".join(names))
+
+
+def _suggested(header: MarkerHeader) -> tuple[str, str]:
+    """The two moving markers whose distance varies least, among the first ones."""
+    names = [name for name in header.markers if "," not in name][:MAX_SUGGESTED]
+    best, pair = np.inf, tuple(names[:2])
+    try:
+        places = read_recording(header, tuple(names), one_mark=False).places
+    except InputError:
+        return pair[0], pair[1]
+    moves = [_motion(places[:, k]) for k in range(len(names))]
+    moving = [k for k in range(len(names)) if moves[k] > MIN_MOTION * max(moves)]
+    for i, j in combinations(moving, 2):
+        distance = np.linalg.norm(places[:, i] - places[:, j], axis=1)
+        distance = distance[np.isfinite(distance)]
+        # a pair that is seen in half of the frames is of little use
+        if 2 * len(distance) >= len(places) and distance.size and distance.mean() > 0:
+            change = float(distance.std() / distance.mean())
+            if change < best:
+                best, pair = change, (names[i], names[j])
+    return pair[0], pair[1]
+
+
+def _motion(places: FloatArray) -> float:
+    """How far a marker moves about its mean, root mean square; 0 if it is never seen."""
+    seen = places[np.isfinite(places).all(axis=1)]
+    return float(np.sqrt(seen.var(axis=0).sum())) if len(seen) else 0.0

@@ -80,21 +80,22 @@ def joined(curves: list[Curve], reach: float) -> tuple[list[Curve], OpenEnds, in
     at_node: dict[int, list[int]] = {}
     for number in range(len(ends)):
         at_node.setdefault(int(node[number]), []).append(number)
-    left = set(range(len(pieces)))
+    pairs = [each for each in at_node.values() if len(each) == 2]
+    other = {one: two for pair in pairs for one, two in (pair, pair[::-1])}
     loops: list[Curve] = []
-    open_ends: list[int] = []
-    while left:
-        chain, end = _followed(min(left), node, at_node)
-        left -= {piece for piece, _ in chain}
-        if end is None:
-            loops.append(_loop(chain, pieces))
-        else:
-            open_ends += [end, *([] if len(chain) < 1 else [_other_end(chain)])]
-    return (
-        closed + loops,
-        _least_gap(ends[np.unique(open_ends)] if open_ends else ends[:0]),
-        (len(pieces) - sum(each.kind.count("+") + 1 for each in loops)),
-    )
+    in_loops, seen = set[int](), set[int]()
+    for first in range(0, len(ends), 2):  # the ends of piece k are 2k and 2k + 1
+        end: int | None = first
+        entered = list[int]()
+        while end is not None and end // 2 not in seen:
+            seen.add(end // 2)
+            entered.append(end)
+            end = other.get(end ^ 1)
+        if entered and end == first:
+            loops.append(_loop(entered, pieces))
+            in_loops |= {each // 2 for each in entered}
+    left = [each for each in range(len(ends)) if each not in other and each // 2 not in in_loops]
+    return closed + loops, _least_gap(ends[left]), len(pieces) - len(in_loops)
 
 
 def _is_closed(curve: Curve, reach: float) -> bool:
@@ -128,50 +129,11 @@ def _clusters(ends: FloatArray, reach: float) -> np.ndarray:
     return number
 
 
-_Chain = list[tuple[int, bool]]  # pieces, and whether each is run through from its first point
-
-
-def _followed(
-    start: int, node: np.ndarray, at_node: dict[int, list[int]]
-) -> tuple[_Chain, int | None]:
-    """The pieces that hang together with one, and an open end, or None where they close."""
-    chain: _Chain = [(start, True)]
-    seen = {start}
-    for forwards in (True, False):
-        end = 2 * start + (1 if forwards else 0)
-        while True:
-            here = at_node[int(node[end])]
-            others = [each for each in here if each != end]
-            if len(others) != 1:
-                break  # an end, or a branch
-            piece = others[0] // 2
-            if piece in seen:
-                return chain, None  # back at the beginning
-            seen.add(piece)
-            from_first = others[0] % 2 == 0
-            if forwards:
-                chain.append((piece, from_first))
-            else:
-                chain.insert(0, (piece, not from_first))
-            end = others[0] ^ 1
-        if not forwards:
-            return chain, end
-    raise AssertionError("unreachable")
-
-
-def _other_end(chain: _Chain) -> int:
-    piece, forwards = chain[-1]
-    return 2 * piece + (1 if forwards else 0)
-
-
-def _loop(chain: _Chain, pieces: list[Curve]) -> Curve:
-    """The closed curve of a chain of pieces."""
-    points = [pieces[k].points if forwards else pieces[k].points[::-1] for k, forwards in chain]
-    kinds = [pieces[k].kind for k, _ in chain]
-    return Curve(
-        np.concatenate([part[:-1] for part in points]), True, " + ".join(kinds),
-        pieces[chain[0][0]].names,
-    )  # fmt: skip
+def _loop(entered: list[int], pieces: list[Curve]) -> Curve:
+    """The closed curve of pieces, by the ends at which they are entered."""
+    points = [pieces[k // 2].points[:: -1 if k % 2 else 1][:-1] for k in entered]
+    kind = " + ".join(pieces[k // 2].kind for k in entered)
+    return Curve(np.concatenate(points), True, kind, pieces[entered[0] // 2].names)
 
 
 def _least_gap(ends: FloatArray) -> OpenEnds:

@@ -1,12 +1,14 @@
 """The outline in a drawing: the one closed curve of a DXF or SVG file, or of one of its parts.
 
+A path to trace is that curve, or the only open one, as points at equal steps.
+
 Its lengths are turned into the unit of the task.  Arcs and splines become chords, open curves
 whose ends meet are joined; how far both may be off is told.
 
 E170 not readable, or no drawing        E171 no closed curve
 E172 more than one                      E173 no such layer or id
 E174 units that do not fit              E130 ezdxf or svgelements missing
-E131 an outline that crosses itself
+E131 an outline that crosses itself     E188 not one curve to trace
 """
 
 from __future__ import annotations
@@ -32,8 +34,11 @@ from burmester.io.reading.outlines.curves import (
 )
 from burmester.io.reading.outlines.dxf_drawing import read_dxf
 from burmester.io.reading.outlines.svg_drawing import read_svg
-from burmester.io.reading.pose_table import shown
+from burmester.io.reading.pose_table import PoseTable, Rows, shown
+from burmester.io.reading.stated_tolerances import StatedTolerances
+from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
+from burmester.tasks.traced_path import TracedPath
 from burmester.wording import count, figure, in_unit, listed
 
 FROM_PAGE: Final = "<page>/"  # in front of the name of a task that a page sent
@@ -46,6 +51,8 @@ METRES: Final = {
     "px": 0.0254 / 96,
 }  # fmt: skip
 ALONE: Final = "draw the outline on a layer of its own, or give it an id, and name that"
+_NAMED = re.compile(r"(.*?\.(?:dxf|svg))(?::(.*))?", re.IGNORECASE | re.DOTALL)
+POINTS: Final = 60  # taken of a curve, at equal steps along it
 
 
 class OutlineFile(NamedTuple):
@@ -58,9 +65,6 @@ class OutlineFile(NamedTuple):
     def kind(self) -> str:
         """The suffix in small letters."""
         return PurePath(self.path).suffix.lower()
-
-
-_NAMED = re.compile(r"(.*?\.(?:dxf|svg))(?::(.*))?", re.IGNORECASE | re.DOTALL)
 
 
 def outline_named(text: str) -> OutlineFile:
@@ -241,3 +245,73 @@ def _few_corners(points: np.ndarray, tolerance: float) -> tuple[np.ndarray, bool
 
     ring = shapely.LinearRing(points).simplify(tolerance, preserve_topology=True)
     return shapely.get_coordinates(ring)[:-1], True
+
+
+def drawing_named(text: str) -> OutlineFile | None:
+    """The drawing in FILE or FILE:PART; None for a file of another kind."""
+    file = outline_named(text)
+    return file if file.kind in (".svg", ".dxf") else None
+
+
+def read_drawn_path(file: OutlineFile, data: bytes | None = None) -> PoseTable:
+    """The points of the curve in a drawing, in the drawing's unit, and how it was read (W227).
+
+    A closed curve where there is one; else the only open curve.
+    data: what the file holds, where that is known.
+    """
+    drawing = drawing_in(file, data)
+    size = extent(drawing.curves)
+    closed, _, _ = joined(drawing.curves, JOINT * size)
+    if any(extent([each]) > 2 * JOINT * size for each in closed):
+        curve, size, _ = only_closed_curve(drawing, file.part)
+    else:
+        curve = _only_open(drawing.curves)
+    points = _at_equal_steps(curve)
+    free = StatedTolerances(np.tile([np.nan, np.nan, np.inf], (POINTS, 1)), [""] * POINTS)
+    values = np.column_stack([points, np.full(POINTS, np.nan)])
+    decimals = float(np.ceil(-np.log10(FLATNESS * size))) if size > 0 else 0.0
+    label, unit = printable(file.path), drawing.unit
+    wide, high = np.ptp(curve.points, axis=0)
+    kind = "a closed" if curve.closed else "an open"
+    note = Advice(
+        "W227",
+        f"{label} is read as {kind} curve, {wide:.5g} by {high:.5g}"
+        + (f" {unit}" if unit else "")
+        + f", and {count(POINTS, 'point')} are taken of it at equal steps",
+        "look at it in the figure or the report; a file of points x,y says which count",
+        "; ".join(drawing.assumed) or None,
+    )
+    return PoseTable(
+        Rows(values, (decimals, 0.0), [], [], tolerances=free),
+        length_unit=unit,
+        angle_unit="deg",
+        where=label,
+        say_unit="",
+        notes=(note,),
+        path=TracedPath(curve.closed),
+        read_as="a drawing",
+    )
+
+
+def _only_open(curves: list[Curve]) -> Curve:
+    """The one open curve of a drawing; raises E188."""
+    if len(curves) == 1:
+        return curves[0]
+    raise InputError(
+        "E188",
+        "the drawing has not one curve to trace",
+        why=f"it has {count(len(curves), 'open curve')}, and none closes"
+        if curves
+        else "it has no curve",
+        help="draw the path as one curve, or name its layer (DXF) or its id (SVG) as FILE:PART",
+    )
+
+
+def _at_equal_steps(curve: Curve) -> FloatArray:
+    """POINTS points (n, 2) along a curve; the first of a closed one is not repeated."""
+    points = curve.points
+    if curve.closed:
+        points = np.concatenate([points, points[:1]])
+    arc = np.concatenate([[0.0], np.hypot(*np.diff(points, axis=0).T).cumsum()])
+    wanted = np.linspace(0, arc[-1], POINTS, endpoint=not curve.closed)
+    return np.column_stack([np.interp(wanted, arc, column) for column in points.T])

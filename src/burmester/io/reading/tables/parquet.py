@@ -11,8 +11,6 @@ import functools
 from collections.abc import Callable
 from typing import Any
 
-import numpy as np
-
 from burmester.errors import InputError, library
 from burmester.io.reading.file_content import MAX_LINES, too_large
 from burmester.io.reading.pose_table import (
@@ -28,9 +26,10 @@ from burmester.io.reading.pose_table import (
 )
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
 from burmester.io.reading.tables.column_words import IGNORED, known
-from burmester.io.reading.tables.tolerance_cells import WORD_ROLES
+from burmester.io.reading.tables.pose_rows import WORD_ROLES
 
 _NUMBERS = (*NUMERIC, *DIRECTION, *POINTS, "crank")
+_COARSE = ("float", "halffloat")  # types of fewer digits than a double has
 _WORDS = ("name", "number", "exact", *TOLERANCE_ROLES, *WORD_ROLES)
 
 
@@ -39,7 +38,11 @@ def read_parquet(label: str, data: bytes) -> Source:
 
     Columns that are passed over are blank, unless they hold numbers.
     """
-    file = _open(data)
+    library("pyarrow", "reading Parquet", "data")
+    import pyarrow.compute
+    import pyarrow.parquet
+
+    file = _read_or_refuse(lambda: pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)))
     names: list[str] = _read_or_refuse(lambda: file.schema_arrow.names)
     head = SHEET_HEAD + "\t".join(map(_cell, names))
     sheet = Sheet("Parquet", {}, tuple(names))
@@ -63,32 +66,27 @@ def read_parquet(label: str, data: bytes) -> Source:
         return Source(label, head, (), sheet)  # two columns of one name are refused by it
     stored = _read_or_refuse(lambda: file.read(columns=[names[i] for i in read]))
     tolerant = not {*TOLERANCE_ROLES, *WORD_ROLES}.isdisjoint(roles)
-    columns: list[list[str]] = [[""] * count for _ in names]
-    shortest: dict[int, list[str]] = {}
+    columns: list[Any] = [pyarrow.array([""] * count)] * len(names)
     for i in read:
         column, role = stored.column(names[i]), roles[i]
         if holds_numbers(kinds[i]):
             may_be_blank = role not in _NUMBERS or role == "crank"
             may_be_blank |= tolerant and role in NUMERIC[:3]
-            columns[i], shortest[i] = _numbers(column, "" if may_be_blank else "nan")
+            exact = column.cast("float64") if kinds[i] in _COARSE else column
+            columns[i] = _numbers(exact).fill_null("" if may_be_blank else "nan")
         else:
             place = functools.partial(_place, label, sheet, i)
-            columns[i] = [_cell("" if v is None else str(v)) for v in _values(column, place)]
-    if any(texts is not columns[i] for i, texts in shortest.items()):
-        printed = {i: max(map(decimals, texts), default=0.0) for i, texts in shortest.items()}
+            texts = ["" if value is None else str(value) for value in _values(column, place)]
+            columns[i] = pyarrow.array(map(_cell, texts), pyarrow.string())
+    if any(kinds[i] in _COARSE for i in read):
+        printed = {i: _decimals(stored.column(names[i])) for i in read if holds_numbers(kinds[i])}
         sheet = sheet._replace(printed=printed)
-    return Source(label, "\n".join([head, *map("\t".join, zip(*columns, strict=True))]), (), sheet)
+    rows = pyarrow.compute.binary_join_element_wise(*columns, "\t").to_pylist()
+    return Source(label, "\n".join([head, *rows]), (), sheet)
 
 
 def _place(label: str, sheet: Sheet, column: int, row: int) -> str:
     return f"{label}: {sheet.place(row + 1, column + 1)}"
-
-
-def _open(data: bytes) -> Any:
-    library("pyarrow", "reading Parquet", "data")
-    import pyarrow.parquet
-
-    return _read_or_refuse(lambda: pyarrow.parquet.ParquetFile(pyarrow.BufferReader(data)))
 
 
 def _read_or_refuse(read: Callable[[], Any]) -> Any:
@@ -109,22 +107,20 @@ def holds_numbers(kind: Any) -> bool:
     return any(test(kind) for test in tests)
 
 
-def _numbers(column: Any, blank: str) -> tuple[list[str], list[str]]:
-    """A column as texts, and as the shortest texts of its numbers."""
-    from pyarrow import types
+def _numbers(column: Any) -> Any:
+    """A column as texts, without the noughts behind a point: those are not stored."""
+    import pyarrow.compute
 
-    texts = [blank if value is None else _short(str(value)) for value in column.to_pylist()]
-    if not types.is_floating(column.type) or types.is_float64(column.type):
-        return texts, texts
-    kind = np.float32 if types.is_float32(column.type) else np.float16  # 0.1 in 32 bits is 0.1
-    return texts, [_short(str(kind(text))) for text in texts if text]
+    texts = column.cast("string")
+    return pyarrow.compute.replace_substring_regex(texts, r"(\.\d*[1-9])0+$|\.0+$", r"\1")
 
 
-def _short(text: str) -> str:
-    """A number without the noughts behind its point: those are not stored."""
-    mantissa, e, exponent = text.lower().partition("e")
-    mantissa = mantissa.rstrip("0").rstrip(".") if "." in mantissa else mantissa
-    return mantissa + e + exponent
+def _decimals(column: Any) -> float:
+    """The most decimals of the shortest texts of its numbers: 0.1 in 32 bits is 0.1."""
+    import pyarrow
+
+    shortest = pyarrow.array(map(str, column.drop_null().to_numpy()), "string")
+    return max(map(decimals, _numbers(shortest).to_pylist()), default=0.0)
 
 
 def _values(column: Any, where: Callable[[int], str]) -> list[Any]:

@@ -7,6 +7,11 @@ that starts with # is a comment, unless it starts with an error value of a sprea
 `tables.columns` lists the names of columns.  Blocks of plain rows are read at once,
 other blocks cell by cell, so that an error names its cell.  `burmester.io.reading.poses` lists the
 errors.
+
+A tolerance is a number, "free", or nothing.  A blank cell under x, y or the angle is a free
+component where the header has the column `free` or one of a tolerance; then `free` names it, or its
+tolerance is blank or says free.  A blank is never zero: without a default for all poses a blank
+tolerance of a component that is given is refused.
 """
 
 from __future__ import annotations
@@ -14,7 +19,7 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 import numpy as np
 
@@ -31,7 +36,7 @@ from burmester.io.reading.pose_table import (
     numeric_roles,
     shown,
 )
-from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
+from burmester.io.reading.stated_tolerances import FREE_WORDS, TOLERANCE_ROLES, free_components
 from burmester.io.reading.tables.cell_numbers import CellNumbers
 from burmester.io.reading.tables.column_words import known
 from burmester.io.reading.tables.columns_together import (
@@ -42,8 +47,8 @@ from burmester.io.reading.tables.columns_together import (
 )
 from burmester.io.reading.tables.grid import SEPARATOR_NAMES, Grid, Row, rows_of, split_cells
 from burmester.io.reading.tables.header import read_header
-from burmester.io.reading.tables.tolerance_cells import WORD_ROLES, read_words, special_text
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.pose_tolerances import COMPONENTS, Component
 from burmester.tasks.traced_path import TracedPath
 
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
@@ -53,6 +58,8 @@ SAME_POINT = 1e-9  # of the path's extent; points that are nearer are one
 _MARK = f"(?i:{'|'.join(filter(None, MARKS))})?"
 _TINY = re.compile("[eE]-0*[0-9]{3}|0{300}")  # exponents and decimals that may be beyond a double
 _SECONDS = {"s": 1.0, "ms": 1e-3, "min": 60.0}
+WORD_ROLES = ("free", "tol_axes")  # columns of words, read together at the end of a row
+_AXES = {"": "", "fixed": "fixed", "f": "fixed", "body": "body", "m": "body"}
 
 
 def read_poses(source: Source, columns: str | None = None, *, closed: bool = False) -> PoseTable:
@@ -151,7 +158,8 @@ def _plain_rows(block: str, grid: Grid, marks: dict[str, str]) -> Rows | None:
             columns[role] = [cell.replace(",", ".") for cell in column]
         elif grid.source.sheet is None and any("." in cell for cell in column):
             marks["."] = ""
-    if _TINY.search(block) or not all(map(NUMBER.fullmatch, columns.get("z", ()))):
+    is_tiny = any(map(block.__contains__, ("e", "E", "0" * 300))) and _TINY.search(block)
+    if is_tiny or not all(map(NUMBER.fullmatch, columns.get("z", ()))):
         return None
     try:  # of these characters alone, float() takes exactly what plain_number() does
         rows = Rows.read(columns)
@@ -218,25 +226,16 @@ def _as_path(table: PoseTable, grid: Grid, *, closed: bool) -> PoseTable:
     repeats = len(points) > 3 and gap <= SAME_POINT * extent(points)
     if not (closed or timed or repeats or len(points) >= LEAST_POINTS):
         return table
-    angles = None
-    if rows.crank is not None:
-        if (blank := np.isnan(rows.crank)).any():
-            row = int(blank.argmax())
-            message = f"row {row + 1} has no crank angle"
-            help = "give every point its crank angle, or delete the column"
-            raise InputError("E186", message, where=grid.locate(row), help=help)
-        angles = rows.crank if table.crank_unit == "rad" else np.radians(rows.crank)
     notes = table.notes
     if repeats:
         message = "the last point repeats the first: the path is taken as closed"
         notes += (Advice("W213", message, "delete the last point if the path is open"),)
         rows = rows.at(np.arange(len(points) - 1))
-        angles = None if angles is None else angles[:-1]
     return table._replace(
-        rows=rows._replace(names=[], crank=None),
+        rows=rows._replace(names=[]),
         angle_unit="deg",
         notes=notes,
-        path=TracedPath(closed or repeats, angles),
+        path=TracedPath(closed or repeats),
         read_as=table.read_as and f"points of a path in {table.read_as}",
     )
 
@@ -328,3 +327,88 @@ def _parted_number(row: Row) -> tuple[str, str] | None:
         if re.fullmatch("[-+\u2212]?[0-9]+", one) and re.fullmatch("[0-9]+", two):
             return one, two
     return None
+
+
+def special_text(cell: str, role: str) -> str | None:
+    """The text of a cell that may hold no number; None where a number or text belongs.
+
+    "nan" for a blank one, "inf" for a word for free.
+    """
+    if not cell and role in (*COMPONENTS, *TOLERANCE_ROLES, "crank"):
+        return "nan"
+    return "inf" if role in TOLERANCE_ROLES and _is_free(cell) else None
+
+
+def read_words(
+    columns: Mapping[str, list[str]], row: Row, indices: Mapping[str, int], number: int
+) -> None:
+    """Complete the columns `free` and `tol_axes` by the cells of a row.
+
+    indices: of the cells by role; number: of the row, from 1.  Raises E104 and E136.
+    """
+
+    def where(role: str) -> str:
+        return row.where(indices.get(role), role)
+
+    cells = {role: row.value(index) for role, index in indices.items()}
+    columns["free"].append(" ".join(_free_in_row(cells, number, where)))
+    columns["tol_axes"].append(_axes_of_cell(cells.get("tol_axes", ""), number, where))
+
+
+def _is_free(cell: str) -> bool:
+    return cell.lower() in FREE_WORDS
+
+
+def _axes_of_cell(cell: str, row: int, where: Callable[[str], str]) -> str:
+    """The axes that a cell of `tol_axes` names, "" for none; raises E104."""
+    axes = _AXES.get(cell.lower())
+    if axes is None:
+        message = f"row {row} has {shown(cell)} where the axes of a tolerance belong"
+        help = "write fixed (along x and y of F) or body (along the body's own axes)"
+        raise InputError("E104", message, where=where("tol_axes"), help=help)
+    return axes
+
+
+def _free_in_row(
+    cells: Mapping[str, str], row: int, where: Callable[[str], str]
+) -> tuple[Component, ...]:
+    """The components that a row leaves free, by the texts of its cells (blank for no value).
+
+    cells: by role; those of tolerances are numbers, blank or a word for free.  where: the location
+    of a role's cell.  Raises E104 and E136.
+    """
+    named: tuple[Component, ...] = ()
+    if "free" in cells:
+        given = free_components(cells["free"])
+        if given is None:
+            message = f"row {row} has {shown(cells['free'])} where free components belong"
+            help = "name x, y, angle or two of them with a blank between, or leave the cell blank"
+            raise InputError("E104", message, where=where("free"), help=help)
+        named = given
+    out = []
+    for component, role in zip(COMPONENTS, TOLERANCE_ROLES, strict=True):
+        tolerance = cells.get(role, "")
+        blank = cells.get(component) == ""
+        says_free = component in named or _is_free(tolerance)
+        if tolerance and not _is_free(tolerance) and (blank or component in named):
+            free = f"{component} among its free components" if component in named else component
+            has = "has" if component in named else "has no"
+            raise InputError(
+                "E136",
+                f"row {row} {has} {free}, and a tolerance of {tolerance} for it",
+                where=where(role),
+                why="a component within a tolerance has a number, a free one has no tolerance",
+                help=f"give {component} a number and take it out of free, or leave its tolerance "
+                "blank",
+            )
+        if blank and "free" in cells and not says_free:
+            raise InputError(
+                "E104",
+                f"row {row} has no {component}, and its cell of free does not name it",
+                where=where(component),
+                why="a blank is never zero, and means free where the row says so",
+                help=f"write {component} into this row's cell of free, or give a number",
+            )
+        if blank or says_free:
+            out.append(component)
+    return tuple(out)

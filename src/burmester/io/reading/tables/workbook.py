@@ -156,8 +156,9 @@ def _outline(parts: dict[str, bytes]) -> Any:
 
 def _written(element: ElementTree.Element) -> str:
     """The text in an element with runs; how it is read aloud is no part of it."""
-    pieces = [*element.findall("{*}t"), *element.findall("{*}r/{*}t")]
-    return "".join(each.text or "" for each in pieces)
+    runs = [part for each in element if each.tag.endswith("}r") for part in each]
+    pieces = [each.text or "" for each in (*element, *runs) if each.tag.endswith("}t")]
+    return "".join(pieces)
 
 
 def _chosen(workbook: Any, given: str | None) -> tuple[Any, tuple[Advice, ...]]:
@@ -272,7 +273,7 @@ class _Cells:
 
     def _text(self, cell: ElementTree.Element) -> str:
         """A cell as text."""
-        parts = {part.tag.rpartition("}")[2]: part for part in cell}
+        parts = {part.tag[part.tag.find("}") + 1 :]: part for part in cell}
         stored = (parts["v"].text or "") if "v" in parts else ""
         match cell.get("t", "n"):
             case "inlineStr" if "is" in parts:
@@ -323,14 +324,16 @@ class _Cells:
                 )
 
 
-@functools.lru_cache(maxsize=100_000)
 def _corner(name: str) -> tuple[int, int]:
     """Row and column of a cell by its name, as $B$7 too."""
     if not (found := _CORNER.fullmatch(name)):
         raise ValueError(f"{shown(name)} is no name of a cell")
-    return int(found[2]), functools.reduce(
-        lambda number, letter: 26 * number + ord(letter) - 64, found[1].upper(), 0
-    )
+    return int(found[2]), _column(found[1].upper())
+
+
+@functools.cache
+def _column(letters: str) -> int:
+    return functools.reduce(lambda number, letter: 26 * number + ord(letter) - 64, letters, 0)
 
 
 def _quoted_cell(text: str) -> str:

@@ -8,9 +8,9 @@ from decimal import Decimal
 from typing import Any, NamedTuple, TypeAlias, TypeVar
 
 from burmester.errors import InputError
-from burmester.io.reading.specification import LIMITS, TOP_KEYS
-from burmester.io.reading.stated_requirements import FILE_KEYS
+from burmester.io.reading.specification import LIMITS, REQUIREMENTS
 from burmester.io.reading.trees.locations import Document, Path, close_match
+from burmester.tasks.option_table import TOP_KEYS
 
 T = TypeVar("T")
 NUMBER_HELP = "write a number without quotes, with a point for its decimal mark"
@@ -162,7 +162,7 @@ class Node(NamedTuple):
             help = f"write {near} in its place; {self.help}"
         elif key in LIMITS and head != "limits":
             help = f"write {key} under limits, which holds for single dyads"
-        elif key in FILE_KEYS and head != "requirements":
+        elif key in REQUIREMENTS and head != "requirements":
             help = f"write {key} under requirements, which holds for the whole linkage"
         return self.at(key).fault("E107", "is not known", help, key=True)
 

@@ -2,6 +2,12 @@
 
 At the top of a task other keys may stand (title, author, notes ...) and are not looked at, unless
 they are known ones misspelt, belong elsewhere, or are tables of TOML.
+
+A tolerance, of a pose or of all poses that state none, has numbers or "free":
+
+    tolerance = { x = 0.1, y = "free", angle_deg = 0.5, axes = "body" }
+
+`angle` is in the unit of the poses' angles.
 """
 
 from __future__ import annotations
@@ -15,28 +21,87 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import NUMERIC, POINTS, CrankOptions, PoseTable, Rows
-from burmester.io.reading.specification import LIMITS, TABLES, TOP_KEYS, Specification
-from burmester.io.reading.stated_requirements import FILE_KEYS
-from burmester.io.reading.stated_surroundings import StatedSurroundings
-from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
+from burmester.io.reading.pose_table import (
+    NUMERIC,
+    POINTS,
+    CrankOptions,
+    PoseTable,
+    Rows,
+)
+from burmester.io.reading.specification import (
+    LIMITS,
+    REQUIREMENTS,
+    Specification,
+    StatedSurroundings,
+)
+from burmester.io.reading.stated_tolerances import FREE_WORDS, TOLERANCE_ROLES, DefaultTolerance
 from burmester.io.reading.trees.locations import Document, close_match
 from burmester.io.reading.trees.node import Field, Fields, Node
-from burmester.io.reading.trees.tolerance_tree import (
-    ANGLE_KEYS,
-    FREE,
-    TOLERANCE,
-    bounds_of,
-    read_tolerance,
-)
+from burmester.tasks.option_table import TABLES, TOP_KEYS
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.traced_path import TracedPath
 from burmester.wording import listed
 
+ANGLE_KEYS: Final = {"angle": None, "angle_deg": "deg", "angle_rad": "rad"}
+
+
+def _bound(node: Node) -> float:
+    """The nearest double of a number; infinite for "free"."""
+    if isinstance(node.value, str):
+        if node.value.strip().lower() in FREE_WORDS:
+            return math.inf
+        raise node.wrong("neither a number nor free")
+    return node.number()
+
+
+_FIELDS: Final[Fields] = {
+    **{key: Field(_bound) for key in ("x", "y", *ANGLE_KEYS)},
+    "axes": Field(partial(Node.word, known=("fixed", "body"))),
+}
+
+
+def _table(node: Node) -> dict[str, Any]:
+    """The keys of a tolerance that are stated; raises E108 for an angle that is stated twice."""
+    given = node.table(_FIELDS)
+    twice = [key for key in ANGLE_KEYS if key in given]
+    if len(twice) > 1:
+        help = f"delete one of them, such as {twice[1]}"
+        raise node.fault("E108", f"has {' and '.join(twice)}", help, key=twice[1])
+    return given
+
+
+TOLERANCE: Final = Field(
+    _table,
+    'a tolerance has x, y and angle_deg (or angle, angle_rad), each a number or "free", and axes, '
+    '"fixed" or "body"',
+)
+FREE: Final = Field(
+    lambda node: [each.word(COMPONENTS) for each in node.items()],
+    'free is a list of some of "x", "y" and "angle"',
+)
+
+
+def bounds_of(given: dict[str, Any], unit: str | None) -> tuple[float, float, float]:
+    """x, y and angle of a tolerance, the angle in `unit`; nan where nothing is stated."""
+    angle = given.get("angle", math.nan)
+    if "angle_deg" in given:
+        angle = given["angle_deg"] if unit == "deg" else math.radians(given["angle_deg"])
+    if "angle_rad" in given:
+        angle = given["angle_rad"] if unit != "deg" else math.degrees(given["angle_rad"])
+    return given.get("x", math.nan), given.get("y", math.nan), angle
+
+
+def read_tolerance(node: Node, unit: str | None) -> DefaultTolerance:
+    """The tolerance beside the poses; raises E103 to E108.  unit: of the poses' angles."""
+    given = _table(node._replace(help=TOLERANCE.help))
+    where = node.document.where(*node.path, key=True)
+    return DefaultTolerance(bounds_of(given, unit), given.get("axes", "fixed"), unit, where)
+
+
 Pose = dict[str, Any]  # what a pose states, numbers as printed
 
 POINT_KEYS: Final = {"p": ("px", "py"), "q": ("qx", "qy")}
-FAR: Final = Decimal("1e300")  # a number beyond may be no double
+FAR: Final = 300  # digits before the point; a number of more may be no double
 _NUMBER: Final = Field(Node.digits)
 _COMMON: Final[Fields] = {
     "weight": _NUMBER,
@@ -57,7 +122,7 @@ _POINTS_HELP = f"a pose has px, py, qx and qy (or p and q with two numbers each)
 _UNDER_LIMITS, _UNDER_REQUIREMENTS = "write it under limits", "write it under requirements"
 _MISPLACED: Final = {  # keys that may stand beside the poses by mistake: the help
     **dict.fromkeys(LIMITS, _UNDER_LIMITS),
-    **dict.fromkeys(FILE_KEYS, _UNDER_REQUIREMENTS),
+    **dict.fromkeys(REQUIREMENTS, _UNDER_REQUIREMENTS),
     "limit": "write limits in its place",
     "requirement": "write requirements in its place",
     "exact": "write it into a pose",
@@ -96,15 +161,12 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         return reader(top[key]) if key in top else default
 
     specification = Specification()
-    if "limits" in top:
-        from burmester.io.reading.trees.limits_tree import read_limits
+    if "limits" in top or "requirements" in top:
+        from burmester.io.reading.trees.specification_tree import read_limits, read_requirements
 
-        specification = read_limits(top["limits"])
-    if "requirements" in top:
-        from burmester.io.reading.trees.requirements_tree import read_requirements
-
-        requirements = read_requirements(top["requirements"])
-        specification = specification._replace(requirements=requirements)
+        specification = read("limits", read_limits, specification)._replace(
+            requirements=read("requirements", read_requirements, ())
+        )
     if "poses" not in top:
         raise whole.missing("poses")
     stated_unit = read("angle_unit", _angle_unit)
@@ -265,12 +327,14 @@ def _pose(node: Node, fields: Fields) -> Pose:
 
 def _plain(value: Any) -> Pose | None:
     """A pose of three finite numbers, as most of a long file are; or None."""
-    if isinstance(value, list) and len(value) == len(NUMERIC):
-        value = dict(zip(NUMERIC, value, strict=True))
+    if isinstance(value, list) and len(value) == len(NUMERIC[:3]):
+        value = dict(zip(NUMERIC, value, strict=False))
     elif not (isinstance(value, dict) and "x" in value and "y" in value):
         return None
     for key, number in value.items():
-        if key not in _XY_ANGLE or type(number) is not Decimal or not -FAR < number < FAR:
+        if key not in _XY_ANGLE or type(number) is not Decimal:
+            return None
+        if not (number.is_finite() and number.adjusted() < FAR):
             return None
     return {key: str(number) for key, number in value.items()}
 

@@ -19,8 +19,8 @@ from typing import Any, Final
 from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.outlines.outline_file import OutlineFile, folder_of, read_outline
-from burmester.io.reading.stated_surroundings import StatedSurroundings
-from burmester.io.reading.trees.limits_tree import SHAPE_FIELDS, read_region
+from burmester.io.reading.specification import StatedSurroundings
+from burmester.io.reading.trees.field_values import SHAPE_FIELDS, read_region
 from burmester.io.reading.trees.node import Field, Fields, Node
 from burmester.tasks.surroundings import KeepOut, Surroundings
 

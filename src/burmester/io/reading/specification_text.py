@@ -1,28 +1,53 @@
-"""Requirements, and how exact poses are, as the command line states them.
+"""Limits, requirements, and how exact poses are, as the command line states them.
 
-Angles are in degrees, lengths in the unit of the poses.  A malformed value is E134, with a caret
-below the text (a malformed region is E131, as for pivots).
+Angles are in degrees, lengths in the unit of the poses; `any` is no limit.  A limit that is
+malformed is E131, a requirement E134 (its region E131), with a caret below the text.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
-from burmester.io.reading.option_text import (
-    ANY,
-    number_from_text,
-    numbers_from_text,
-    option_text,
-    region_from_text,
-)
+from burmester.errors import InputError
+from burmester.io.reading.option_text import ANY, numbers_from_text, option_text
 from burmester.io.reading.pose_table import Source
-from burmester.io.reading.stated_requirements import StatedRequirement, checked_requirement
+from burmester.io.reading.specification import (
+    Specification,
+    StatedRequirement,
+    checked_requirement,
+)
 from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance
+from burmester.io.reading.trees.field_values import VALUE_KINDS
 from burmester.requirements.requirement import Requirement
 from burmester.requirements.table import ASKED
+from burmester.tasks.option_table import LIMIT_OPTIONS
 
-FOOTPRINT_HELP = "write box:X,Y:X,Y from lower left to upper right, or polygon:X,Y:X,Y:X,Y, or any"
+
+def limits_from_options(**given: Sequence[str]) -> Specification:
+    """The limits in the texts of the options, by the names of the limits.
+
+    Raises E131, E132 for an empty box, and E137.
+    """
+    limits: dict[str, Any] = {}
+    where = {}
+    for each in LIMIT_OPTIONS:
+        texts, option = given.get(each.name, ()), each.option
+        if len(texts) > 2:
+            raise InputError(
+                "E131",
+                f"{option} is given {len(texts)} times, and a linkage has two dyads",
+                where=option_text(option, texts),
+                help=f"give {option} once for both dyads, or twice, once for each",
+            )
+        read = VALUE_KINDS[each.kind].from_text
+        limits[each.name] = tuple(
+            None if text.strip() == ANY else read(Source(option, text)) for text in texts
+        )
+        if texts:
+            where[each.name] = option_text(option, texts)
+    return Specification(**limits, where=where)
 
 
 def requirements_from_options(**given: Any) -> tuple[StatedRequirement, ...]:
@@ -42,13 +67,8 @@ def _stated(each: Requirement, value: Any) -> StatedRequirement:
         names = frozenset(name for text in value for name in _names(each, Source(option, text)))
         return StatedRequirement(each.name, names, option_text(option, value))
     where, source = option_text(option, [value]), Source(option, value)
-    if each.form == "choice":
-        return checked_requirement(each.name, value, where)
-    fault_at = source.where(0, len(value))
-    if each.form == "area":
-        area = None if value.strip() == ANY else region_from_text(source, FOOTPRINT_HELP)
-        return checked_requirement(each.name, area, where, fault_at)
-    bound = number_from_text(source, value, 0, "E134")
+    bound = VALUE_KINDS[each.form or ""].from_text(source)
+    fault_at = None if each.form == "choice" else source.where(0, len(value))
     return checked_requirement(each.name, bound, where, fault_at)
 
 
