@@ -18,7 +18,7 @@ from burmester.geometry.regions import Line, Point, Polygon, Segment
 from burmester.io import cases
 from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.poses import read_task
-from burmester.io.reading.trees.syntax_faults import syntax_fault
+from burmester.io.reading.trees.documents import syntax_fault
 from burmester.io.result import task_data
 from burmester.requirements.types import DRIVERS, GROUPS, TYPES
 from burmester.tasks.limits import KINDS, Limits

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import final
+from typing import Any, final
 
 import numpy as np
 
@@ -87,9 +87,12 @@ class SynthesisOptions:
                 stock = (value,) if isinstance(value, str) or not np.iterable(value) else value
                 stock = tuple(_length(each.name, length) for length in stock)
                 object.__setattr__(self, each.name, stock)
-            elif each.form in ("length", "seconds") and value is not None:
-                checked = (_length if each.form == "length" else _seconds)(each.name, value)
-                object.__setattr__(self, each.name, checked)
+            elif each.form == "length" and value is not None:
+                object.__setattr__(self, each.name, _length(each.name, value))
+            elif each.form == "seconds" and value is not None:
+                such = "seconds above zero, such as 2.0"
+                seconds = _above_zero(each.name, value, "a number of seconds", such)
+                object.__setattr__(self, each.name, seconds)
 
     @property
     def refines(self) -> bool:
@@ -111,35 +114,24 @@ def _require_word(name: str, value: object, known: tuple[str, ...]) -> None:
         )
 
 
-def _is_above_zero(value: object) -> bool:
+def _above_zero(name: str, value: Any, what: str, such: str) -> float:
+    """A number above zero, or E134; what: it is, such as "a length"; such: what to give."""
     real = isinstance(value, int | float | np.integer | np.floating) and not isinstance(value, bool)
-    return real and math.isfinite(value) and value > 0  # type: ignore[arg-type, operator]
+    if not (real and math.isfinite(value) and value > 0):
+        message = f"{name} is {shown(value)}, not {what} above zero"
+        raise InputError("E134", message, help=f"give {such}, or leave it out")
+    return float(value)
 
 
-def _seconds(name: str, value: object) -> float:
-    """A time above zero, or E134."""
-    if not _is_above_zero(value):
-        raise InputError(
-            "E134",
-            f"{name} is {shown(value)}, not a number of seconds above zero",
-            help="give seconds above zero, such as 2.0, or leave it out",
-        )
-    return float(value)  # type: ignore[arg-type]
-
-
-def _length(name: str, value: object) -> float:
-    """A length above zero, or E134."""
-    if not _is_above_zero(value):
-        raise InputError(
-            "E134",
-            f"{name} is {shown(value)}, not a length above zero",
-            help="give a length above zero, in the unit of the poses, or leave it out",
-        )
-    if value > MOST:  # type: ignore[operator]
+def _length(name: str, value: Any) -> float:
+    """A length above zero that can be computed with; raises E112 and E134."""
+    such = "a length above zero, in the unit of the poses"
+    length = _above_zero(name, value, "a length", such)
+    if length > MOST:
         raise InputError(
             "E112",
             f"the {name.replace('_', ' ')} is too large",
-            why=f"it is {value:g}, and {MOST:g} is the most to compute with",
+            why=f"it is {length:g}, and {MOST:g} is the most to compute with",
             help="give a smaller length, in the unit of the poses, or leave it out",
         )
-    return float(value)  # type: ignore[arg-type]
+    return length

@@ -19,7 +19,7 @@ from burmester.io.reading.specification import (
     checked_requirement,
 )
 from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance
-from burmester.io.reading.trees.field_values import VALUE_KINDS
+from burmester.io.reading.trees.specification_tree import VALUE_KINDS
 from burmester.requirements.requirement import Requirement
 from burmester.requirements.table import ASKED
 from burmester.tasks.option_table import LIMIT_OPTIONS

@@ -193,7 +193,7 @@ def _shapes(svgelements: Any, svg: Any) -> Iterator[tuple[Any, str, tuple[str, .
 
 def _curves(svgelements: Any, chosen: list[Any], scale: float) -> Iterator[Curve]:
     """The subpaths as polylines, y upwards."""
-    points = [p for path, _, _ in chosen for p in _control_points(svgelements, path)]
+    points = [p for path, _, _ in chosen for segment in path for p in _control_points(segment)]
     xy = np.array(points, dtype=float).reshape(-1, 2)
     if not (np.abs(xy) < FAR).all():
         raise unreadable("it has a coordinate that is not finite, or too large", PLAIN)
@@ -207,7 +207,7 @@ def _curves(svgelements: Any, chosen: list[Any], scale: float) -> Iterator[Curve
                     yield Curve(_upwards(corners, scale), closed, kind, names)
                 corners, closed = [], False
                 if segment is not None:
-                    corners = [_pair(segment.end)[None]]
+                    corners = [np.array(_control_points(segment)[-1:])]
             elif isinstance(segment, svgelements.Close):
                 closed = True
                 if len(corners) > 1:
@@ -217,11 +217,10 @@ def _curves(svgelements: Any, chosen: list[Any], scale: float) -> Iterator[Curve
                 corners += _flattened(svgelements, segment, tolerance)
 
 
-def _control_points(svgelements: Any, path: Any) -> Iterator[tuple[float, float]]:
-    for segment in path:
-        for name in ("start", "control", "control1", "control2", "end"):
-            if (point := getattr(segment, name, None)) is not None:
-                yield float(point.x), float(point.y)
+def _control_points(segment: Any) -> list[tuple[float, float]]:
+    names = ("start", "control", "control1", "control2", "end")
+    points = (getattr(segment, name, None) for name in names)
+    return [(float(point.x), float(point.y)) for point in points if point is not None]
 
 
 def _flattened(svgelements: Any, segment: Any, tolerance: float) -> list[FloatArray]:
@@ -233,9 +232,7 @@ def _flattened(svgelements: Any, segment: Any, tolerance: float) -> list[FloatAr
 
 def _chords(segment: Any, tolerance: float) -> FloatArray:
     """Chords of a line or of a Bézier curve: h²/8 of its second derivative is their error."""
-    names = ("start", "control", "control1", "control2", "end")
-    given = [getattr(segment, name, None) for name in names]
-    p = np.array([_pair(point) for point in given if point is not None])
+    p = np.array(_control_points(segment))
     if len(p) <= 2:
         return p[-1:]
     degree = len(p) - 1
@@ -248,10 +245,6 @@ def _chords(segment: Any, tolerance: float) -> FloatArray:
         math.comb(degree, k) * t**k * (1 - t) ** (degree - k) * p[k] for k in range(degree + 1)
     ]
     return np.asarray(np.sum(terms, axis=0))
-
-
-def _pair(point: Any) -> FloatArray:
-    return np.array([float(point.x), float(point.y)])
 
 
 def _upwards(corners: list[FloatArray], scale: float) -> FloatArray:

@@ -160,34 +160,35 @@ def _inside(text: str, at: int, path: Path, key: bool) -> tuple[int, int] | None
     """What lies at a path within the value that begins at a place."""
     span: tuple[int, int] | None = None  # of the key on the way, if there is one
     while path:
-        step, span, implied = path[0], None, None
-        opening, at = text[at], _blank(text, at + 1)
-        if opening == "[" and step in NUMERIC:  # a pose in brackets
-            step = NUMERIC.index(str(step))
-        if opening not in "[{" or (opening == "[") != isinstance(step, int):
-            return None
-        index = 0
-        while text[at] not in "]}":
-            if opening == "[":
-                if index == step:
-                    path = path[1:]
-                    break
-                index += 1
-            else:
-                parts, at = _key(text, at)
-                words = tuple(word for word, _, _ in parts)
-                at = _blank(text, at + 1)
-                if words == path[: len(words)]:
-                    path, span = path[len(words) :], parts[-1][1:]
-                    break
-                if words[: len(path)] == path:
-                    implied = implied or parts[len(path) - 1][1:]
-            at = _blank(text, _end(text, at))
-            if text[at] == ",":
-                at = _blank(text, at + 1)
+        implied = None
+        if text[at] == "[" and path[0] in NUMERIC:  # a pose in brackets
+            path = (NUMERIC.index(str(path[0])), *path[1:])
+        for parts, value in _members(text, at):
+            words = tuple(word for word, _, _ in parts)
+            if words == path[: len(words)]:
+                span = None if isinstance(words[0], int) else parts[-1][1:]
+                at, path = value, path[len(words) :]
+                break
+            if words[: len(path)] == path:
+                implied = implied or parts[len(path) - 1][1:]
         else:
             return implied
     return span if key and span else (at, _end(text, at))
+
+
+def _members(text: str, at: int) -> Iterator[tuple[list[_Part], int]]:
+    """The keys of a table, or the indices of a list, and where their values begin."""
+    opening, index = text[at], 0
+    at = _blank(text, at + 1)
+    while opening in "[{" and text[at] not in "]}":
+        parts: list[_Part] = [(index, at, at)]
+        if opening == "{":
+            parts, at = _key(text, at)
+            at = _blank(text, at + 1)
+        yield parts, at
+        index, at = index + 1, _blank(text, _end(text, at))
+        if text[at] == ",":
+            at = _blank(text, at + 1)
 
 
 def _key(text: str, at: int) -> tuple[list[_Part], int]:

@@ -34,12 +34,12 @@ from burmester.io.reading.specification import (
     Specification,
     StatedSurroundings,
 )
-from burmester.io.reading.stated_tolerances import FREE_WORDS, TOLERANCE_ROLES, DefaultTolerance
+from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance, StatedTolerances
 from burmester.io.reading.trees.locations import Document, close_match
 from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.option_table import TABLES, TOP_KEYS
 from burmester.tasks.pose_tolerances import COMPONENTS
-from burmester.tasks.traced_path import TracedPath
 from burmester.wording import listed
 
 ANGLE_KEYS: Final = {"angle": None, "angle_deg": "deg", "angle_rad": "rad"}
@@ -300,9 +300,11 @@ def _rows(poses: Node, stated_unit: str | None) -> tuple[Rows, str | None, str |
         columns["name"] = [pose.get("name", "") for pose in stated]
     if any(pose.get("exact") for pose in stated):
         columns["exact"] = ["x" if pose.get("exact") else "" for pose in stated]
-    columns |= _tolerances(nodes, stated, unit)
     crank, crank_unit = _crank_column(nodes, stated)
-    return Rows.read(columns | crank), unit, crank_unit, where
+    rows = Rows.read(columns | crank)
+    if tolerances := _tolerances(nodes, stated, unit):
+        rows = rows._replace(tolerances=tolerances)
+    return rows, unit, crank_unit, where
 
 
 def _pose(node: Node, fields: Fields) -> Pose:
@@ -440,19 +442,15 @@ def _angles(
 
 def _tolerances(
     nodes: Sequence[Node], poses: Sequence[Pose], unit: str | None
-) -> dict[str, list[str]]:
-    """The columns of what the poses state of their tolerances; none where no pose does."""
+) -> StatedTolerances | None:
+    """What the poses state of their tolerances; None where no pose does.  Raises E136."""
     if not any("tolerance" in pose or "free" in pose for pose in poses):
-        return {}
-    columns: dict[str, list[str]] = {"free": [], "tol_axes": []}
-    for node, pose in zip(nodes, poses, strict=True):
-        given = pose.get("tolerance", {})
-        columns["free"].append(" ".join(_free(pose)))
-        columns["tol_axes"].append(given.get("axes", ""))
-        for name, role, bound in zip(
-            COMPONENTS, TOLERANCE_ROLES, bounds_of(given, unit), strict=True
-        ):
-            if name in pose.get("free", ()) and math.isfinite(bound):
+        return None
+    tolerances = [pose.get("tolerance", {}) for pose in poses]
+    bounds = np.array([bounds_of(each, unit) for each in tolerances])
+    for node, pose, row in zip(nodes, poses, bounds, strict=True):
+        for name in pose.get("free", ()):
+            if math.isfinite(bound := row[COMPONENTS.index(name)]):
                 raise node.at("tolerance").located(
                     InputError(
                         "E136",
@@ -461,8 +459,8 @@ def _tolerances(
                         help=f"take {name} out of free, or out of the tolerance",
                     )
                 )
-            columns.setdefault(role, []).append(repr(bound))
-    return columns
+            row[COMPONENTS.index(name)] = math.inf
+    return StatedTolerances(bounds, [each.get("axes", "") for each in tolerances], (True,) * 3)
 
 
 def _crank_column(

@@ -1,13 +1,31 @@
-"""Limits and requirements in JSON and TOML: the keys under `limits` and `requirements`.
+"""Limits and requirements in JSON and TOML, and each kind of value there and in an option's text.
 
 One table of limits is for both dyads of a linkage, a list of two has one for each.
+
+In a text a region is X,Y (a point) or line:X,Y:X,Y, segment:X,Y:X,Y, box:X,Y:X,Y or
+polygon:X,Y:X,Y:X,Y with any more corners; a length is MIN:MAX, either side may be empty; kinds
+are RR,PR.  A rail or slot is direction:DEG+-DEG, through:REGION and travel:REGION, or some of them,
+with blanks between.  What does not fit is E131, with a caret below the text.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any, Final
+from typing import Any, Final, NamedTuple, TypeAlias
 
+import numpy as np
+
+from burmester.errors import InputError
+from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
+from burmester.io.reading.option_text import (
+    ANY,
+    number_from_text,
+    numbers_from_text,
+    option_fault,
+)
+from burmester.io.reading.pose_table import Source, shown
 from burmester.io.reading.specification import (
     LIMITS,
     REQUIREMENTS,
@@ -15,13 +33,192 @@ from burmester.io.reading.specification import (
     StatedRequirement,
     checked_requirement,
 )
-from burmester.io.reading.trees.field_values import VALUE_KINDS
 from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.numerics.arrays import FloatArray
 from burmester.requirements.requirement import Requirement
 from burmester.requirements.table import ASKED
-from burmester.tasks.limits import Limits
+from burmester.tasks.limits import KINDS, Kind, Limits
 from burmester.tasks.option_table import LIMIT_OPTIONS
-from burmester.wording import listed
+from burmester.tasks.rails import Rail
+from burmester.wording import count, listed
+
+LengthRange: TypeAlias = tuple[float, float]
+
+# Name of a region: its number of points (None: any number), and its constructor.
+SHAPES: Final[Mapping[str, tuple[int | None, Callable[[FloatArray], Region]]]] = {
+    "point": (1, lambda points: Point(points[0])),
+    "line": (2, lambda points: Line(*points)),
+    "segment": (2, lambda points: Segment(*points)),
+    "box": (2, lambda points: box(*points)),
+    "polygon": (None, Polygon),
+}
+REGION_HELP: Final = (
+    "write X,Y for a point, or line:X,Y:X,Y, segment:, box: or polygon: likewise, or any"
+)
+FOOTPRINT_HELP: Final = (
+    "write box:X,Y:X,Y from lower left to upper right, or polygon:X,Y:X,Y:X,Y, or any"
+)
+RAIL_HELP: Final = (
+    "write direction:DEG or direction:DEG+-DEG, through:REGION and travel:REGION, or some of them, "
+    'such as "direction:0+-2 through:0,0", or any'
+)
+LENGTH_HELP: Final = "write 10:200, 10: for at least 10, :200 for at most 200, or any"
+
+
+def region_from_text(source: Source, help: str = REGION_HELP) -> Region:
+    """The region in a text; raises E131, or E132 for an empty box, with a caret."""
+    head, colon, rest = source.text.partition(":")
+    shape = head.strip() if colon else "point"
+    if shape not in SHAPES:
+        raise option_fault(source, f"there is no region {shown(shape)}", help, width=len(head))
+    at = len(head) + 1 if colon else 0
+    points, (number, make) = [], SHAPES[shape]
+    for part in (rest if colon else source.text).split(":"):
+        points.append(numbers_from_text(source, part, at, "a point X,Y", help))
+        at += len(part) + 1
+    if number not in (None, len(points)):
+        message = f"a {shape} takes {count(number, 'point')}, not {len(points)}"
+        raise option_fault(source, message, help)
+    region: Region = _built(source, make, np.array(points))
+    return region
+
+
+def _built(source: Source, make: Callable[..., Any], *values: Any, **named: Any) -> Any:
+    """What a maker makes of a text, which its errors then show."""
+    try:
+        return make(*values, **named)
+    except InputError as error:
+        error.where = error.where or source.where(0, len(source.text))
+        raise
+
+
+def _points(number: int | None, node: Node) -> Any:
+    return [node.pair()] if number == 1 else node.points(number or 3, number)
+
+
+SHAPE_FIELDS: Final[Fields] = {
+    name: Field(partial(_points, number)) for name, (number, _) in SHAPES.items()
+}
+AREA_FIELDS: Final[Fields] = {name: SHAPE_FIELDS[name] for name in ("box", "polygon")}
+
+
+def read_region(node: Node, fields: Fields = SHAPE_FIELDS) -> Region:
+    """The region in a table of one shape; raises E105, E108, E131 and E132."""
+    shape, points = node.only(node.table(fields))
+    return node.at(shape).build(SHAPES[shape][1], np.array(points))
+
+
+def _length_from_text(source: Source) -> LengthRange:
+    low, colon, high = source.text.partition(":")
+    if not colon or ":" in high:
+        raise option_fault(source, f"{shown(source.text)} is not a range MIN:MAX", LENGTH_HELP)
+    least = number_from_text(source, low, 0) if low.strip() else 0.0
+    most = number_from_text(source, high, len(low) + 1) if high.strip() else math.inf
+    return least, most
+
+
+def _read_length(node: Node) -> LengthRange:
+    given = node.table({"least": Field(Node.number), "most": Field(Node.number)})
+    return given.get("least", 0.0), given.get("most", math.inf)
+
+
+def _kinds_from_text(source: Source) -> frozenset[Kind]:
+    at, kinds = 0, set[Kind]()
+    for item in source.text.split(","):
+        known = [kind for kind in KINDS if kind == item.strip().upper()]
+        if not known:
+            message = f"there is no dyad kind {shown(item)}"
+            help = f"choose among {', '.join(KINDS)}, with commas between them"
+            raise option_fault(source, message, help, at=at, width=len(item))
+        kinds.update(known)
+        at += len(item) + 1
+    return frozenset(kinds)
+
+
+def _read_kinds(node: Node) -> frozenset[str]:
+    kinds = [(each, each.text()) for each in node.items()]
+    return frozenset(each.build(Limits, kinds={kind}) and kind for each, kind in kinds)
+
+
+def _rail_from_text(source: Source) -> Rail:
+    """The rail in a text; raises E131 and E137."""
+    stated: dict[str, Any] = {}
+    at = 0
+    for word in source.text.split():
+        at = source.text.index(word, at)
+        name, _, rest = word.partition(":")
+        begin, fault = at + len(name) + 1, None
+        if name not in ("direction", "through", "travel") or not rest:
+            fault = f"{shown(word)} says nothing of a rail"
+        elif name in stated or f"{name}_deg" in stated:
+            fault = f"{name} is given twice"
+        if fault is not None:
+            raise option_fault(source, fault, RAIL_HELP, at=at, width=len(word))
+        if name == "direction":
+            mark = "±" if "±" in rest else "+-"
+            angle, within, tolerance = rest.partition(mark)
+            stated["direction_deg"] = number_from_text(source, angle, begin)
+            if within:
+                place = begin + len(angle) + len(mark)
+                stated["tolerance_deg"] = number_from_text(source, tolerance, place)
+        else:
+            stated[name] = region_from_text(Source(source.label, rest))
+        at += len(word)
+    if not stated:
+        raise option_fault(source, "it is empty", RAIL_HELP)
+    rail: Rail = _built(source, Rail, **stated)
+    return rail
+
+
+_REGION: Final = (
+    "a region has one key: point with [X, Y]; line, segment or box with two points "
+    "[[X, Y], [X, Y]]; polygon with three or more"
+)
+_RAIL_FIELDS: Final[Fields] = {
+    "direction_deg": Field(Node.number),
+    "tolerance_deg": Field(Node.number),
+    "through": Field(read_region, _REGION),
+    "travel": Field(read_region, _REGION),
+}
+
+
+class ValueKind(NamedTuple):
+    """A kind of value: how it is read from a text and from a tree, and what stands in a tree."""
+
+    from_text: Callable[[Source], Any]
+    from_tree: Callable[[Node], Any]
+    such: str = ""
+
+
+VALUE_KINDS: Final[Mapping[str, ValueKind]] = {
+    "region": ValueKind(region_from_text, read_region, _REGION),
+    "range": ValueKind(
+        _length_from_text,
+        _read_length,
+        "a length has the keys least and most, or one of them, with a number each",
+    ),
+    "kinds": ValueKind(
+        _kinds_from_text, _read_kinds, 'kinds is a list of some of "RR", "PR", "RP" and "PP"'
+    ),
+    "line": ValueKind(
+        _rail_from_text,
+        lambda node: node.build(Rail, **node.table(_RAIL_FIELDS)),
+        f"a rail or slot has {listed([*_RAIL_FIELDS])}, or some of them; through and travel are "
+        "regions",
+    ),
+    "area": ValueKind(
+        lambda source: (
+            None if source.text.strip() == ANY else region_from_text(source, FOOTPRINT_HELP)
+        ),
+        partial(read_region, fields=AREA_FIELDS),
+    ),
+    "number": ValueKind(
+        lambda source: number_from_text(source, source.text, 0, "E134"), Node.number
+    ),
+    "choice": ValueKind(lambda source: source.text, Node.text),
+    "flag": ValueKind(lambda source: source.text, Node.flag),
+}
+
 
 _LIMIT_FIELDS: Final[Fields] = {
     each.name: Field(VALUE_KINDS[each.kind].from_tree, VALUE_KINDS[each.kind].such)

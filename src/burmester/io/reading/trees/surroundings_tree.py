@@ -20,8 +20,8 @@ from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.outlines.outline_file import OutlineFile, folder_of, read_outline
 from burmester.io.reading.specification import StatedSurroundings
-from burmester.io.reading.trees.field_values import SHAPE_FIELDS, read_region
 from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.io.reading.trees.specification_tree import SHAPE_FIELDS, read_region
 from burmester.tasks.surroundings import KeepOut, Surroundings
 
 _AREAS: Final[Fields] = {name: SHAPE_FIELDS[name] for name in ("polygon", "box")}
