@@ -193,6 +193,14 @@ def test_a_blank_cell_says_how_a_component_is_left_free(tmp_path):
     assert read(tmp_path, fixed).tolerances.free.tolist()[1] == [False, True, False]
 
 
+@pytest.mark.parametrize("cell", ["0.5", "free"])
+def test_points_with_tolerances_have_no_angle(tmp_path, cell):
+    """Also where a cell is no number, so that rows are read cell by cell."""
+    task = read(tmp_path, f"x,y,tol_x\n0,0,0.5\n1,0,{cell}\n3,1,1\n")
+    assert task.tolerances.free[:, 2].all()
+    assert task.tolerances.position[0].tolist() == [0.5, 0]
+
+
 def test_the_tolerance_of_all_poses_as_an_option():
     given = pose_tolerance("0.1, free,0.5,body")
     assert given.bounds == (0.1, INF, 0.5)

@@ -114,9 +114,11 @@ def _with_free_angles(columns: dict[str, list[str]]) -> dict[str, list[str]]:
     if "px" in columns or "cos" in columns:
         return columns
     angle = columns.get("angle", ["nan"] * len(columns["x"]))
-    if "nan" not in angle or "free" in columns:
+    free = columns.get("free", [""] * len(angle))
+    if "nan" not in angle or ("angle" in columns and "free" in columns):
         return columns
-    return columns | {"angle": angle, "free": ["angle" if a == "nan" else "" for a in angle]}
+    named = zip(angle, free, strict=True)
+    return columns | {"angle": angle, "free": [f"{f} angle" if a == "nan" else f for a, f in named]}
 
 
 class CrankOptions(NamedTuple):

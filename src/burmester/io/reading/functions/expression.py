@@ -56,13 +56,12 @@ def read_expression(source: Source) -> Values:
 
     Raises E190.
     """
-    root = _parsed(source)
-    _require(root, source, 0)
+    value = _compiled(_parsed(source), source, 0)
 
     def values(x: FloatArray) -> FloatArray:
         x = np.asarray(x, dtype=np.float64)
         with np.errstate(all="ignore"):
-            return np.broadcast_to(np.asarray(_value(root, x), dtype=np.float64), x.shape)
+            return np.broadcast_to(np.asarray(value(x), dtype=np.float64), x.shape)
 
     return values
 
@@ -106,21 +105,26 @@ def _parsed(source: Source) -> ast.expr:
         raise _fault(source, 0, 1, "the expression cannot be read") from None
 
 
-def _require(node: ast.expr, source: Source, depth: int) -> None:  # noqa: PLR0912  a case each
-    """Refuse all but the operations, names and functions that are known."""
+def _compiled(  # noqa: PLR0912  a case each
+    node: ast.expr, source: Source, depth: int
+) -> Callable[[FloatArray], Any]:
+    """The value at x; refuses all but the operations, names and functions that are known."""
     at, width = _place(node, source)
     if depth > MOST_DEPTH:
         message = f"the expression has more than {MOST_DEPTH} operations within each other"
         raise _fault(source, at, width, message, "a simpler one, such as log10(x)")
     match node:
         case ast.Constant(value=value) if type(value) in (int, float):
-            if not math.isfinite(_number(value)):
+            if not math.isfinite(number := _number(value)):
                 raise _fault(source, at, width, "this number is too large", "one below 1e308")
             written = source.text[at : at + width].replace("_", "")
             if value == 0 and isinstance(value, float) and not is_held(written):
                 raise _fault(source, at, width, "this number is too small", "0 if that is meant")
-        case ast.Name(id=name) if name == "x" or name in CONSTANTS:
-            pass
+            return lambda _: number
+        case ast.Name(id="x"):
+            return lambda x: x
+        case ast.Name(id=name) if name in CONSTANTS:
+            return lambda _: CONSTANTS[name]
         case ast.Name(id=name):
             hint = f"write {name}(x)" if name in FUNCTIONS else f"known are {KNOWN}"
             message = (
@@ -129,15 +133,17 @@ def _require(node: ast.expr, source: Source, depth: int) -> None:  # noqa: PLR09
                 else f"there is no {_quoted(name)}"
             )
             raise InputError("E190", message, where=source.where(at, width), help=hint)
-        case ast.UnaryOp(op=ast.UAdd() | ast.USub(), operand=operand):
-            _require(operand, source, depth + 1)
+        case ast.UnaryOp(op=ast.UAdd() | ast.USub() as sign, operand=operand):
+            inner = _compiled(operand, source, depth + 1)
+            return (lambda x: -inner(x)) if isinstance(sign, ast.USub) else inner
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _OPERATIONS:
-            _require(left, source, depth + 1)
-            _require(right, source, depth + 1)
+            one, two = (_compiled(each, source, depth + 1) for each in (left, right))
+            return lambda x: _OPERATIONS[type(op)](np.float64(1) * one(x), two(x))
         case ast.BinOp(op=ast.BitXor()):
             raise _fault(source, at, width, "^ is no operation here", "** for a power, as in x**2")
         case ast.Call(func=ast.Name(id=name), args=[argument], keywords=[]) if name in FUNCTIONS:
-            _require(argument, source, depth + 1)
+            inner = _compiled(argument, source, depth + 1)
+            return lambda x: FUNCTIONS[name](np.float64(1) * inner(x))
         case ast.Call(func=ast.Name(id=name)) if name in FUNCTIONS:
             raise _fault(source, at, width, f"{name} takes one number", f"{name}(x)")
         case ast.Call(func=ast.Name(id=name)):
@@ -155,23 +161,6 @@ def _require(node: ast.expr, source: Source, depth: int) -> None:  # noqa: PLR09
             raise InputError(
                 "E190", message, where=source.where(at, width), help=f"known are {KNOWN}"
             )
-
-
-def _value(node: ast.expr, x: FloatArray) -> Any:
-    """The value at x; nodes that `_require` refuses do not come here."""
-    match node:
-        case ast.Constant(value=value):
-            return _number(value)
-        case ast.Name(id=name):
-            return x if name == "x" else CONSTANTS[name]
-        case ast.UnaryOp(op=op, operand=operand):
-            inner = _value(operand, x)
-            return -inner if isinstance(op, ast.USub) else inner
-        case ast.BinOp(left=left, op=op, right=right):
-            return _OPERATIONS[type(op)](np.float64(1) * _value(left, x), _value(right, x))
-        case ast.Call(func=ast.Name(id=name), args=[argument]):
-            return FUNCTIONS[name](np.float64(1) * _value(argument, x))
-    raise AssertionError(node)
 
 
 def _number(value: Any) -> float:

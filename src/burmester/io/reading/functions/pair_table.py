@@ -10,7 +10,7 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Sequence
-from typing import Final, NamedTuple
+from typing import Final
 
 import numpy as np
 
@@ -26,16 +26,12 @@ from burmester.numerics.arrays import FloatArray
 WEIGHT: Final = "weight"
 
 
-class Column(NamedTuple):
-    """Where the numbers of a role stand, and the unit of angles."""
+def _columns(names: Sequence[str], where: str | None) -> dict[str, tuple[int, str | None]]:
+    """The columns by role, input, output and perhaps weight, and their units.
 
-    place: int
-    unit: str
-
-
-def _columns(names: Sequence[str], where: str | None) -> dict[str, Column]:
-    """The columns by role: input, output and perhaps weight; raises E105, E107 and E108."""
-    columns: dict[str, Column] = {}
+    Raises E105, E107 and E108.
+    """
+    columns: dict[str, tuple[int, str | None]] = {}
     for index, name in enumerate(names):
         if name.startswith("#") or not name:
             continue
@@ -53,7 +49,7 @@ def _columns(names: Sequence[str], where: str | None) -> dict[str, Column]:
             raise InputError(
                 "E108", f"two columns for {role}", where=where, help="delete one of the two columns"
             )
-        columns[role] = Column(index, found[2] if found else "")
+        columns[role] = index, found and found[2]
     for needed in ("input", "output"):
         if needed not in columns:
             raise InputError(
@@ -87,7 +83,7 @@ def read_pairs(source: Source, settings: FunctionSettings) -> FunctionTask:
         for role, (column, unit) in columns.items():
             where = functools.partial(row.where, column, role)
             quoted = '"' in row.cells[column]
-            text = own.read(row.value(column), number, where, unit=unit or None, quoted=quoted)
+            text = own.read(row.value(column), number, where, unit=unit, quoted=quoted)
             numbers[role].append(math.degrees(float(text)) if unit == "rad" else float(text))
     own.require_one_mark()
     arrays = {role: np.array(values) for role, values in numbers.items()}

@@ -130,7 +130,7 @@ def _table(grid: Grid, rows: Rows, numbers: CellNumbers, *, closed: bool) -> Pos
 def _plain_rows(block: str, grid: Grid, marks: dict[str, str]) -> Rows | None:
     """The rows of a block in which nothing is unusual, fast; None if something is."""
     separator, indices = grid.separator, grid.columns.indices
-    if grid.columns.may_be_free:
+    if not indices.keys().isdisjoint(WORD_ROLES):
         return None
     if separator == " ":
         block = re.sub(r"(?m)^[ \t]+|[ \t]+$", "", re.sub(r"[ \t]+", " ", block))
@@ -168,6 +168,9 @@ def _plain_rows(block: str, grid: Grid, marks: dict[str, str]) -> Rows | None:
     given = np.isfinite(rows.values)
     if {"angle", "px", "cos"}.isdisjoint(indices):
         given[:, 2] = True  # a point: its angle is free
+    if rows.tolerances is not None:
+        stated = rows.tolerances.bounds[:, rows.tolerances.columns]
+        given = np.append(given, np.isfinite(stated))
     return rows if given.all() else None
 
 
