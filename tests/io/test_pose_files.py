@@ -295,6 +295,7 @@ BAD: list[tuple[str, str | bytes, str, str, str]] = [
     (".toml", "a = 1\nposes = [[1, @, 3]]", "E109", "poses.toml:2:14", "^"),
     (".toml", "poses = [[1, 2", "E109", "poses.toml:1:14", "not TOML"),
     (".toml", 'angle_unit="deg"\nposes=[[1,2,nan]]', "E103", "poses.toml:2:13", "finite"),
+    (".toml", "poses=[{x=nan,y=2,angle_deg=3}]", "E103", "poses.toml:1:11", "finite"),
     (".toml", "poses = 0x" + "f" * 5000, "E104", "poses.toml:1:9", "0xfff"),
     (".toml", "poses = " + "9" * 5000, "E103", "poses.toml:1:9", "digits"),
     (".toml", "poses=[[1,2,3]]", "E110", "poses.toml:1:1", "both readings"),

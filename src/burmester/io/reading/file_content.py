@@ -11,6 +11,7 @@ from burmester.errors import Advice, InputError
 from burmester.io import cases
 from burmester.io.reading.pose_table import HEADER, no_poses, shown
 
+PARQUET, ARCHIVE = b"PAR1", b"PK\x03\x04"  # how their files begin; a workbook is an archive
 MAX_BYTES = 50_000_000  # of a file: some two million poses, or what is no pose file
 MAX_LINES = 1_100_000  # of a text: `check` takes 0.5 kB of memory a line, and 12 s for all
 MAX_TREE_CHARACTERS = 20_000_000  # of JSON and TOML
@@ -87,16 +88,6 @@ def too_large(why: str) -> InputError:
     """E101 for a file that is not read to its end."""
     help = "take one pose in ten, say: so many hardly tell more"
     return InputError("E101", "the file is too large", why=why, help=help)
-
-
-def is_parquet(data: bytes) -> bool:
-    """Whether a file begins as Parquet does."""
-    return data.startswith(b"PAR1")
-
-
-def is_archive(data: bytes) -> bool:
-    """Whether a file begins as an archive does; a workbook is one."""
-    return data.startswith(b"PK\x03\x04")
 
 
 def decode_text(data: bytes, name: str = "") -> tuple[str, tuple[Advice, ...]]:

@@ -8,7 +8,7 @@ from pathlib import PurePath
 from typing import Final
 
 from burmester.errors import InputError
-from burmester.io.reading.file_content import is_archive, is_parquet
+from burmester.io.reading.file_content import ARCHIVE, PARQUET
 from burmester.io.reading.pose_table import SHEET_HEAD
 from burmester.io.reading.tables.columns import has_poses
 from burmester.io.reading.tables.grid import ROW_LINE, values_of
@@ -31,12 +31,12 @@ def has_pairs(names: Sequence[str]) -> bool:
 
 def is_function(data: bytes, path: str, sheet: str | None = None) -> bool:
     """Whether the bytes of a file are a function task, whatever is wrong with it."""
-    if is_archive(data):
+    if data.startswith(ARCHIVE):
         from burmester.io.reading.tables.workbook import may_hold
 
         if not may_hold(data, _NAMES):
             return False
-    elif is_parquet(data) and not _NAMES.search(data):
+    elif data.startswith(PARQUET) and not _NAMES.search(data):
         return False
     try:
         source = text_source(data, path, sheet)

@@ -10,8 +10,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator
-from itertools import islice
+from itertools import chain, count, islice
 from typing import NamedTuple
 
 from burmester.io.reading.pose_table import Source
@@ -220,10 +219,9 @@ def _markers(
     for name, axis, i, _ in columns:
         kind = types[i] if types and i < len(types) and times[name, axis] > 1 else ""
         label = f"{name} ({kind})" if kind else name
-        number = 1
-        while axis in markers.setdefault(label if number == 1 else f"{label} #{number}", {}):
-            number += 1
-        markers[label if number == 1 else f"{label} #{number}"][axis] = i
+        labels = chain((label,), (f"{label} #{number}" for number in count(2)))
+        places = (markers.setdefault(each, {}) for each in labels)
+        next(place for place in places if axis not in place)[axis] = i
     return {
         name: found for name, found in markers.items() if sum(axis in found for axis in AXES) > 1
     }
@@ -231,13 +229,9 @@ def _markers(
 
 def _frame_and_time(labels: list[tuple[str, ...]]) -> tuple[int | None, int | None]:
     """The first columns of frame numbers and of times."""
-
-    def first(known: Iterator[bool]) -> int | None:
-        return next((i for i, is_known in enumerate(known) if is_known), None)
-
-    frame = first(any(each.lower() in _FRAMES for each in cell) for cell in labels)
-    time = first(any(_TIME.fullmatch(each) for each in cell) for cell in labels)
-    return frame, time
+    frames = (i for i, cell in enumerate(labels) if any(each.lower() in _FRAMES for each in cell))
+    times = (i for i, cell in enumerate(labels) if any(map(_TIME.fullmatch, cell)))
+    return next(frames, None), next(times, None)
 
 
 def _cells(line: str, separator: str) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import PurePath
 
 from burmester.errors import InputError
-from burmester.io.reading.file_content import decode_text, is_archive, is_parquet
+from burmester.io.reading.file_content import ARCHIVE, PARQUET, decode_text
 from burmester.io.reading.pose_table import Source
 from burmester.printable import printable
 
@@ -21,14 +21,14 @@ def text_source(data: bytes, path: str, sheet: str | None = None) -> Source:
     sheet: by its name or its number; only a workbook has one.
     """
     label = label_of(path)
-    if is_archive(data):
+    if data.startswith(ARCHIVE):
         from burmester.io.reading.tables.workbook import read_sheet
 
         return read_sheet(label, data, sheet)
     if sheet is not None:
         message = "--sheet is for .xlsx workbooks; this file has one table"
         raise InputError("E108", message, where=label, help="leave --sheet out")
-    if is_parquet(data) or (PurePath(path).suffix.lower() == ".parquet" and data):
+    if data.startswith(PARQUET) or (PurePath(path).suffix.lower() == ".parquet" and data):
         from burmester.io.reading.tables.parquet import read_parquet
 
         return read_parquet(label, data)
