@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
+from burmester.printable import printable
 from burmester.wording import listed
 
 # Lengths of axes; None is any length, an ellipsis any number of leading axes.
@@ -149,6 +150,15 @@ def require_instance(
         why=f"it is {shown(value)}",
         help=help,
     )
+
+
+def short_text(text: str, most: int, what: str, help: str, *, code: str) -> str:
+    """A text as any screen can show it; an error of a code for one of too many characters."""
+    short = printable(text)
+    if len(short) > most:
+        why = f"it has {len(short)} characters, and {most} are the most"
+        raise InputError(code, f"{what} is too long", why=why, help=help)
+    return short
 
 
 def shown(value: object) -> str:

@@ -84,7 +84,6 @@ class CrankTiming:
                 f"a crank angle within {math.degrees(self.within):g}° is impossible",
                 help="give an angle above zero, or leave it out",
             )
-        angles.setflags(write=False)
         object.__setattr__(self, "angles", angles)
 
     @property
@@ -249,7 +248,6 @@ class TracedPath:
                 why="a crank that stands still traces one point only",
                 help="give the angle by which the crank has turned at each point",
             )
-        angles.setflags(write=False)
         object.__setattr__(self, "crank_angles", angles)
 
     def at(self, index: NDArray[np.intp]) -> TracedPath:

@@ -17,10 +17,10 @@ from burmester.printable import printable
 from burmester.tasks.crank_timing import CrankTiming, TracedPath
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
-from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, nominal_values
+from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, kept, nominal_rows
 from burmester.tasks.requirements import Requirements, require_possible
 from burmester.tasks.surroundings import Surroundings, require_clear_at_poses
-from burmester.values import real_numbers, require_instance, shown
+from burmester.values import real_numbers, require_instance, short_text, shown
 from burmester.wording import count as count_of
 
 COARSE = 1e-3  # coarser digits than this count as meant exactly, not as measured
@@ -275,7 +275,8 @@ class Task:
                 why=f"the shape is {self.poses.shape}",
                 help="give one row of poses, and a task for each of several rows",
             )
-        own: dict[str, object] = {"poses": Displacement(*map(_kept, _parts(self.poses)))}
+        poses = Displacement(kept(self.poses.translation), kept(self.poses.angle))
+        own: dict[str, object] = {"poses": poses}
         if self.weights is not None:
             own["weights"] = real_numbers(self.weights, (None,), "the weights", code="E122")
         if self.exact is not None:
@@ -284,7 +285,10 @@ class Task:
             own["names"] = _names(self.names)
         if self.length_unit is not None:
             require_instance(self.length_unit, str, "the length unit", 'give a text such as "mm"')
-            own["length_unit"] = _unit(self.length_unit)
+            help = 'give a unit such as "mm"'
+            own["length_unit"] = short_text(
+                self.length_unit, MOST_UNIT, "the length unit", help, code="E122"
+            )
         position, angle = real_numbers(self.resolution, (2,), "the resolution").tolist()
         if min(position, angle) < 0:
             raise InputError(
@@ -357,7 +361,7 @@ class Task:
             require_angle_unit(angle_unit)
             table = _table_of(rows, finite=tolerances is None)
             if isinstance(tolerances, PoseTolerances) and tolerances.shape == table.shape[:1]:
-                table = _with_nominal_values(table, tolerances, angle_unit)
+                table = nominal_rows(table, tolerances.free & np.isnan(table), angle_unit)
             angle = np.radians(table[:, 2]) if angle_unit == "deg" else table[:, 2]
             poses = Displacement(table[:, :2], angle)
         return cls(
@@ -428,17 +432,6 @@ def require_angle_unit(unit: object) -> None:
     )
 
 
-def _with_nominal_values(
-    table: FloatArray, tolerances: PoseTolerances, angle_unit: AngleUnit | None
-) -> FloatArray:
-    """Rows (N, 3) with `nominal_values` in place of nan, where the component is free."""
-    out, free = np.array(table), tolerances.free & np.isnan(table)
-    whole = 360.0 if angle_unit == "deg" else 2 * np.pi
-    for column, turn in enumerate((None, None, whole)):
-        out[:, column] = nominal_values(table[:, column], free[:, column], turn=turn)
-    return out
-
-
 def _are_many_points(tolerances: PoseTolerances, pivots: int) -> bool:
     """Whether only points are asked for, and more of them than a linkage meets exactly.
 
@@ -484,17 +477,6 @@ def _require_fitting(
         )
 
 
-def _parts(poses: Displacement) -> tuple[FloatArray, FloatArray]:
-    return poses.translation, poses.angle
-
-
-def _kept(values: FloatArray) -> FloatArray:
-    """A copy that cannot be written to."""
-    own = np.array(values)
-    own.setflags(write=False)
-    return own
-
-
 def _marks(value: object) -> NDArray[np.bool_]:
     """Marks, each true or false: E122 for anything else."""
     marks = np.asarray(value)
@@ -505,22 +487,8 @@ def _marks(value: object) -> NDArray[np.bool_]:
             why=f"they are {shown(value)}",
             help="mark every pose True or False, or give no marks",
         )
-    own: NDArray[np.bool_] = np.array(marks)
-    own.setflags(write=False)
+    own: NDArray[np.bool_] = kept(marks)
     return own
-
-
-def _unit(value: str) -> str:
-    """A unit as any screen can show it: E122 for one that is too long."""
-    unit = printable(value)
-    if len(unit) > MOST_UNIT:
-        raise InputError(
-            "E122",
-            "the length unit is too long",
-            why=f"it has {len(unit)} characters, and {MOST_UNIT} are the most",
-            help='give a unit such as "mm"',
-        )
-    return unit
 
 
 def _names(value: object) -> tuple[str, ...]:
@@ -529,13 +497,10 @@ def _names(value: object) -> tuple[str, ...]:
         names = tuple(value)
         if all(isinstance(name, str) for name in names):
             own = tuple(map(printable, names))
-            if own and len(longest := max(own, key=len)) > MOST_NAME:
-                raise InputError(
-                    "E122",
-                    f"the name of pose {own.index(longest) + 1} is too long",
-                    why=f"it has {len(longest)} characters, and {MOST_NAME} are the most",
-                    help="give a shorter name",
-                )
+            if own:
+                longest = max(own, key=len)
+                what = f"the name of pose {own.index(longest) + 1}"
+                short_text(longest, MOST_NAME, what, "give a shorter name", code="E122")
             return own
     raise InputError(
         "E122",

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Final, Literal, Self, TypeAlias, final, get_args
+from typing import Any, Final, Literal, Self, TypeAlias, final, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -89,8 +89,8 @@ class PoseTolerances:
         bounds[bounds < LEAST_TOLERANCE] = 0.0
         bounds[bounds[:, 2] >= ANY_ANGLE, 2] = np.inf
         _require_meaning(bounds, axes)
-        object.__setattr__(self, "position", _kept(bounds[:, :2]))
-        object.__setattr__(self, "angle", _kept(bounds[:, 2]))
+        object.__setattr__(self, "position", kept(bounds[:, :2]))
+        object.__setattr__(self, "angle", kept(bounds[:, 2]))
         object.__setattr__(self, "axes", axes)
 
     @classmethod
@@ -225,6 +225,14 @@ def nominal_values(
     return np.where(free, between, values)
 
 
+def nominal_rows(table: FloatArray, free: NDArray[np.bool_], angle_unit: str | None) -> FloatArray:
+    """Rows (N, 3) of x, y and angle, those of free components (N, 3) between their neighbours."""
+    out, turn = np.array(table), 360.0 if angle_unit == "deg" else 2 * math.pi
+    for column, whole in enumerate((None, None, turn)):
+        out[:, column] = nominal_values(table[:, column], free[:, column], turn=whole)
+    return out
+
+
 def _require_bounds(bounds: FloatArray) -> None:
     """Refuse tolerances (N, 3) that are negative or no numbers: E135."""
     wrong = np.argwhere(~(bounds >= 0))
@@ -288,8 +296,8 @@ def _axes(value: object, count: int) -> tuple[ToleranceAxes, ...]:
     return out
 
 
-def _kept(values: FloatArray) -> FloatArray:
-    """A copy that cannot be written to."""
+def kept(values: Any) -> Any:
+    """A copy of an array that cannot be written to."""
     own = np.array(values)
     own.setflags(write=False)
     return own

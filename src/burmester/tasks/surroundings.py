@@ -12,7 +12,7 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.printable import printable
-from burmester.values import real_numbers, require_instance, shown
+from burmester.values import real_numbers, require_instance, short_text, shown
 
 MAX_REGIONS = 100  # keep-out regions of a task; each is compared with body and links
 POSES_AT_ONCE = 1000  # poses whose outlines are compared at once
@@ -52,14 +52,8 @@ class KeepOut:
             return
         require_instance(self.name, str, "the name of a region", 'give a text such as "bumper"',
                          code="E176")  # fmt: skip
-        name = printable(self.name).strip()
-        if len(name) > MAX_NAME:
-            raise InputError(
-                "E176",
-                "the name of a keep-out region is too long",
-                why=f"it has {len(name)} characters, and {MAX_NAME} are the most",
-                help="give a shorter name",
-            )
+        what, help = "the name of a keep-out region", "give a shorter name"
+        name = short_text(printable(self.name).strip(), MAX_NAME, what, help, code="E176")
         object.__setattr__(self, "name", name or None)
 
 

@@ -56,13 +56,13 @@ from burmester.io.reading.specification import Specification, combined_requireme
 from burmester.io.reading.stated_tolerances import (
     DefaultTolerance,
     combined_tolerances,
-    with_nominal_values,
 )
 from burmester.io.reading.tables.text_source import label_of, text_source
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable
 from burmester.tasks.crank_timing import CrankTiming, TracedPath
 from burmester.tasks.motion_task import Task
+from burmester.tasks.pose_tolerances import nominal_rows
 
 if TYPE_CHECKING:  # a reader is loaded with the first file that needs it
     from burmester.io.reading.markers.marker_recording import MarkerRecording
@@ -370,9 +370,8 @@ def _task(
         poses, resolution, measured = tracked_poses(coordinates, rows.decimals[0], tracked)
     else:
         unit = _angle_unit(table, values, angle_unit)
-        values = np.concatenate(
-            [with_nominal_values(values[:, :3], rows.tolerances, unit), values[:, 3:]], axis=1
-        )
+        nominal = nominal_rows(values[:, :3], np.isnan(values[:, :3]), unit)
+        values = np.column_stack([nominal, values[:, 3:]])
         poses, resolution = _oriented(table, values, unit)
         poses = in_convention(poses, convention)
     for stated in (pose_sigma, table.pose_sigma, measured):

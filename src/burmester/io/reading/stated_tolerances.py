@@ -6,7 +6,6 @@ where its pose is marked exact, and everywhere else if the task has no default.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
@@ -20,7 +19,6 @@ from burmester.tasks.pose_tolerances import (
     Component,
     PoseTolerances,
     ToleranceAxes,
-    nominal_values,
 )
 
 # The columns of numbers, and those of words; by the components that they belong to.
@@ -122,18 +120,6 @@ def combined_tolerances(
         if default is not None and stated is None:
             error.where = error.where or default.where or None
         raise
-
-
-def with_nominal_values(
-    values: FloatArray, stated: StatedTolerances | None, angle_unit: str
-) -> FloatArray:
-    """Rows (N, 3) of x, y, angle with a value between the neighbours in place of nan."""
-    if stated is None or not np.isnan(values).any():
-        return values
-    out = np.array(values)
-    for column, turn in enumerate((None, None, 360.0 if angle_unit == "deg" else 2 * math.pi)):
-        out[:, column] = nominal_values(out[:, column], np.isnan(out[:, column]), turn=turn)
-    return out
 
 
 def _require_no_blank(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.io.reading.pose_table import extent, resolution_by_digits
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, complex_of, pairs_of
 from burmester.wording import listed
 
 MAX_ROUNDS = 100  # of turning all places to the mean shape; a few are enough where noise is small
@@ -50,7 +50,7 @@ def fit_rigid_body(points: FloatArray) -> RigidFit:
     points: (N, K, 2), K >= 2 points in N places; they do not all coincide.
     Shape and places are fitted together: the shape is the mean of the places turned onto it.
     """
-    z = points[..., 0] + 1j * points[..., 1]
+    z = complex_of(points)
     centre = z.mean(axis=1, keepdims=True)
     z = z - centre
     shape = z[0]
@@ -72,9 +72,9 @@ def fit_rigid_body(points: FloatArray) -> RigidFit:
     squares = float((np.abs(residuals) ** 2).sum())
     noise = float(np.sqrt(squares / freedom)) if freedom > 0 else 0.0
     return RigidFit(
-        Displacement(_pairs(origin), np.angle(turn)),
-        _pairs(residuals),
-        _pairs(shape - shape[0]),
+        Displacement(pairs_of(origin), np.angle(turn)),
+        pairs_of(residuals),
+        pairs_of(shape - shape[0]),
         noise,
     )
 
@@ -83,10 +83,6 @@ def _direction(z: np.ndarray) -> np.ndarray:
     """Complex numbers divided by their sizes; 1 for 0."""
     size = np.abs(z)
     return np.where(size > 0, z / np.where(size > 0, size, 1), 1)
-
-
-def _pairs(z: np.ndarray) -> FloatArray:
-    return np.stack([z.real, z.imag], axis=-1)
 
 
 class Tracked(NamedTuple):
