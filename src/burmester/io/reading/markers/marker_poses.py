@@ -6,8 +6,6 @@ out is counted and said, and how rigid the markers are.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -54,11 +52,13 @@ def recorded_poses(
         message = f"no frame has {listed(recording.names)} together"
         help = "choose markers that are seen together with --points, or other frames with --from"
         raise InputError("E102", f"no poses: {message}", where=header.where, help=help)
-    planar = planar_points(recording.places[base], recording.axes, plane, behind, header.where)
+    planar, sentence = planar_points(
+        recording.places[base], recording.axes, plane, behind, header.where
+    )
     flat = np.full((*recording.places.shape[:2], 2), np.nan)
-    flat[base] = planar.points
+    flat[base] = planar
     points = flat[kept]
-    sentences = [planar.sentence] if planar.sentence else []
+    sentences = [sentence] if sentence else []
     sentences += _left_out(recording, selected & ~seen)
     rigid, warning, sigma = _rigidity(recording, flat, base, behind)
     sentences += rigid
@@ -162,17 +162,10 @@ def _rigidity(
     return [sentence], warning, (fit.noise, fit.sigma[1]) if two else fit.sigma
 
 
-class PlanarPoints(NamedTuple):
-    """Points in a plane, and what was done to have them there."""
-
-    points: FloatArray  # (N, K, 2)
-    sentence: str  # what was passed over, with figures; empty if nothing was
-
-
 def planar_points(
     points: FloatArray, axes: tuple[str, ...], plane: str | None, unit: str, where: str
-) -> PlanarPoints:
-    """Points (N, K, A) along A axes as points in a plane.
+) -> tuple[FloatArray, str]:
+    """Points (N, K, A) along A axes as points in a plane, and what was passed over, with figures.
 
     plane: two letters, the axes that become x and y, or `NEAREST`; None passes over the one axis
     along which the markers hardly move.  unit: with a blank before it, or empty.
@@ -182,13 +175,13 @@ def planar_points(
     size = np.sqrt((deviation**2).mean(axis=(0, 1)))
     figures = [f"{axis} by {value:.2g}{unit}" for axis, value in zip(axes, size, strict=True)]
     if plane is None and len(axes) == 2:
-        return PlanarPoints(points, "")
+        return points, ""
     if plane is None:
         flat = size <= MAX_FLATNESS * size.max()
         if flat.sum() != 1:
             raise _no_plane(deviation, figures, int(flat.sum()), where)
         kept = [i for i in range(3) if not flat[i]]
-        return PlanarPoints(points[..., kept], _passed_over(axes, figures, kept))
+        return points[..., kept], _passed_over(axes, figures, kept)
     if plane.lower() == NEAREST and len(axes) == 3:
         return _nearest_plane(points, deviation, axes, unit)
     letters = plane.upper()
@@ -203,7 +196,7 @@ def planar_points(
         )
     kept = [axes.index(letter) for letter in letters]
     sentence = _passed_over(axes, figures, kept) if len(axes) > 2 else ""
-    return PlanarPoints(points[..., kept], sentence)
+    return points[..., kept], sentence
 
 
 def _passed_over(axes: tuple[str, ...], figures: list[str], kept: list[int]) -> str:
@@ -216,7 +209,7 @@ def _passed_over(axes: tuple[str, ...], figures: list[str], kept: list[int]) -> 
 
 def _nearest_plane(
     points: FloatArray, deviation: FloatArray, axes: tuple[str, ...], unit: str
-) -> PlanarPoints:
+) -> tuple[FloatArray, str]:
     """Points in the plane that is nearest to all deviations from the markers' means."""
     normal, out = _normal(deviation)
     main = int(np.abs(normal).argmax())
@@ -230,7 +223,7 @@ def _nearest_plane(
         f"the markers are projected onto the nearest plane, {tilt:.2g}° off that of "
         f"{axes[first]} and {axes[second]}; they leave it by {out:.2g}{unit} (rms)"
     )
-    return PlanarPoints(points @ np.stack([x, y], axis=1), sentence)
+    return points @ np.stack([x, y], axis=1), sentence
 
 
 def _normal(deviation: FloatArray) -> tuple[FloatArray, float]:

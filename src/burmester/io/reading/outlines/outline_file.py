@@ -131,32 +131,10 @@ def read_outline(
 
 def drawing_in(file: OutlineFile, data: bytes | None = None, folder: str = "") -> Drawing:
     """The drawing in a file, or its part; raises E130, E170 and E173."""
-    return _drawing(file, _content(file, folder) if data is None else data)
-
-
-def _require_drawing(file: OutlineFile) -> None:
-    """Refuse a file whose name is that of no drawing."""
     if file.kind not in (".dxf", ".svg"):
         why = f"its name ends in {shown(file.kind)}" if file.kind else "its name has no suffix"
         raise unreadable(why, "give a DXF or an SVG file, named .dxf or .svg")
-
-
-def _content(file: OutlineFile, folder: str) -> bytes:
-    """The bytes of the file."""
-    _require_drawing(file)
-    path = file.path if os.path.isabs(file.path) else os.path.join(folder, file.path)
-    try:
-        with open_plain(path, "rb") as opened:
-            return opened.read(MAX_BYTES + 1)
-    except (OSError, ValueError) as error:  # ValueError: a null character in the path
-        why = getattr(error, "strerror", None) or str(error)
-        near = "of the task" if folder else "of the command"
-        raise unreadable(why, f"check the path, which begins at the folder {near}") from None
-
-
-def _drawing(file: OutlineFile, data: bytes) -> Drawing:
-    """The curves in the file."""
-    _require_drawing(file)
+    data = _content(file, folder) if data is None else data
     if len(data) > MAX_BYTES:
         why = f"it has more than {MAX_BYTES / 1e6:.0f} MB"
         raise unreadable(why, "save the outline alone to a file of its own")
@@ -176,6 +154,18 @@ def _drawing(file: OutlineFile, data: bytes) -> Drawing:
             else f"leave the {drawing.part_word} out",
         )
     return drawing
+
+
+def _content(file: OutlineFile, folder: str) -> bytes:
+    """The bytes of the file."""
+    path = file.path if os.path.isabs(file.path) else os.path.join(folder, file.path)
+    try:
+        with open_plain(path, "rb") as opened:
+            return opened.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as error:  # ValueError: a null character in the path
+        why = getattr(error, "strerror", None) or str(error)
+        near = "of the task" if folder else "of the command"
+        raise unreadable(why, f"check the path, which begins at the folder {near}") from None
 
 
 def only_closed_curve(drawing: Drawing, part: str | None) -> tuple[Curve, float, int]:

@@ -19,7 +19,7 @@ from __future__ import annotations
 import functools
 import itertools
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 
@@ -49,7 +49,7 @@ from burmester.io.reading.tables.grid import SEPARATOR_NAMES, Grid, Row, rows_of
 from burmester.io.reading.tables.header import read_header
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.crank_timing import TracedPath
-from burmester.tasks.pose_tolerances import COMPONENTS, Component
+from burmester.tasks.pose_tolerances import COMPONENTS
 
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
 LEAST_POINTS = 10  # of a path without crank angles; fewer points are met exactly
@@ -182,18 +182,18 @@ def _checked_rows(
     columns: dict[str, list[str]] = {role: [] for role in indices}
     numeric = {*numeric_roles(indices), *TOLERANCE_ROLES, "crank", "z"}
     if tolerant:
-        columns |= {role: [] for role in WORD_ROLES}
+        columns["free"] = []
     count = 0
     for count, row in enumerate(lines, 1):
         number = first + count - 1
         if len(row.cells) != len(grid.names) or grid.unnamed:
             _require_width(row, grid, number)
         for role, index in indices.items():
-            if role in WORD_ROLES:
+            if role == "free":
                 continue
             cell = row.value(index)
             blank_may_be = tolerant or role in ("angle", "crank")
-            special = special_text(cell, role) if blank_may_be else None
+            special = _special_text(cell, role) if blank_may_be else None
             if special is not None:  # a blank angle is free: a point of the body
                 cell = special
             elif role == "exact" and cell.lower() not in MARKS:
@@ -201,13 +201,19 @@ def _checked_rows(
                 help = "write yes or x for a pose to be met exactly, no or nothing for one to come "
                 help += "near"
                 raise InputError("E104", message, where=row.where(index, role), help=help)
+            elif role == "tol_axes":
+                if (axes := _AXES.get(cell.lower())) is None:
+                    message = f"row {number} has {shown(cell)} where the axes of a tolerance belong"
+                    help = "write fixed (along x and y of F) or body (along the body's own axes)"
+                    raise InputError("E104", message, where=row.where(index, role), help=help)
+                cell = axes
             elif role in numeric:
                 where = functools.partial(row.where, index, role)
                 quoted = '"' in row.cells[index]
                 cell = numbers.read(cell, number, where, role, units[role], quoted=quoted)
             columns[role].append(cell)
         if tolerant:
-            read_words(columns, row, indices, number)
+            columns["free"].append(_free_in_row(row, indices, number))
     return Rows.read(columns) if count else None
 
 
@@ -332,86 +338,52 @@ def _parted_number(row: Row) -> tuple[str, str] | None:
     return None
 
 
-def special_text(cell: str, role: str) -> str | None:
+def _special_text(cell: str, role: str) -> str | None:
     """The text of a cell that may hold no number; None where a number or text belongs.
 
     "nan" for a blank one, "inf" for a word for free.
     """
     if not cell and role in (*COMPONENTS, *TOLERANCE_ROLES, "crank"):
         return "nan"
-    return "inf" if role in TOLERANCE_ROLES and _is_free(cell) else None
+    return "inf" if role in TOLERANCE_ROLES and cell.lower() in FREE_WORDS else None
 
 
-def read_words(
-    columns: Mapping[str, list[str]], row: Row, indices: Mapping[str, int], number: int
-) -> None:
-    """Complete the columns `free` and `tol_axes` by the cells of a row.
+def _free_in_row(row: Row, indices: Mapping[str, int], number: int) -> str:
+    """The components that a row leaves free, by the texts of its cells; raises E104 and E136.
 
-    indices: of the cells by role; number: of the row, from 1.  Raises E104 and E136.
+    indices: of the cells by role; number: of the row, from 1.
     """
-
-    def where(role: str) -> str:
-        return row.where(indices.get(role), role)
-
     cells = {role: row.value(index) for role, index in indices.items()}
-    columns["free"].append(" ".join(_free_in_row(cells, number, where)))
-    columns["tol_axes"].append(_axes_of_cell(cells.get("tol_axes", ""), number, where))
-
-
-def _is_free(cell: str) -> bool:
-    return cell.lower() in FREE_WORDS
-
-
-def _axes_of_cell(cell: str, row: int, where: Callable[[str], str]) -> str:
-    """The axes that a cell of `tol_axes` names, "" for none; raises E104."""
-    axes = _AXES.get(cell.lower())
-    if axes is None:
-        message = f"row {row} has {shown(cell)} where the axes of a tolerance belong"
-        help = "write fixed (along x and y of F) or body (along the body's own axes)"
-        raise InputError("E104", message, where=where("tol_axes"), help=help)
-    return axes
-
-
-def _free_in_row(
-    cells: Mapping[str, str], row: int, where: Callable[[str], str]
-) -> tuple[Component, ...]:
-    """The components that a row leaves free, by the texts of its cells (blank for no value).
-
-    cells: by role; those of tolerances are numbers, blank or a word for free.  where: the location
-    of a role's cell.  Raises E104 and E136.
-    """
-    named: tuple[Component, ...] = ()
-    if "free" in cells:
-        given = free_components(cells["free"])
-        if given is None:
-            message = f"row {row} has {shown(cells['free'])} where free components belong"
-            help = "name x, y, angle or two of them with a blank between, or leave the cell blank"
-            raise InputError("E104", message, where=where("free"), help=help)
-        named = given
+    named = free_components(cells.get("free", ""))
+    if named is None:
+        message = f"row {number} has {shown(cells['free'])} where free components belong"
+        help = "name x, y, angle or two of them with a blank between, or leave the cell blank"
+        where = row.where(indices["free"], "free")
+        raise InputError("E104", message, where=where, help=help)
     out = []
     for component, role in zip(COMPONENTS, TOLERANCE_ROLES, strict=True):
-        tolerance = cells.get(role, "")
-        blank = cells.get(component) == ""
-        says_free = component in named or _is_free(tolerance)
-        if tolerance and not _is_free(tolerance) and (blank or component in named):
+        tolerance, blank = cells.get(role, ""), cells.get(component) == ""
+        is_free = tolerance.lower() in FREE_WORDS
+        if tolerance and not is_free and (blank or component in named):
             free = f"{component} among its free components" if component in named else component
             has = "has" if component in named else "has no"
             raise InputError(
                 "E136",
-                f"row {row} {has} {free}, and a tolerance of {tolerance} for it",
-                where=where(role),
+                f"row {number} {has} {free}, and a tolerance of {tolerance} for it",
+                where=row.where(indices[role], role),
                 why="a component within a tolerance has a number, a free one has no tolerance",
                 help=f"give {component} a number and take it out of free, or leave its tolerance "
                 "blank",
             )
+        says_free = component in named or is_free
         if blank and "free" in cells and not says_free:
             raise InputError(
                 "E104",
-                f"row {row} has no {component}, and its cell of free does not name it",
-                where=where(component),
+                f"row {number} has no {component}, and its cell of free does not name it",
+                where=row.where(indices[component], component),
                 why="a blank is never zero, and means free where the row says so",
                 help=f"write {component} into this row's cell of free, or give a number",
             )
         if blank or says_free:
             out.append(component)
-    return tuple(out)
+    return " ".join(out)
