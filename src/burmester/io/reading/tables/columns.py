@@ -9,7 +9,7 @@ Times, frames and remarks are passed over, and so is what begins with #.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from burmester.errors import Advice, InputError
@@ -96,22 +96,18 @@ class Columns(NamedTuple):
 def is_header(names: Sequence[str]) -> bool:
     """Whether all these are names of columns, and of enough of them for a pose or a point."""
     words = list(map(_known, names))
-    return None not in words and (_have_poses(words) or _have_points(words))
+    return None not in words and _have(words, NUMERIC[:2], POINTS)
 
 
 def has_poses(names: Sequence[str]) -> bool:
     """Whether enough of these are names of columns for a pose, whatever the others are."""
-    return _have_poses(list(map(_known, names[:1000])))
+    return _have(map(_known, names[:1000]), NUMERIC[:3], _WITH_DIRECTION, POINTS)
 
 
-def _have_poses(words: Sequence[Word | None]) -> bool:
+def _have(words: Iterable[Word | None], *some: tuple[str, ...]) -> bool:
+    """Whether all of some roles are there."""
     roles = {word.role for word in words if word}
-    return any(roles.issuperset(needed) for needed in (NUMERIC[:3], _WITH_DIRECTION, POINTS))
-
-
-def _have_points(words: Sequence[Word | None]) -> bool:
-    """Whether x and y are there: points of the body, without its angle."""
-    return {word.role for word in words if word}.issuperset(NUMERIC[:2])
+    return any(roles.issuperset(needed) for needed in some)
 
 
 def _known(name: str) -> Word | None:
