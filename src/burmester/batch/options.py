@@ -180,12 +180,15 @@ def _unknown(key: str, document: Document) -> InputError:
 def as_task(options: BatchOptions, label: str, data: bytes) -> Task:
     """A text as a task with what the options say of all tasks; raises what `read_task` does."""
     beside, unit = options.beside, options.data.get("angle_unit")
+    stated: dict[str, Any] = {
+        name: getattr(beside, name) for name in ("specification", "tolerance", "pose_sigma")
+    }
     try:
-        task = read_task(label, data=data, **_stated(beside))
+        task = read_task(label, data=data, **stated)
     except InputError as error:
         if error.code != "E110" or unit is None:
             raise
-        task = read_task(label, data=data, angle_unit=unit, **_stated(beside))
+        task = read_task(label, data=data, angle_unit=unit, **stated)
     around = beside.surroundings.surroundings()
     return replace(
         task,
@@ -193,11 +196,3 @@ def as_task(options: BatchOptions, label: str, data: bytes) -> Task:
         surroundings=around if task.surroundings is None else task.surroundings,
         length_unit=task.length_unit or beside.length_unit,
     )
-
-
-def _stated(beside: PoseTable) -> dict[str, Any]:
-    return {
-        "specification": beside.specification,
-        "tolerance": beside.tolerance,
-        "pose_sigma": beside.pose_sigma,
-    }

@@ -26,7 +26,7 @@ from burmester.io.result import task_data
 from burmester.live.plain import plain
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
-from burmester.tasks.option_table import OPTIONS
+from burmester.tasks.option_table import STUDIO_OPTIONS
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances, nominal_values
 
@@ -34,11 +34,6 @@ MOST_POSES = 100_000  # of a document
 NAME = "task.json"  # what a document is called where a message says its place
 
 _OF_POSES = ("poses", "path", "crank", "angle_unit", "length_unit", "pose_sigma", "tolerance")
-_OPTIONS = {  # of the studio
-    each.option.removeprefix("--"): each
-    for each in OPTIONS
-    if each.known or each.name in ("length_per_radian", "manufacturing_tolerance")
-}
 
 
 def task_of(document: object) -> Task:
@@ -111,11 +106,11 @@ def options_of(options: object, time_limit: float | None = None) -> SynthesisOpt
         raise InputError("E100", "the options are no object", help='give {"method": "auto"}')
     found: dict[str, Any] = {}
     for name, value in given.items():
-        if name not in _OPTIONS:
+        if name not in STUDIO_OPTIONS:
             message, help = f"there is no option {str(name)[:40]!r}", "the studio has "
-            raise InputError("E100", message, help=help + ", ".join(_OPTIONS))
+            raise InputError("E100", message, help=help + ", ".join(STUDIO_OPTIONS))
         if value is not None:
-            option = _OPTIONS[name]
+            option = STUDIO_OPTIONS[name]
             text = value if option.known else str(value)
             found[option.name] = option_value(option, text)
     return SynthesisOptions(**found, time_limit=time_limit)

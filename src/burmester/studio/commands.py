@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from typing import Any, Final
 
+from burmester.tasks.option_table import STUDIO_OPTIONS
+
 MOST_LETTERS: Final = 60  # of the name of a file
 
 # Options of `burmester export` by their names in the page.
@@ -15,7 +17,6 @@ SETTINGS = {
     "width_px": "--pixels",
 }
 AXES = ("x", "y", "z", "-x", "-y", "-z")
-OPTIONS = ("method", "norm", "prefer", "angle-weight", "tolerance")
 
 
 def commands(given: dict[str, Any]) -> list[dict[str, str]]:
@@ -28,7 +29,7 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
     asked = given.get("options")
     how = "".join(
         f" --{key} {asked[key]}"
-        for key in OPTIONS
+        for key in STUDIO_OPTIONS
         if isinstance(asked, dict) and _is_plain(asked.get(key))
     )
     best, chosen = given.get("linkage"), ""

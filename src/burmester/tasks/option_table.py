@@ -112,6 +112,14 @@ OPTIONS: Final = (
 )
 
 
+# Those that the studio has, by their long names.
+STUDIO_OPTIONS: Final = {
+    each.option.removeprefix("--"): each
+    for each in OPTIONS
+    if each.known or each.name in ("length_per_radian", "manufacturing_tolerance")
+}
+
+
 class LimitOption(NamedTuple):
     """One limit on a dyad, by its name in `Limits` and in files; given once or for each dyad.
 
