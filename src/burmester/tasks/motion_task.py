@@ -313,14 +313,10 @@ class Task:
         require_instance(
             self.requirements, Requirements, "the requirements of a task", "give a Requirements"
         )
-        if self.body is not None:
-            require_instance(self.body, Polygon, "the body of a task", "give a Polygon")
-        if self.surroundings is not None:
-            what = "the surroundings of a task"
-            require_instance(self.surroundings, Surroundings, what, "give a Surroundings")
-        if self.tolerances is not None:
-            help = "give a PoseTolerances"
-            require_instance(self.tolerances, PoseTolerances, "the tolerances of a task", help)
+        kinds = {"body": Polygon, "surroundings": Surroundings, "tolerances": PoseTolerances}
+        for name, kind in kinds.items():
+            if (given := getattr(self, name)) is not None:
+                require_instance(given, kind, f"the {name} of a task", f"give a {kind.__name__}")
         for name, value in own.items():
             object.__setattr__(self, name, value)
 
