@@ -37,6 +37,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
+from burmester.verdicts.found_linkage import numbered_pair
 
 WORSE = 1.05  # times the other's error
 NEGLIGIBLE = 1e-5  # motion sizes; what is added to both errors, so that none counts below it
@@ -67,7 +68,7 @@ def judged(result, z, rows):
     linkage = Linkage(*(RR(z[k : k + 2], z[k + 2 : k + 4], z[k + 4]) for k in (0, 5)))
     batch = LinkageBatch.of([linkage]).to_canonical(target.frames)
     places = target.frames.to_canonical(Displacement.from_poses(rows))
-    pair = tuple(evaluation.dyad("W", each) for each in (linkage.first, linkage.second))
+    pair = numbered_pair(linkage, 1)
     found = evaluation.evaluate(
         Candidates(batch, rows_of(places, target.length)[None], [pair], np.ones(1, dtype=bool))
     )

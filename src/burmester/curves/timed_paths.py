@@ -59,21 +59,12 @@ def _with_cranks(dyads: RR, poses: Displacement) -> tuple[LinkageBatch, FloatArr
     number = len(dyads.radius)
     one, two = np.nonzero(~np.eye(number, dtype=bool))
     (found, *_) = cognates(Linkage(dyads[one], dyads[two]))
-    a, b = found.first, found.second
-    assert isinstance(a, RR)
-    assert isinstance(b, RR)
-    dimensions = np.stack(
-        [
-            np.concatenate([each.fixed_pivot, each.moving_pivot, each.radius[:, None]], axis=-1)
-            for each in (a, b)
-        ],
-        axis=1,
-    )
+    batch = LinkageBatch.of_pins(found)
     # The body of a cognate turns as the link of the dyad, and its angle is that link's direction.
     link = complex_of(poses.act(dyads[one].moving_pivot[:, None, :]))
     angle = np.unwrap(np.angle(link - complex_of(dyads[one].fixed_pivot)[:, None]), axis=-1)
     origin = np.broadcast_to(poses.translation, (*angle.shape, 2))
     rows = np.concatenate([origin, angle[..., None]], axis=-1)
-    batch = LinkageBatch(np.zeros((len(one), 2), dtype=np.int8), dimensions)
-    sound = np.isfinite(dimensions).all(axis=(1, 2)) & (b.radius > 0) & (a.radius > 0)
+    z = batch.dimensions
+    sound = np.isfinite(z).all(axis=(1, 2)) & (z[:, :, 4] > 0).all(axis=1)
     return batch[sound], rows[sound]

@@ -23,7 +23,7 @@ from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.pencil import fit_pencil
 from burmester.fourbar.dyad import PP, Dyad
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.linkage_batch import LinkageBatch, row_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, median
 from burmester.numerics.bundles import concatenate, take
@@ -181,10 +181,7 @@ def pencil_pairs(
     # A pencil may have one dyad only: another circle, any one, takes the place of the second.
     coefficients = pencil.dyads.coefficients()
     lost = ~np.isfinite(coefficients).all(axis=-1) | ~(pencil.rms_error < np.inf)
-    z = np.concatenate(
-        [pencil.dyads.fixed_pivot, pencil.dyads.moving_pivot, pencil.dyads.radius[..., None]],
-        axis=-1,
-    )
+    z = row_of(pencil.dyads)
     z[lost] = z[:, ::-1][lost] + np.array([0.1, 0.2, 0.3, 0.4, 0.0])
     z = np.where(np.isfinite(z), z, 1.0)
     pairs = LinkageBatch(np.zeros(z.shape[:-1], dtype=np.int8), z)

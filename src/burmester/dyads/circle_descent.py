@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from burmester.dyads.circle_kernel import steps_down, sums_of_squares
 from burmester.dyads.geometric_fit import DIVISOR_FLOOR, NEGLIGIBLE_GAIN, circle_terms
 from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import where
@@ -194,9 +195,7 @@ def sharpened_circles(
         u1, u2 = u1[..., None], u2[..., None]
         return distance, u1 * first + u2 * second - radius, u1 * second - u2 * first, length
 
-    z = np.concatenate(
-        [circles.fixed_pivot, circles.moving_pivot, circles.radius[:, None]], axis=-1
-    ).astype(long)
+    z = row_of(circles).astype(long)
     here = terms(z)
     at_rest, share_of_step, lost = np.zeros(len(z), dtype=bool), np.ones(len(z)), 0
     for _ in range(SHARPENING_STEPS):

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from burmester.dyads.critical_points import residual_rows
 from burmester.dyads.face_search import Descents, FaceSearch
 from burmester.dyads.geometric_fit import circle_distances
-from burmester.dyads.limited_block import Block, LengthRange
+from burmester.dyads.limited_block import circle_blocks
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face
@@ -130,11 +130,7 @@ class _Starts(NamedTuple):
 def circles_within_limits(seen: Displacement, limits: Limits, search: FaceSearch) -> FloatArray:
     """The best RR dyads z (k, 5), c, m, r, of poses (N,), by rising error."""
     base, gram, conditions = search.centre(residual_rows(seen))
-    blocks = (
-        Block(slice(0, 2), limits.fixed_pivot),
-        Block(slice(2, 4), limits.moving_pivot),
-        Block(slice(4, 5), LengthRange(*limits.length)),
-    )
+    blocks = circle_blocks(limits)
     descents = Descents(search, circle_distances(seen), blocks, np.empty((0, 5)))
     systems: dict[Shape, list[tuple[list[_Faces], Parameters]]] = {}
     corners: list[_Faces] = []

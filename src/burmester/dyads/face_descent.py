@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.geometric_fit import DistanceFunction, GeometricFit, Point
-from burmester.dyads.limited_block import Block
+from burmester.dyads.limited_block import Block, face_numbers
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import put, take
 from burmester.numerics.iteration import iterate
@@ -99,7 +99,7 @@ def descend(
             ended[left] = True
         return _State(at, on, eager, settled), ended
 
-    on = np.stack([block.lying_on(z) for block in blocks], axis=-1)
+    on = face_numbers(z, blocks)
     start = _State(distances.at(z), on, np.full(len(z), may_leave), np.zeros(len(z), dtype=bool))
     ends, _ = iterate(advance, start, np.arange(len(z)), MAX_MOVES)
     return ends.at.z, ends.settled

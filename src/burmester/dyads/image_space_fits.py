@@ -38,6 +38,7 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.least_squares import Kernel, levenberg_marquardt
@@ -367,8 +368,7 @@ def _square(a: ComplexArray) -> FloatArray:
 
 def _fit(kernel: Kernel, start: RR, poses: int, together: int = 1) -> NormalFit:
     """Levenberg-Marquardt from start values, `together` dyads on the last axis of `start` each."""
-    radius = start.radius[..., None]
-    x = np.concatenate([start.fixed_pivot, start.moving_pivot, radius], axis=-1)
+    x = row_of(start)
     lead = start.radius.shape[: start.radius.ndim - (together > 1)]
     ends = levenberg_marquardt(kernel, x.reshape(-1, 5 * together))
     x = ends.x.reshape(x.shape)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple, final
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from burmester.geometry.regions import PLANE, Face, Polygon, Region
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec
+from burmester.tasks.limits import Limits
 
 BOUNDARY_ROUNDING = 1e-9  # lengths, or a share of greater ones: a point so far outside is inside
 ON_FACE_ROUNDINGS = 10  # times the rounding; a point nearer to a face than this lies on it
@@ -42,10 +44,27 @@ class LengthRange:
         return np.maximum(np.maximum(self.least - points, points - self.most), 0.0)[..., 0]
 
 
+class Held(NamedTuple):
+    """Linear conditions on dyads z (k, n): rows (k, m, n) · z = at (k, m), where active (k, m).
+
+    inward: (k, w, n), directions from the faces into their regions; zero where there is none.
+    """
+
+    rows: FloatArray
+    at: FloatArray
+    active: NDArray[np.bool_]
+    inward: FloatArray
+
+    def gap(self, z: FloatArray) -> FloatArray:
+        """By how much (k, m) active conditions are missed."""
+        return np.where(self.active, (self.rows @ z[..., None])[..., 0] - self.at, 0.0)
+
+
 class _Faces(NamedTuple):
-    """The faces of a region as arrays, the smallest first.
+    """The faces of a region as arrays, the smallest first; the last one is the inside, or all.
 
     origin: (F, d); projector: (F, d, d), on their directions; across: (F, d, d), on the others;
+    normals: (F, d, d), orthonormal ones of these, zeros behind them.
     inward: (F, w, d), zeros where a face has fewer; dimension, ways: (F,), numbers of directions.
     edges: the numbers (E,) of a polygon's edges, begin, end: (E, d), their ends.
     """
@@ -53,6 +72,7 @@ class _Faces(NamedTuple):
     origin: FloatArray
     projector: FloatArray
     across: FloatArray
+    normals: FloatArray
     inward: FloatArray
     dimension: NDArray[np.intp]
     ways: NDArray[np.intp]
@@ -78,6 +98,11 @@ class Block:
             for face in self.region.faces()
         ]
 
+    @property
+    def count(self) -> int:
+        """The number of its faces."""
+        return len(self._faces.dimension)
+
     @cached_property
     def _faces(self) -> _Faces:
         faces = sorted(self.faces(), key=lambda face: face.basis.shape[1])
@@ -89,11 +114,17 @@ class Block:
             row[: len(face.inward)] = face.inward
         dimension = np.array([face.basis.shape[1] for face in faces])
         across = np.eye(origin.shape[1]) - projector
+        normals = across.copy()
+        for row, face in zip(normals, faces, strict=True):
+            if face.basis.shape == (2, 1):
+                row[:] = [-face.basis[1, 0], face.basis[0, 0]], [0.0, 0.0]
         edges, begin = np.empty(0, dtype=np.intp), np.empty((0, origin.shape[1]))
         if isinstance(self.region, Polygon):  # sorted by dimension its edges keep their order
             edges, begin = np.flatnonzero(dimension == 1), self.region.vertices
         end = np.roll(begin, -1, axis=0)
-        return _Faces(origin, projector, across, inward, dimension, ways, edges, begin, end)
+        return _Faces(
+            origin, projector, across, normals, inward, dimension, ways, edges, begin, end
+        )
 
     def outside(self, z: FloatArray) -> NDArray[np.bool_]:
         """Whether dyads z (*, n) lie outside by more than rounding."""
@@ -122,6 +153,25 @@ class Block:
         origin, moved = self._faces.origin[on], z.copy()
         moved[:, self.at] = origin + matvec(self._faces.projector[on], z[:, self.at] - origin)
         return moved
+
+    def nearest_face(self, z: FloatArray) -> tuple[int, FloatArray]:
+        """The number of the face nearest to a dyad (n,) outside, and the dyad moved there."""
+        every = np.arange(self.count)
+        on = self.projected(np.tile(z, (len(every), 1)), every)
+        away = np.where(self.outside(on), np.inf, np.linalg.norm(on - z, axis=-1))
+        best = int(away.argmin())
+        return best, on[best]
+
+    def held(self, on: NDArray[np.intp], size: int) -> Held:
+        """Faces (k,) as conditions on dyads with `size` coordinates; -1 is the last one, too."""
+        faces = self._faces
+        normals, across = faces.normals[on], faces.inward[on]
+        width, free = normals.shape[1], faces.dimension[on, None]
+        rows = np.zeros((len(on), width, size))
+        inward = np.zeros((len(on), across.shape[1], size))
+        rows[..., self.at], inward[..., self.at] = normals, across
+        offset = matvec(normals, faces.origin[on])
+        return Held(rows, offset, np.arange(width) < width - free, inward)
 
     def share_inside(self, z: FloatArray, to: FloatArray) -> FloatArray:
         """The shares (k,) of the ways from dyads to others on which they stay in the region."""
@@ -203,3 +253,23 @@ class Block:
 def _rounding(points: FloatArray) -> FloatArray:
     """How far (*,) points (*, d) may lie outside a region by rounding alone: far ones farther."""
     return np.asarray(BOUNDARY_ROUNDING * np.maximum(1.0, np.abs(points).max(axis=-1)))
+
+
+def circle_blocks(limits: Limits) -> tuple[Block, Block, Block]:
+    """What limits say of circles (k, 5): of both pivots and of the length."""
+    return (
+        Block(slice(0, 2), limits.fixed_pivot),
+        Block(slice(2, 4), limits.moving_pivot),
+        Block(slice(4, 5), LengthRange(*limits.length)),
+    )
+
+
+def face_numbers(z: FloatArray, blocks: Sequence[Block]) -> NDArray[np.intp]:
+    """The numbers (k, blocks) of the smallest faces on which dyads z (k, n) lie."""
+    return np.stack([block.lying_on(z) for block in blocks], axis=-1)
+
+
+def held(blocks: Sequence[Block], numbers: NDArray[np.intp], size: int) -> Held:
+    """The conditions of dyads (k, size) on the faces of these numbers (k, blocks)."""
+    parts = [block.held(on, size) for block, on in zip(blocks, numbers.T, strict=True)]
+    return Held(*(np.concatenate(part, axis=1) for part in zip(*parts, strict=True)))

@@ -68,11 +68,16 @@ class FoundDyad:
     minimum: bool = True
     limits: int = 0
 
-    def at(self, poses: Displacement) -> FoundDyad:
-        """The same with its errors at poses (N,)."""
-        miss = np.abs(self.dyad.residual(poses))
-        rms, most = float(np.sqrt((miss**2).mean())), float(miss.max())
-        return replace(self, rms_error=rms, max_error=most)
+    @classmethod
+    def of(cls, id: str, dyad: Dyad, poses: Displacement, *, minimum: bool = True) -> Self:
+        """A dyad with its distance from poses (N,)."""
+        miss = np.abs(dyad.residual(poses))
+        return cls(id, dyad, float(np.sqrt((miss**2).mean())), float(miss.max()), minimum)
+
+    def at(self, poses: Displacement) -> Self:
+        """The same with its distance from other poses."""
+        there = FoundDyad.of(self.id, self.dyad, poses)
+        return replace(self, rms_error=there.rms_error, max_error=there.max_error)
 
 
 def found_dyads(fit: Fit, task: Task) -> tuple[list[FoundDyad], int]:
@@ -209,12 +214,7 @@ class Found(NamedTuple):
     @classmethod
     def of(cls, dyads: Sequence[FoundDyad], left_out: int = 0) -> Self:
         """The dyads of one task."""
-        rows = [
-            [each.dyad.angle, 0.0, 0.0, 0.0, 0.0]
-            if isinstance(each.dyad, PP)
-            else row_of(each.dyad)
-            for each in dyads
-        ]
+        rows = [row_of(each.dyad) for each in dyads]
         return cls(
             np.zeros(len(rows), dtype=np.intp),
             np.array([KINDS.index(type(each.dyad)) for each in dyads], dtype=np.int8),
@@ -282,13 +282,12 @@ def dyads_of_fits(fits: Fits) -> Found:
     if fits.limited and fits.sliders:  # on their way to one of them
         is_circle &= swings(solutions.circle, fits.given.poses[task]) >= STRAIGHT_SWING
     dropped &= is_circle
-    kept, circle = np.flatnonzero(is_circle & ~dropped), solutions.circle
-    pivots = [circle.fixed_pivot, circle.moving_pivot, radius[:, None]]
+    kept = np.flatnonzero(is_circle & ~dropped)
     circles = _Rows(
         task[kept],
         kept,
         np.full(len(kept), CIRCLE, dtype=np.int8),
-        np.concatenate(pivots, axis=1)[kept],
+        row_of(solutions.circle)[kept],
         solutions.rms[kept],
         solutions.worst[kept],
     )
@@ -374,12 +373,7 @@ def _slider_rows(fits: Fits, line: PR | RP, task: Indices, place: Indices) -> _R
     distance = unit[:, None] * line[:, None].residual(seen)
     rms, worst = np.sqrt((distance**2).mean(axis=1)), np.abs(distance).max(axis=1)
     near = np.abs(pivot).max(axis=1) < MAX_LENGTH
-    own = frames.line_from_canonical(line)
-    normal, offset, zero = own.normal_angle[:, None], own.offset[:, None], np.zeros((len(task), 1))
-    if isinstance(own, PR):
-        dimensions = np.concatenate([normal, offset, own.moving_pivot, zero], axis=1)
-    else:
-        dimensions = np.concatenate([own.fixed_pivot, normal, offset, zero], axis=1)
+    dimensions = row_of(frames.line_from_canonical(line))
     dimensions[~near] = np.nan
     kind = np.full(len(task), DYAD_KINDS.index(type(line)), dtype=np.int8)
     return _Rows(task, place, kind, dimensions, rms, worst)

@@ -15,7 +15,7 @@ from burmester.families.rail_freedom import RailFreedom
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.foot_points import places_of, rows_of
-from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch, row_of
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
@@ -232,7 +232,7 @@ def _timed(side: DyadFreedom, target: Target, timing: CrankTiming) -> DyadFreedo
     found = timed_dyads(target.poses, timing)
     if found is None:
         return replace(side, timing=timing)
-    z = np.array([[*each.fixed_pivot, *each.moving_pivot, each.radius] for each in found])
+    z = np.array([row_of(each) for each in found])
     fixed, moving = (
         replace(place, around=_wide(place.around), region=_wide(place.around))
         if place.region is place.around

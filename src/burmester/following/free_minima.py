@@ -20,7 +20,6 @@ from burmester.dyads.local_minima import BestDyads, is_hard, starts_of_one
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.following.minimum_step import (
     MovedMinima,
-    circles_of,
     listed,
     moved_fit,
     moved_minima,
@@ -28,6 +27,7 @@ from burmester.following.minimum_step import (
 )
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import Dyad
+from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.weights import shares
@@ -70,10 +70,10 @@ class FreeMinima:
         seen, share = fit.frames.to_canonical(task.poses), shares(task.weights, task.poses.shape)
         there = self._watched(fit.frames, seen, task)
         hard = is_hard(np.array(len(there.points)), seen, share)
-        moved = moved_minima(circles_of(fit), circle_distances(seen), share)
+        moved = moved_minima(row_of(fit.circles), circle_distances(seen), share)
         if hard and not (moved.sound.all() and there.real == self.real):
             return None
-        z, number = _down_where_lost(circles_of(fit), moved, seen, share)
+        z, number = _down_where_lost(row_of(fit.circles), moved, seen, share)
         sliders = fixed_lines(seen, task.weights)[0][0], moving_lines(seen, task.weights)[0][0]
         if not hard:
             descents = there.descents

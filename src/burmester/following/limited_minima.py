@@ -23,13 +23,13 @@ from burmester.dyads.geometric_fit import (
     line_distances,
 )
 from burmester.dyads.least_powers import least_squares_step
-from burmester.dyads.limited_block import Block, LengthRange
+from burmester.dyads.limited_block import Block, circle_blocks, face_numbers, held
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.minima_within_limits import LimitedDyads
-from burmester.following.face_table import FaceTable, face_numbers, held, nearest_face
 from burmester.following.minimum_step import moved_fit, moved_minima, twins
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.weights import shares
@@ -45,13 +45,13 @@ class LimitedMinima:
     """The minima of one kind within one limits.
 
     kind: RR, PR or RP; z: (k, 5) circles or (k, 4) lines in the frames of the fit, an RP dyad as
-    the PR dyad of the inverse motion.  tables: the faces of `limits`; numbers: (k, blocks), those
-    on which the minima lie.
+    the PR dyad of the inverse motion.  blocks: of `limits`; numbers: (k, blocks), the faces on
+    which the minima lie.
     """
 
     kind: type[RR] | type[PR] | type[RP]
     limits: Limits
-    tables: tuple[FaceTable, ...]
+    blocks: tuple[Block, ...]
     z: FloatArray
     numbers: NDArray[np.intp]
 
@@ -62,8 +62,8 @@ class LimitedMinima:
         for kind in (RR, PR, RP):
             z = _coordinates(kind, fit)
             if len(z):
-                tables = _tables(kind, limits, fit.frames)
-                out.append(cls(kind, limits, tables, z, face_numbers(z, tables)))
+                blocks = _blocks(kind, limits, fit.frames)
+                out.append(cls(kind, limits, blocks, z, face_numbers(z, blocks)))
         return tuple(out)
 
     def moved(
@@ -78,31 +78,30 @@ class LimitedMinima:
 
         With the number that each had, and what is doubtful of them.
         """
-        doubts, tables = [], self.tables
+        doubts, blocks = [], self.blocks
         if limits is not self.limits:
-            tables = _tables(self.kind, limits, frames)
-            if any(len(a.at) != len(b.at) for a, b in zip(tables, self.tables, strict=True)):
+            blocks = _blocks(self.kind, limits, frames)
+            if any(a.count != b.count for a, b in zip(blocks, self.blocks, strict=True)):
                 doubts.append("a limit has another number of edges than before")
-                tables = self.tables
+                blocks = self.blocks
         poses = seen.inverse() if self.kind is RP else seen
         distances = circle_distances(poses) if self.kind is RR else line_distances(poses)
         share = shares(weights, poses.shape)
-        kept = held(tables, self.numbers)
+        kept = held(blocks, self.numbers, self.z.shape[1])
         there = moved_minima(self.z, distances, share, exact, kept)
         z, numbers = there.z.copy(), self.numbers.copy()
-        blocks = [table.block for table in tables]
         outside = np.any([block.outside(z) for block in blocks], axis=0)
         events = np.flatnonzero(~there.sound | there.let_go | outside)
         if len(events):
             starts = [
-                _onto(self.z[k], there.z[k], tables, numbers[k], bool(there.sound[k]))
+                _onto(self.z[k], there.z[k], blocks, numbers[k], bool(there.sound[k]))
                 for k in events
             ]
             z[events] = np.stack(starts)
             events = events[inside(z[events], blocks)]
             z[events] = _down(z[events], distances, share, exact, blocks)
             events = events[np.isfinite(z[events]).all(axis=1)]
-            numbers[events] = face_numbers(z[events], tables)
+            numbers[events] = face_numbers(z[events], blocks)
         lost = np.flatnonzero(~(np.isfinite(z).all(axis=1) & inside(np.nan_to_num(z), blocks)))
         index = np.delete(np.arange(len(z)), lost)
         if len(lost):
@@ -110,7 +109,7 @@ class LimitedMinima:
         if len(met := twins(z[index])):
             doubts.append("two dyads within the limits have met")
             index = np.delete(index, met)
-        new = replace(self, limits=limits, tables=tables, z=z[index], numbers=numbers[index])
+        new = replace(self, limits=limits, blocks=blocks, z=z[index], numbers=numbers[index])
         return new, index, doubts
 
     def dyads(self, frames: CanonicalFrames) -> list[Dyad]:
@@ -130,8 +129,7 @@ class LimitedMinima:
 def _coordinates(kind: type[RR] | type[PR] | type[RP], fit: BestDyads) -> FloatArray:
     """The minima of one kind in a fit, as `_Limited` has them."""
     if kind is RR:
-        some = fit.circles
-        return np.concatenate([some.fixed_pivot, some.moving_pivot, some.radius[:, None]], axis=-1)
+        return row_of(fit.circles)
     rows = []
     for each in fit.sliders:
         if isinstance(each, PR) and kind is PR:
@@ -141,39 +139,33 @@ def _coordinates(kind: type[RR] | type[PR] | type[RP], fit: BestDyads) -> FloatA
     return np.array(rows, dtype=float).reshape(-1, 4)
 
 
-def _tables(
+def _blocks(
     kind: type[RR] | type[PR] | type[RP], limits: Limits, frames: CanonicalFrames
-) -> tuple[FaceTable, ...]:
-    """The faces of limits in the coordinates of one kind."""
+) -> tuple[Block, ...]:
+    """What limits say in the coordinates of one kind."""
     own = limits_in(frames, limits)
     if kind is RR:
-        blocks = (
-            Block(slice(0, 2), own.fixed_pivot),
-            Block(slice(2, 4), own.moving_pivot),
-            Block(slice(4, 5), LengthRange(*own.length)),
-        )
-        return tuple(FaceTable.of(block, 5) for block in blocks)
-    region = own.moving_pivot if kind is PR else own.fixed_pivot
-    return (FaceTable.of(Block(slice(2, 4), region), 4),)
+        return circle_blocks(own)
+    return (Block(slice(2, 4), own.moving_pivot if kind is PR else own.fixed_pivot),)
 
 
 def _onto(
     old: FloatArray,
     new: FloatArray,
-    tables: Sequence[FaceTable],
+    blocks: Sequence[Block],
     numbers: NDArray[np.intp],
     sound: bool,
 ) -> FloatArray:
     """A start (n,) inside the limits: where the faces are now, as near to `new` as they allow."""
-    if sound and not any(table.block.outside(new) for table in tables):
+    if sound and not any(block.outside(new) for block in blocks):
         return new
     start = old.copy()
-    kept = held(tables, numbers[None])
+    kept = held(blocks, numbers[None], len(start))
     rows, gap = kept.rows[0][kept.active[0]], kept.gap(start[None])[0][kept.active[0]]
     start = start - np.linalg.pinv(rows) @ gap if len(rows) else start
-    for table in tables:  # on the nearest face, where an edge came over the dyad
-        if table.block.outside(start):
-            start = nearest_face(start, table)[1]
+    for block in blocks:  # on the nearest face, where an edge came over the dyad
+        if block.outside(start):
+            start = block.nearest_face(start)[1]
     return start
 
 

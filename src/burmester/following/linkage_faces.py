@@ -9,8 +9,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.limited_block import Block, LengthRange
-from burmester.following.face_table import FaceTable, Held, face_numbers, held, nearest_face
+from burmester.dyads.limited_block import (
+    Block,
+    Held,
+    circle_blocks,
+    face_numbers,
+    held,
+)
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.numerics.arrays import FloatArray
@@ -18,7 +23,7 @@ from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 
 OUTSIDE = 1e-9  # lengths; a pivot that is farther outside its region has left it
-KEPT_TABLES = 16  # limits whose faces are remembered
+KEPT_BLOCKS = 16  # limits that are remembered with their faces
 
 
 def linkages_held(
@@ -34,7 +39,7 @@ def linkages_held(
     shift = np.array([*frames.fixed_origin, *frames.moving_origin, 0.0])
     sides = []
     for side in (0, 1):
-        own = held(_tables(_of_side(limits, side), scale), numbers[:, side])
+        own = held(_blocks_of(_of_side(limits, side), scale), numbers[:, side], DIMENSIONS)
         sides.append(own._replace(at=(own.at * 2.0**scale - own.rows @ shift) / frames.length))
     one, two = sides
     return Held(
@@ -66,22 +71,15 @@ def _scaled(scale: int) -> CanonicalFrames:
     return CanonicalFrames(np.zeros(2), np.zeros(2), np.asarray(2.0**scale))
 
 
-@lru_cache(KEPT_TABLES)
-def _tables(limits: Limits, scale: int) -> tuple[FaceTable, ...]:
-    """The faces of limits in the dimensions of a dyad, in units of a power of two."""
-    own = limits_in(_scaled(scale), limits)
-    blocks = (
-        Block(slice(0, 2), own.fixed_pivot),
-        Block(slice(2, 4), own.moving_pivot),
-        Block(slice(4, 5), LengthRange(*own.length)),
-    )
-    return tuple(FaceTable.of(block, DIMENSIONS) for block in blocks)
+@lru_cache(KEPT_BLOCKS)
+def _blocks_of(limits: Limits, scale: int) -> tuple[Block, Block, Block]:
+    """What limits say of the dimensions of a dyad, in units of a power of two."""
+    return circle_blocks(limits_in(_scaled(scale), limits))
 
 
-def _of_kind(tables: Sequence[FaceTable], kind: int) -> tuple[NDArray[np.bool_], list[FaceTable]]:
-    """Which of fixed pivot, moving pivot and length a kind of dyad has, and their faces."""
-    has = np.array([kind != 1, kind != 2, kind == 0])
-    return has, [table for table, mine in zip(tables, has, strict=True) if mine]
+def _has(kind: int) -> NDArray[np.bool_]:
+    """Which of fixed pivot, moving pivot and length a kind of dyad has."""
+    return np.array([kind != 1, kind != 2, kind == 0])
 
 
 def linkage_face_numbers(
@@ -92,10 +90,10 @@ def linkage_face_numbers(
     inside = brought_inside(batch, limits, frames)
     own = inside.from_canonical(frames).to_canonical(_scaled(scale))
     for side in (0, 1) if limits else ():
-        tables = _tables(_of_side(limits, side), scale)
+        blocks = _blocks_of(_of_side(limits, side), scale)
         for k in range(len(batch)):
-            has, mine = _of_kind(tables, int(batch.kinds[k, side]))
-            numbers[k, side, has] = face_numbers(own.dimensions[k, side][None], mine)[0]
+            on = face_numbers(own.dimensions[k, side][None], blocks)[0]
+            numbers[k, side] = np.where(_has(int(batch.kinds[k, side])), on, -1)
     return numbers
 
 
@@ -112,12 +110,12 @@ def faces_met(
     numbers, scale = numbers.copy(), _scale(frames)
     own = batch.from_canonical(frames).to_canonical(_scaled(scale))
     for side in (0, 1) if limits else ():
-        tables = _tables(_of_side(limits, side), scale)
+        blocks = _blocks_of(_of_side(limits, side), scale)
         for k in range(len(batch)):
-            for at in np.flatnonzero(_of_kind(tables, int(batch.kinds[k, side]))[0]):
+            for at in np.flatnonzero(_has(int(batch.kinds[k, side]))):
                 z = own.dimensions[k, side]
-                if tables[at].block.outside(z):
-                    numbers[k, side, at], own.dimensions[k, side] = nearest_face(z, tables[at])
+                if blocks[at].outside(z):
+                    numbers[k, side, at], own.dimensions[k, side] = blocks[at].nearest_face(z)
     return own.from_canonical(_scaled(scale)).to_canonical(frames), numbers
 
 

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.geometric_fit import DistanceFunction
+from burmester.dyads.limited_block import Held
 from burmester.dyads.local_minima import BestDyads, with_errors
-from burmester.following.face_table import Held
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -123,12 +123,6 @@ def moved_minima(
         slope, terms = matvec(along, force), matvec(np.abs(along), np.abs(force))
         let_go = np.asarray((slope < -INWARD_ROUNDING * terms).any(axis=1))
     return MovedMinima(z, np.asarray(settled & near & convex), let_go)
-
-
-def circles_of(fit: BestDyads) -> FloatArray:
-    """The circles (k, 5) of a fit, c, m, r, in its frames."""
-    some = fit.circles
-    return np.concatenate([some.fixed_pivot, some.moving_pivot, some.radius[:, None]], axis=-1)
 
 
 def listed(fit: BestDyads) -> list[Dyad]:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.coupler_kernel import constraint_jacobians
-from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -60,9 +60,17 @@ class LinkageBatch:
         dimensions = np.zeros((len(linkages), 2, DIMENSIONS))
         for k, linkage in enumerate(linkages):
             for side, dyad in enumerate((linkage.first, linkage.second)):
+                if isinstance(dyad, PP):
+                    raise TypeError("a batch has no PP dyads")
                 dimensions[k, side] = row_of(dyad)
                 kinds[k, side] = DYAD_KINDS.index(type(dyad))
         return cls(kinds, dimensions)
+
+    @classmethod
+    def of_pins(cls, linkages: Linkage) -> Self:
+        """The batch of linkages (k,) of RR dyads."""
+        dimensions = np.stack([row_of(linkages.first), row_of(linkages.second)], axis=1)
+        return cls(np.zeros(dimensions.shape[:2], dtype=np.int8), dimensions)
 
     def __len__(self) -> int:
         return len(self.kinds)
@@ -156,15 +164,13 @@ class LinkageBatch:
         )
 
 
-def row_of(dyad: Dyad) -> list[float]:
-    """The five dimensions of one dyad; raises TypeError for PP, of which a batch has none."""
-    if isinstance(dyad, RR):
-        return [*dyad.fixed_pivot, *dyad.moving_pivot, float(dyad.radius)]
-    if isinstance(dyad, PR):
-        return [float(dyad.normal_angle), float(dyad.offset), *dyad.moving_pivot, 0.0]
-    if isinstance(dyad, RP):
-        return [*dyad.fixed_pivot, float(dyad.normal_angle), float(dyad.offset), 0.0]
-    raise TypeError("a batch has no PP dyads")
+def row_of(dyad: Dyad) -> FloatArray:
+    """The dimensions (*, 5) of dyads (*,), zeros behind them; of a PP dyad its angle."""
+    parts = ((getattr(dyad, name), name.endswith("pivot")) for name in dyad.__match_args__)
+    row = np.concatenate([part if pivot else part[..., None] for part, pivot in parts], axis=-1)
+    out = np.zeros((*row.shape[:-1], DIMENSIONS))
+    out[..., : row.shape[-1]] = row
+    return out
 
 
 def dyads_of(kind: int, rows: FloatArray) -> RR | PR | RP:

@@ -31,7 +31,7 @@ from burmester.errors import InputError
 from burmester.fourbar.dead_points import Bound, Closing, of_crank, of_rail, of_slot
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad, broadcast_to, shape_of
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, row_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
@@ -115,8 +115,7 @@ class DrivenLoop:
                 first, second = broadcast_to(first, some), broadcast_to(second, some)
                 loop = cls._of_pair(first, second)
                 for dimensions, dyad in zip(loop.dimensions, (first, second), strict=True):
-                    for row, part in enumerate(_dimensions(dyad)):
-                        dimensions[row] = part
+                    dimensions[:] = np.moveaxis(row_of(dyad), -1, 0)
                 return loop if shape else loop[0]
             count = len(linkage)
             flags = np.empty((FLAGS, count), dtype=np.int8)
@@ -426,20 +425,6 @@ def _is_point(first: Dyad, second: Dyad, closing: Closing) -> NDArray[np.bool_]:
     if isinstance(first, PR) and isinstance(second, PR):
         out = out | (closing.high.scale > 0)
     return np.asarray(out)
-
-
-def _dimensions(dyad: Dyad) -> list[FloatArray]:
-    """The dimensions (*,) of a dyad, as many as it has, in the order of `LinkageBatch`."""
-    if isinstance(dyad, RR):
-        fixed, moving = dyad.fixed_pivot, dyad.moving_pivot
-        return [fixed[..., 0], fixed[..., 1], moving[..., 0], moving[..., 1], dyad.radius]
-    if isinstance(dyad, PR):
-        moving = dyad.moving_pivot
-        return [dyad.normal_angle, dyad.offset, moving[..., 0], moving[..., 1]]
-    if isinstance(dyad, RP):
-        fixed = dyad.fixed_pivot
-        return [fixed[..., 0], fixed[..., 1], dyad.normal_angle, dyad.offset]
-    return [dyad.angle]
 
 
 def _without_rounding(

@@ -11,10 +11,8 @@ from typing import NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.selection import FoundDyad
 from burmester.errors import Finding
 from burmester.fourbar.defects import Driven, Verdict, judge
-from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
@@ -222,16 +220,18 @@ class Evaluation:
             clearance = clearance_of(linkage, verdict, driver, self.problem)
             missing += (close := too_close(clearance, self.problem))
             usable = usable and not close
-            one, two = candidates.pairs[k]
-            both = (
-                _with_errors(one, linkage.first, rms[k][0], worst[k][0]),
-                _with_errors(two, linkage.second, rms[k][1], worst[k][1]),
+            both = linkage.first, linkage.second
+            one, two = (
+                replace(origin, dyad=dyad, rms_error=error, max_error=most)
+                for origin, dyad, error, most in zip(
+                    candidates.pairs[k], both, rms[k], worst[k], strict=True
+                )
             )
-            parts = linkage, verdict, driver, both
-            if driver == "second" and len(self.task.limits) < 2:
-                sides[k] = (1, 0)
-                parts = _exchanged(linkage, verdict, both)
-            linkage, verdict, driver, dyads = parts  # noqa: PLW2901
+            dyads = one, two
+            if driver == "second" and len(self.task.limits) < 2:  # the preferred driver first
+                sides[k], dyads, driver = (1, 0), (two, one), "first"
+                linkage = with_driver_first(linkage, "second")
+                verdict = Verdict(verdict.defects, verdict.second, verdict.first)  # noqa: PLW2901
             found = FoundLinkage(
                 0,
                 dyads,
@@ -324,12 +324,6 @@ class Evaluation:
         for at, k in enumerate(index):
             out[k] = replace(out[k], spread=spreads.one(at, unit))
         return out
-
-    def dyad(self, origin: FoundDyad | str, dyad: Dyad) -> FoundDyad:
-        """A dyad with its own errors at the poses, and the id of its origin."""
-        if isinstance(origin, str):
-            origin = FoundDyad(origin, dyad, 0, 0, False)
-        return replace(origin, dyad=dyad).at(self.task.poses)
 
     def errors(self, places: Displacement) -> list[PoseError]:
         """The errors of linkages (k,) at places (k, N) in the task's own frames."""
@@ -571,19 +565,6 @@ def sizable(batch: LinkageBatch, size: float | FloatArray = 1.0) -> NDArray[np.b
     with np.errstate(invalid="ignore"):
         joined = pin_distances(batch)[:, 2:] <= np.reshape(MIN_LINK * size, (-1, 1))
     return np.asarray(~joined.any(axis=1))
-
-
-def _with_errors(origin: FoundDyad, dyad: Dyad, rms: float, worst: float) -> FoundDyad:
-    """A dyad that was changed, with its errors."""
-    return FoundDyad(origin.id, dyad, rms, worst, origin.minimum, origin.limits)
-
-
-def _exchanged(
-    linkage: Linkage, verdict: Verdict, pair: Pair
-) -> tuple[Linkage, Verdict, Side, Pair]:
-    """The same with the second dyad first, as the preferred driver."""
-    turned = Verdict(verdict.defects, verdict.second, verdict.first)
-    return with_driver_first(linkage, "second"), turned, "first", pair[::-1]
 
 
 def _other_types(found: FoundLinkage, covariance: FloatArray) -> tuple[str, ...]:

@@ -102,7 +102,8 @@ class FurtherPairs:
             own: Dyad = frames.circle_from_canonical(link[None])[0]
         else:
             own = frames.line_from_canonical(link)
-        return self.evaluation.dyad(f"M{number + 1}", own)
+        poses = self.evaluation.task.poses
+        return FoundDyad.of(f"M{number + 1}", own, poses, minimum=False)
 
     def beside(
         self,

@@ -8,6 +8,7 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.describe.cognates import cognates_of
+from burmester.dyads.selection import FoundDyad
 from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
@@ -61,7 +62,10 @@ def _judged(synthesis: Synthesis, found: FoundLinkage, cognate: Linkage, link: R
     angle: FloatArray = np.unwrap(np.arctan2(arm[..., 1], arm[..., 0]))
     own = LinkageBatch.of([cognate])
     rows = target.rows_at(Displacement(there.translation, angle))
-    pair = evaluation.dyad("D1", cognate.first), evaluation.dyad("D2", cognate.second)
+    one, two = (
+        FoundDyad.of(id, dyad, evaluation.task.poses, minimum=False)
+        for id, dyad in (("D1", cognate.first), ("D2", cognate.second))
+    )
     batch, searched = own.to_canonical(target.frames), np.zeros(1, dtype=bool)
-    (judged,) = evaluation.members(Candidates(batch, rows[None], [pair], searched, own))
+    (judged,) = evaluation.members(Candidates(batch, rows[None], [(one, two)], searched, own))
     return judged

@@ -35,7 +35,7 @@ def placed(task: Task, pivots: Any, options: SynthesisOptions, frames: int) -> d
     pivots: [{"plane": "F" or "M", "at": [x, y]}].  Raises InputError E153 for what is no pivot.
     """
     dyads = [_dyad(task, *each) for each in _pivots(pivots)]
-    found = [FoundDyad(f"P{k}", dyad, 0, 0).at(task.poses) for k, dyad in enumerate(dyads, start=1)]
+    found = [FoundDyad.of(f"P{k}", dyad, task.poses) for k, dyad in enumerate(dyads, start=1)]
     answer: dict[str, Any] = {
         "dyads": [dyad_report(each, task) for each in found],
         "linkage": None,

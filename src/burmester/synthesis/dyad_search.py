@@ -147,12 +147,9 @@ def _under_conditions(problem: SynthesisProblem) -> DyadSearch:
 
 def dyads_of_motion(kind: MotionKind, task: Task) -> tuple[FoundDyad, ...]:
     """The dyads that a special motion itself tells, with their distances from the poses."""
-    out = []
-    for number, dyad in enumerate(kind.dyads, start=1):
-        distance = np.abs(dyad.residual(task.poses))
-        rms, worst = float(np.sqrt((distance**2).mean())), float(distance.max())
-        out.append(FoundDyad(f"D{number}", dyad, rms, worst))
-    return tuple(out)
+    return tuple(
+        FoundDyad.of(f"D{k}", each, task.poses) for k, each in enumerate(kind.dyads, start=1)
+    )
 
 
 def exact_dyads(nullity: int | NDArray[np.int_], count: int) -> NDArray[np.int_]:

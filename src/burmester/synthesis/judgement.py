@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.diagnosis.checks import diagnose
+from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice, InputError
 from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import RR
@@ -86,7 +87,11 @@ def _judgement(
     problem, findings = _problem(task, options)
     task = problem.given
     evaluation = Evaluation(problem, target_of(problem))
-    given = evaluation.dyad("D1", both[0]), evaluation.dyad("D2", both[1])
+    one, two = (
+        FoundDyad.of(f"D{number}", dyad, task.poses, minimum=False)
+        for number, dyad in enumerate(both, start=1)
+    )
+    given = one, two
     step("judging the linkage")
     orders = [given, given[::-1]] if len(problem.task.limits) > 1 else [given]
     judged = _judged(orders, np.zeros(len(orders), dtype=bool), evaluation)
@@ -103,8 +108,7 @@ def _judgement(
         *findings,
         *linkage_advice(task, linkages, outcome.code),
     )
-    found_dyads = tuple(each.at(task.poses) for each in given)  # repeated ones too
-    return Synthesis(problem, outcome, found_dyads, linkages, warnings)
+    return Synthesis(problem, outcome, given, linkages, warnings)
 
 
 def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, tuple[Advice, ...]]:

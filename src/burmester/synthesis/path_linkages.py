@@ -19,7 +19,7 @@ from burmester.curves.curve_descent import CurveFit
 from burmester.curves.path_fit import PathSearch
 from burmester.curves.timed_paths import linkages_of_five_points
 from burmester.fourbar.cognates import cognates
-from burmester.fourbar.dyad import RR
+from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Evaluation
@@ -139,25 +139,16 @@ def _with_cognates(found: PathLinkages) -> PathLinkages:
     if not len(found.batch):
         return found
     _, other = cognates(found.batch.linkage_of_all())
-    one, two = other.second, other.first  # the crank first
-    assert isinstance(one, RR)
-    assert isinstance(two, RR)
-    dimensions = np.stack(
-        [
-            np.concatenate([each.fixed_pivot, each.moving_pivot, each.radius[:, None]], axis=-1)
-            for each in (one, two)
-        ],
-        axis=1,
-    )
+    beside = LinkageBatch.of_pins(Linkage(other.second, other.first))  # the crank first
     # The body of the cognate turns as the follower, and its angle is the follower's direction.
     follower = found.batch.dimensions[:, 1]
     body = Displacement(found.places[..., :2], found.places[..., 2])
     arm = body.act(follower[:, None, 2:4]) - follower[:, None, :2]
     angle = np.unwrap(np.arctan2(arm[..., 1], arm[..., 0]), axis=-1)
     places = np.concatenate([found.places[..., :2], angle[..., None]], axis=-1)
-    sound = np.isfinite(dimensions).all(axis=(1, 2)) & (dimensions[:, :, 4] > 0).all(axis=1)
-    more = PathLinkages(LinkageBatch(found.batch.kinds, dimensions), places)
-    return _facing(concatenate([found, PathLinkages(more.batch[sound], more.places[sound])]))
+    z = beside.dimensions
+    sound = np.isfinite(z).all(axis=(1, 2)) & (z[:, :, 4] > 0).all(axis=1)
+    return _facing(concatenate([found, take(PathLinkages(beside, places), sound)]))
 
 
 def _facing(found: PathLinkages) -> PathLinkages:

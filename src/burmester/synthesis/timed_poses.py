@@ -21,7 +21,7 @@ from burmester.dyads.timed_dyads import nearest_timed, timed_dyads
 from burmester.errors import Advice, InputError
 from burmester.families.dyad_samples import drawn_dyads
 from burmester.families.open_task import OpenTask
-from burmester.fourbar.dyad import RP, RR, Dyad
+from burmester.fourbar.dyad import RP, RR
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import at_given_poses, with_own_dyads
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
@@ -118,7 +118,10 @@ def _dyads(problem: SynthesisProblem) -> tuple[tuple[Fit, ...], list[FoundDyad]]
         if number == side:
             kinds = tuple(kind for kind in (RR, RP) if kind.__name__ in limits.allowed)
             found = [each for each in found if isinstance(each.dyad, kinds)]
-            timed = [_found(each, task) for each in nearest_timed(task.poses, task.timing)]
+            timed = [
+                FoundDyad.of("", each, task.poses, minimum=False)
+                for each in nearest_timed(task.poses, task.timing)
+            ]
             timed.sort(key=lambda each: each.rms_error)
             found = [*timed[: MOST_DRIVERS // 2], *found][:MOST_DRIVERS]
         lists.append([replace(each, limits=number + 1) for each in found[:MOST_OTHERS]])
@@ -147,11 +150,8 @@ def _drawn(problem: SynthesisProblem, side: int) -> list[FoundDyad]:
     z = np.stack([samples.dimensions, samples.dimensions], axis=1)
     own = LinkageBatch(kinds, z).from_canonical(target.frames)
     index = np.linspace(0, len(samples) - 1, min(len(samples), MOST_OTHERS)).astype(int)
-    return [_found(own.linkage(int(k)).first, problem.task) for k in index]
-
-
-def _found(dyad: Dyad, task: Task) -> FoundDyad:
-    return FoundDyad("", dyad, 0, 0, minimum=False).at(task.poses)
+    poses = problem.task.poses
+    return [FoundDyad.of("", own.linkage(int(k)).first, poses, minimum=False) for k in index]
 
 
 def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> Outcome:
