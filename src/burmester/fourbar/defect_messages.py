@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import Final, NamedTuple
 
@@ -84,7 +85,7 @@ def assembly_defects(
     far: BoolArray, assembled: BoolArray, missed: FloatArray, names: PoseNames
 ) -> list[Finding]:
     """The assembly defects of one linkage that is too far from poses `far` (N,)."""
-    nowhere, near = _numbers(~assembled), _numbers(far & assembled)
+    nowhere, near = numbers(~assembled), numbers(far & assembled)
     defects = []
     if nowhere:
         text = f"it cannot be assembled near {names.phrase(nowhere)}"
@@ -123,15 +124,15 @@ def circuit_defect(
     elif any_order:
         text += ": it must be taken apart between them"
     else:
-        text += f": it must be taken apart {names.between(_changes(labels, clear))}"
-    return Finding("circuit", text, _numbers(clear & (labels != main)), not change)
+        text += f": it must be taken apart {names.between(changes(labels, clear))}"
+    return Finding("circuit", text, numbers(clear & (labels != main)), not change)
 
 
 def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseNames) -> Finding:
     """The defect of linkage k, whose poses are on two branches."""
     clear, key = traversal.clear[k], traversal.branch_key[k]
     change = bool(traversal.circuits.near_change_point[k])
-    pairs = _changes(key, clear)
+    pairs = changes(key, clear)
     poses = tuple(sorted({pose for pair in pairs for pose in pair}))
     if any_order:
         one, other = _parts(key, clear, names)
@@ -140,9 +141,15 @@ def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseName
     elif change:
         text = f"passes a change point {names.between(pairs)}"
     else:
-        points = "at a dead point" if len(pairs) == 1 else "at dead points"
-        text = f"locks {names.between(pairs)}, {points}"
+        text = locks_between(pairs, names)
     return Finding("branch", text + UNSURE * change, poses, not change)
+
+
+def locks_between(pairs: Sequence[tuple[int, int]], names: PoseNames) -> str:
+    """That a linkage locks between pairs of poses, in words that follow "it"."""
+    return (
+        f"locks {names.between(pairs)}, at {'a dead point' if len(pairs) == 1 else 'dead points'}"
+    )
 
 
 def near_dead_point_defect(
@@ -178,16 +185,25 @@ def order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNam
     certain = order.back[k] > CERTAIN_STEP_BACK and not traversal.order_doubtful[k] and not passed
     poses = np.flatnonzero(on_circuit)
     steps = np.round(order.along[k][on_circuit] / (REPEATED_POSE_STEP * traversal.step_unit[k]))
-    # Of both senses, the one that meets the lower number first.
+    defect = in_another_order(poses, steps, names, all_round=bool(traversal.all_round[k]))
+    return replace(defect, message=defect.message + UNSURE * (not certain), certain=bool(certain))
+
+
+def in_another_order(
+    poses: NDArray[np.intp], steps: FloatArray, names: PoseNames, *, all_round: bool
+) -> Finding:
+    """The order in which poses (n,) are met, of both senses the one with the lower number first.
+
+    steps: (n,), where they are along the way; all_round: whether that closes.
+    """
     sequences = []
     for sense in (1, -1):
         sequence = poses[np.lexsort((poses, sense * steps))].tolist()
-        start = sequence.index(poses[0]) if traversal.all_round[k] else 0
+        start = sequence.index(poses[0]) if all_round else 0
         sequences.append(sequence[start:] + sequence[:start])
     met = min(sequences)
     moved = tuple(a for a, b in zip(poses.tolist(), met, strict=True) if a != b)
-    text = f"meets the poses in the order {names.in_order(met)}"
-    return Finding("order", text + UNSURE * (not certain), moved, bool(certain))
+    return Finding("order", f"meets the poses in the order {names.in_order(met)}", moved)
 
 
 def undetermined_defect(on: BoolArray) -> Finding:
@@ -196,19 +212,20 @@ def undetermined_defect(on: BoolArray) -> Finding:
         "its guides are parallel or a link has zero length, within rounding, "
         "so its motion cannot be determined"
     )
-    return Finding("branch", text, _numbers(on), certain=False)
+    return Finding("branch", text, numbers(on), certain=False)
 
 
-def _numbers(mask: BoolArray) -> tuple[int, ...]:
+def numbers(mask: BoolArray) -> tuple[int, ...]:
+    """The numbers of the poses that a mask holds."""
     return tuple(np.flatnonzero(mask).tolist())
 
 
-def _changes(key: NDArray[np.int8], clear: BoolArray) -> list[tuple[int, int]]:
+def changes(key: NDArray[np.int8] | BoolArray, clear: BoolArray) -> list[tuple[int, int]]:
     """The pairs of successive poses between which the key changes."""
-    return [(a, b) for a, b in pairwise(_numbers(clear)) if key[a] != key[b]]
+    return [(a, b) for a, b in pairwise(numbers(clear)) if key[a] != key[b]]
 
 
 def _parts(key: NDArray[np.int8], clear: BoolArray, names: PoseNames) -> tuple[str, str]:
     """The poses with the key of the first one, and the others."""
     same = clear & (key == key[clear.argmax()])
-    return names.phrase(_numbers(same)), names.listed(_numbers(clear & ~same))
+    return names.phrase(numbers(same)), names.listed(numbers(clear & ~same))

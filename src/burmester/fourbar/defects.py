@@ -9,6 +9,7 @@ two poses), order (the poses come in another order).  All verdicts come from the
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
@@ -82,6 +83,15 @@ class Driven:
     inputs: FloatArray
     input_range: FloatArray
     parameter: FloatArray
+
+    def rank(self, violated: int = 0) -> tuple[float, ...]:
+        """By which the better of two drivers is told, the less the better; no rounding decides.
+
+        violated: how many requirements it does not keep.
+        """
+        least, poses = self.least_over_range, sum(len(each.poses) for each in self.defects)
+        weak = 0.0 if math.isnan(least) else -round(least, 6)
+        return len(self.defects), violated, poses, 0.0 if self.turns_fully else 1.0, weak
 
 
 @final

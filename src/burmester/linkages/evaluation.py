@@ -408,11 +408,7 @@ class Evaluation:
             )
             if self.task.timing is not None:
                 missing += mistimed(driven.inputs, self.task, self.problem.pose_numbers)
-            wrong = len(driven.defects), len(missing)
-            least = driven.least_over_range
-            weak = 0.0 if math.isnan(least) else -round(least, 6)  # no rounding decides
-            poses = sum(len(each.poses) for each in driven.defects)
-            return (*map(float, wrong), poses, 0.0 if driven.turns_fully else 1.0, weak), missing
+            return driven.rank(len(missing)), missing
 
         ranked = {side: merit(side) for side in sides}
         best = min(sides, key=lambda side: ranked[side][0])

@@ -6,13 +6,20 @@ near to each pose as it comes.  What kind of mechanism it is does not matter her
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import Finding, InputError
+from burmester.fourbar.defect_messages import (
+    PoseNames,
+    changes,
+    in_another_order,
+    locks_between,
+    numbers,
+)
 from burmester.fourbar.pose_error import PoseError
 from burmester.fourbar.pose_order import (
     REPEATED_POSE_STEP,
@@ -23,6 +30,7 @@ from burmester.fourbar.pose_order import (
     smallest_arc,
     tolerated_step,
 )
+from burmester.fourbar.traversal import DEAD_POINT_ANGLE
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.branches import Branch, branches_of
 from burmester.mechanisms.circuits import circuits_of
@@ -33,14 +41,16 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, wrapped_angle
 from burmester.numerics.weights import weights_or_ones
 from burmester.refinement.tolerance_boxes import EXACT_ROUNDING, counted_error, shares_used
 from burmester.sixbar.candidates import box_diagonal, figures_of, merit_of, steps_along
-from burmester.sixbar.defects import ELSEWHERE, Course, defects_of
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.kinds import SixBar
 from burmester.sixbar.requirement_check import least_bars, shortcomings, violations
+from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import too_short
+from burmester.verdicts.explanation import too_far_from
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
+from burmester.verdicts.tolerance_words import outside
 
 SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
 ALIKE = 1e-6  # sizes of the motion; errors that differ by less are one
@@ -241,28 +251,7 @@ def _along(
 
 def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProblem) -> _Verdict:
     """What is wrong with one branch."""
-    task, branch = problem.given, driven.branches[k]
-    missed = driven.missed > 1
-    met = ~missed
-    same = np.array([each.circuit == branch.circuit for each in driven.branches])
-    elsewhere = np.zeros(len(missed[k]), dtype=np.intp)
-    if met[k].any():
-        elsewhere[missed[k] & met.any(axis=0)] = ELSEWHERE["circuit"]
-        elsewhere[missed[k] & met[same].any(axis=0)] = ELSEWHERE["branch"]
-    full = branch.turns > 0
-    course = Course(
-        missed[k],
-        elsewhere,
-        driven.drive[k],
-        full,
-        bool(driven.out_of_order[k]),
-        driven.at_poses[k],
-    )
-    names = tuple(
-        name or str(number)
-        for number, name in enumerate(task.names or ("",) * len(missed[k]), start=1)
-    )
-    shares = None if driven.shares is None else driven.shares[k]
+    task, full = problem.given, driven.branches[k].turns > 0
     size = problem.motion_size
     figures = figures_of(linkage, driven.transmission[k], full, driven.extent[k])
     return _Verdict(
@@ -272,12 +261,51 @@ def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProb
         driven=driven,
         branch=k,
         defects=(
-            *defects_of(course, driven.errors[k], shares, task, names),
+            *_defects(driven, k, task),
             *_degenerate(linkage, problem),
         ),
         violations=violations(linkage, figures, task, size),
         shortcomings=shortcomings(figures, size, task),
     )
+
+
+def _defects(driven: _OneDriver, k: int, task: Task) -> Iterator[Finding]:
+    """Why one branch does not lead through the poses of a task in order, missed poses first."""
+    branch, met, any_order = driven.branches[k], ~(driven.missed > 1), task.requirements.any_order
+    same = np.array([each.circuit == branch.circuit for each in driven.branches])
+    here, missed = met[k], ~met[k]
+    locked = missed & met[same].any(axis=0) & here.any()  # met on another branch of the circuit
+    apart = missed & met.any(axis=0) & here.any() & ~locked  # on another circuit
+    given = task.names or ("",) * len(here)
+    names = tuple(name or str(number) for number, name in enumerate(given, start=1))
+    told = PoseNames(names)
+    if far := numbers(missed & ~locked & ~apart):
+        shares = driven.shares
+        text = (
+            too_far_from(far, driven.errors[k], task)
+            if shares is None
+            else outside(far, shares[k], names)
+        )
+        yield Finding("assembly", text, far)
+    one = numbers(here)
+    if other := numbers(apart):
+        verb = "is" if len(one) == 1 else "are"
+        text = f"{told.phrase(one)} {verb} on one assembly, {told.listed(other)} on another"
+        between = "between them" if any_order else told.between(changes(here, here | apart))
+        yield Finding("circuit", f"{text}: it must be taken apart {between}", other)
+    if (other := numbers(locked)) and any_order:
+        text = f"locks at a dead point between {told.phrase(one)} and {told.listed(other)}"
+        yield Finding("branch", text, other)
+    elif other:
+        pairs = changes(here, here | locked)
+        poses = tuple(sorted({pose for pair in pairs for pose in pair}))
+        yield Finding("branch", locks_between(pairs, told), poses)
+    if stuck := numbers(here & (driven.at_poses[k] < DEAD_POINT_ANGLE)):
+        text = f"is at a dead point at {told.phrase(stuck)}"
+        yield Finding("branch", text, stuck, certain=False)
+    if driven.out_of_order[k] and not (locked | apart).any():  # an order is that of one branch
+        steps = np.round(driven.drive[k] / REPEATED_POSE_STEP)
+        yield in_another_order(np.arange(len(steps)), steps, told, all_round=branch.turns > 0)
 
 
 def _degenerate(linkage: SixBar, problem: SynthesisProblem) -> list[Finding]:

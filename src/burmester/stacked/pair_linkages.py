@@ -12,12 +12,10 @@ from numpy.typing import NDArray
 
 from burmester.dyads.selection import Found, same_dyads
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.circuits import Circuits
-from burmester.fourbar.defects import Driven, Verdict, judge
+from burmester.fourbar.defects import Driven, judge
 from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage import TYPES, grashof_numbers
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch, pin_distances
-from burmester.fourbar.pivot_box import extent
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
 from burmester.linkages.judged_places import NearestPlaces
@@ -27,6 +25,7 @@ from burmester.numerics.weights import shares
 from burmester.stacked.answers import LinkageRows
 from burmester.tasks.length_per_radian import lengths_per_radian
 from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE
+from burmester.verdicts.quality import reached
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
 from burmester.verdicts.tolerances import sensitivity_bound
 
@@ -175,7 +174,7 @@ def _at_places(here: _Here, rows: FloatArray, scales: Scales) -> LinkageRows:
     out.angle_rms_deg[:] = np.degrees(np.sqrt((turned**2).mean(axis=1)))
     out.angle_worst_deg[:] = np.degrees(turned.max(axis=1))
     out.combined[:] = unit * np.sqrt((share * both**2).sum(axis=1))
-    side = np.array([_better_side(each) for each in verdicts], dtype=np.intp)
+    side = np.array([each.second.rank() < each.first.rank() for each in verdicts], dtype=np.intp)
     driven = [
         each.second if other else each.first for each, other in zip(verdicts, side, strict=True)
     ]
@@ -202,28 +201,11 @@ def _at_places(here: _Here, rows: FloatArray, scales: Scales) -> LinkageRows:
     return out
 
 
-def _better_side(verdict: Verdict) -> int:
-    """The side that drives better, 0 or 1, as `Evaluation.driver` has it where nothing is asked."""
-
-    def merit(driven: Driven) -> tuple[float, ...]:
-        poses = sum(len(each.poses) for each in driven.defects)
-        weak = -round(float(np.nan_to_num(driven.least_over_range)), 6)
-        return len(driven.defects), poses, 0.0 if driven.turns_fully else 1.0, weak
-
-    return int(merit(verdict.second) < merit(verdict.first))
-
-
 def _quality(
     driven: list[Driven], batch: LinkageBatch, wanted: Displacement, places: Displacement
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Transmission in degrees, extent and sensitivity of linkages (k,), the driver first."""
-    number = np.array([max(each.circuit, 0) for each in driven])
-    inputs = np.array([each.input_range for each in driven])
-    along = np.array([each.parameter for each in driven])
-    ends = np.stack(
-        [end.reduce(along, axis=1, initial=np.nan) for end in (np.fmin, np.fmax)], axis=1
-    )
-    circuits = Circuits.of(batch, as_given=True)[np.arange(len(batch)), number]
+    _, _, reach = reached(batch, driven)
     least = np.degrees([each.least_over_range for each in driven])
     bound = sensitivity_bound(batch, wanted, places, RADIAN).max(axis=-1)
-    return least, extent(circuits, ends, inputs), np.asarray(bound)
+    return least, reach, np.asarray(bound)

@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.circuits import Circuits
-from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.wider_region import DIGITS
 from burmester.tasks.motion_task import Task
 from burmester.tasks.surroundings import KeepOut
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.requirement_check import places_between
 
-PLACES: Final = 181  # number of places between the poses at which pivots, body and links are
 DIRECTIONS: Final = 8  # number of directions in which a region is moved out of the way
 HALVINGS: Final = 30  # number of steps that find how far
 SPARE: Final = 1e-3  # motion sizes; more than the margin, for what comes nearer between the places
@@ -84,34 +80,13 @@ def bars_clear(task: Task, number: int, dimensions: FloatArray) -> NDArray[np.bo
     return np.asarray(away > around.link_width / 2 + around.margin)
 
 
-def _places(found: FoundLinkage) -> Displacement | None:
-    """Places (PLACES,) of the coupler between the poses, or None where it does not go there."""
-    driven = found.driven
-    ends = driven.parameter[np.isfinite(driven.parameter)]
-    if not len(ends) or driven.circuit < 0:
-        return None
-    circuits = Circuits.of(found.driver_first, as_given=True)
-    parameter = np.linspace(ends.min(), ends.max(), PLACES)
-    return circuits[driven.circuit].couplers(parameter)
-
-
-def swept_pivots(found: FoundLinkage) -> Iterator[FloatArray]:
-    """All pivots (*, 2) in F, the moving ones wherever they come between the poses."""
-    places = _places(found)
-    for dyad in (found.linkage.first, found.linkage.second):
-        if isinstance(dyad, RR | RP):
-            yield np.asarray(dyad.fixed_pivot)[None]
-        if isinstance(dyad, RR | PR) and places is not None:
-            yield np.asarray(places.act(dyad.moving_pivot))
-
-
 def _swept(task: Task, found: FoundLinkage) -> NDArray[np.object_] | None:
     """Body and links at places between the poses, as Shapely geometries."""
     import shapely  # noqa: PLC0415  only tasks with surroundings need it
 
     from burmester.clearance.moving_parts import bars_of  # noqa: PLC0415  the same
 
-    places, around = _places(found), task.surroundings
+    places, around = places_between(found.driver_first, found.driven), task.surroundings
     if places is None or around is None:
         return None
     own = LinkageBatch.of([found.driver_first]).linkage_of_all()

@@ -15,13 +15,14 @@ import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.regions import Polygon
-from burmester.synthesis.cleared_region import cleared, swept_pivots
+from burmester.synthesis.cleared_region import cleared
 from burmester.synthesis.wider_region import DIGITS, plain, region_text, wider, wider_all_around
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
 from burmester.tasks.stated_limits import PIVOTS, StatedLimit, with_limits
 from burmester.verdicts.explanation import below
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.requirement_check import pivots_of, places_between
 from burmester.wording import figure, listed
 
 
@@ -89,7 +90,8 @@ def _footprint(
     """A footprint that holds the pivots of a linkage."""
     region = task.requirements.footprint
     assert region is not None
-    told = wider(region, np.concatenate(list(swept_pivots(found))), share, task)
+    swept = pivots_of(found.linkage, places_between(found.driver_first, found.driven))
+    told = wider(region, np.concatenate([points for _, points in swept]), share, task)
     if told is None:
         return None
     assert isinstance(told.region, Polygon)

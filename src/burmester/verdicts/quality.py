@@ -108,22 +108,29 @@ class Quality:
         places: (k, N), the linkages' nearest to the poses; driven: their motions there.
         sensitivity: (k,), the greatest of `tolerances.sensitivity_bound`; size: of the motion.
         """
-        inputs = np.array([each.input_range for each in driven]).reshape(-1, 2)
-        number = np.array([each.circuit for each in driven])
-        parameters = np.array(
-            [
-                [end.reduce(each.parameter, initial=np.nan) for end in (np.fmin, np.fmax)]
-                for each in driven
-            ]
-        ).reshape(-1, 2)
-        circuits = Circuits.of(batch, as_given=True)[np.arange(len(batch)), np.maximum(number, 0)]
-        reach, room = extent(circuits, parameters, inputs) / size, reserve(circuits, inputs)
+        circuits, inputs, reach = reached(batch, driven)
+        reach, room = reach / size, reserve(circuits, inputs)
         advantage, ends = np.empty((len(batch), 2)), places[:, [0, -1]]
         for index, linkage in batch.alike():
             advantage[index] = mechanical_advantage(linkage, ends[index])
         transmission = np.array([each.least_over_range for each in driven])
         turn = np.ptp(inputs, axis=1)
         return cls(transmission, reach, sensitivity, turn, advantage, room)
+
+
+def reached(
+    batch: LinkageBatch, driven: Sequence[Driven]
+) -> tuple[Circuits, FloatArray, FloatArray]:
+    """Where linkages (k,) go that their first dyads drive: circuits, ranges (k, 2) of the input.
+
+    With the diagonals (k,) of the boxes that hold all pivots then.
+    """
+    inputs = np.array([each.input_range for each in driven]).reshape(-1, 2)
+    along = np.array([each.parameter for each in driven]).reshape(len(batch), -1)
+    ends = [end.reduce(along, axis=1, initial=np.nan) for end in (np.fmin, np.fmax)]
+    number = np.array([max(each.circuit, 0) for each in driven], dtype=np.intp)
+    circuits = Circuits.of(batch, as_given=True)[np.arange(len(batch)), number]
+    return circuits, inputs, extent(circuits, np.stack(ends, axis=1), inputs)
 
 
 def best_first(

@@ -55,7 +55,7 @@ def four_bar_figures(linkage: Linkage, driven: Driven, footprint: Polygon | None
     out = figures_of(linkage, driven.least_over_range, driven.turns_fully)
     if footprint is None:
         return out
-    pivots = _pivots(linkage, places_between(linkage, driven))
+    pivots = pivots_of(linkage, places_between(linkage, driven))
     far = ((float(np.nanmax(footprint.distance(at))), name) for name, at in pivots)
     away, pivot = max(far, key=lambda each: each[0], default=(0.0, ""))
     return out._replace(outside=away, pivot=pivot)
@@ -87,11 +87,11 @@ def places_between(linkage: Linkage, driven: Driven) -> Displacement | None:
 
 def outside(linkage: Linkage, places: Displacement | None, footprint: Polygon) -> FloatArray:
     """How far pivots of linkages (*,) leave a footprint where the body is at places (*, N)."""
-    out = [footprint.distance(points).max(axis=-1) for _, points in _pivots(linkage, places)]
+    out = [footprint.distance(points).max(axis=-1) for _, points in pivots_of(linkage, places)]
     return np.asarray(np.max(out, axis=0))
 
 
-def _pivots(linkage: Linkage, places: Displacement | None) -> Iterator[tuple[str, FloatArray]]:
+def pivots_of(linkage: Linkage, places: Displacement | None) -> Iterator[tuple[str, FloatArray]]:
     """What pivots are, and their points (*, N, 2)."""
     dyads = linkage.first, linkage.second
     for dyad in dyads:
