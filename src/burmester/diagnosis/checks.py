@@ -93,7 +93,9 @@ def diagnose(task: Task) -> Diagnosis:
         task, Task, "task", 'give a Task, such as Task.from_rows(rows, angle_unit="deg")'
     )
     motion = classify_motion(task) if task.poses.shape[0] > 1 else None
-    checks = [_far_away(task), _exchanged(task)]
+    swap = None if _has_free_parts(task) else swapped_poses(task)
+    exchanged = None if swap is None else Advice("W202", swap.message, swap.help, swap.why)
+    checks = [_far_away(task), exchanged]
     if motion is not None:
         checks.insert(0, repeats_advice(task, motion.first, motion.group))
     return Diagnosis(task, motion, tuple(each for each in checks if each is not None))
@@ -137,12 +139,6 @@ def repeats_advice(
         f"delete the repeats; to let a {row} count more give it a weight",
         f"{row} {listed(shortened(pairs, MAX_LISTED, 'more'))}",
     )
-
-
-def _exchanged(task: Task) -> Advice | None:
-    """W202: two poses that seem to stand in each other's place."""
-    swap = None if _has_free_parts(task) else swapped_poses(task)
-    return None if swap is None else Advice("W202", swap.message, swap.help, swap.why)
 
 
 def _far_away(task: Task) -> Advice | None:

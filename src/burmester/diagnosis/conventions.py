@@ -97,12 +97,9 @@ class OtherConvention:
     def message(self) -> str:
         """What fits better."""
         how = " and ".join(_WORDS[name] for name in self.names)
-        return f"the poses fit a four-bar {self._times} times better with all angles {how}"
-
-    @property
-    def _times(self) -> str:
         ratio = self.error_as_read / max(self.error, np.finfo(float).tiny)
-        return figure(ratio) if ratio < 1e6 else "over a million"
+        times = figure(ratio) if ratio < 1e6 else "over a million"
+        return f"the poses fit a four-bar {times} times better with all angles {how}"
 
     @property
     def why(self) -> str:

@@ -172,10 +172,6 @@ class OddPose:
         return f"check {words}; or {drop}"
 
 
-def _has_time() -> bool:
-    return time_for("comparing each pose with the others", whole=True)
-
-
 def odd_pose(
     task: Task,
     motion: MotionClass | None = None,
@@ -235,7 +231,9 @@ def odd_pose(
         )
     motion = classify_motion(task) if motion is None else motion
     fit = motion.determined or (motion.distinct >= MIN_POSES and _is_general(task, motion))
-    if not (fit and motion.distinct >= MIN_POSES and _has_time()):
+    if not (fit and motion.distinct >= MIN_POSES):
+        return None
+    if not time_for("comparing each pose with the others", whole=True):
         return None
     look = _among_many if motion.distinct > MAX_POSES else _among_all
     return look(task, motion, dyads, false_alarm_chance)

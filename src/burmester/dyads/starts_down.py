@@ -106,9 +106,5 @@ def pivots_of_fits(poses: Displacement, weights: FloatArray | None) -> FloatArra
         five = spanning(design[rest], 5)
         found.append(dyads_of_five(poses[rest[five]]).dyads)
         rest = np.delete(rest, five)
-    pivots = np.concatenate([_pivots(dyads) for dyads in found])
+    pivots = np.concatenate([np.hstack([each.fixed_pivot, each.moving_pivot]) for each in found])
     return np.asarray(pivots[np.isfinite(pivots).all(axis=-1)])
-
-
-def _pivots(dyads: RR) -> FloatArray:
-    return np.concatenate([dyads.fixed_pivot, dyads.moving_pivot], axis=-1)

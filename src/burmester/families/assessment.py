@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -13,7 +13,6 @@ from burmester.families.rail_freedom import RailFreedom
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.pivot_box import extent
 from burmester.fourbar.pose_order import REPEATED_POSE_STEP, OrderTolerance
 from burmester.fourbar.traversal import (
@@ -80,7 +79,11 @@ def assessed(trials: Trials, task: OpenTask, *, thorough: bool = False) -> Asses
     out = Assessment(np.zeros(count), *(np.full(count, np.nan) for _ in range(3)))
     led = trials.batch.in_order(np.stack([trials.driver, 1 - trials.driver], axis=1))
     places = task.places(trials.offsets)
-    for index, linkage in _alike(led, trials, task):
+    by_side = [np.arange(len(led))]
+    if any(side.rail is not None for side in task.sides):
+        by_side = [np.flatnonzero(trials.driver == side) for side in (0, 1)]
+    alike = ((own[index], each) for own in by_side for index, each in led[own].alike())
+    for index, linkage in alike:
         rails = [task.sides[abs(side - trials.driver[index[0]])].rail for side in (0, 1)]
         part = _of_alike(linkage, places[index], task.conditions, frames, rails)
         for whole, values in zip(out, part, strict=True):
@@ -91,19 +94,6 @@ def assessed(trials: Trials, task: OpenTask, *, thorough: bool = False) -> Asses
         times = np.fmin(np.fmax(out.sensitivity / MAX_SENSITIVITY, 1.0), BAD)
         out.violation[:] += np.log(times)
     return out
-
-
-def _alike(
-    led: LinkageBatch, trials: Trials, task: OpenTask
-) -> Iterator[tuple[NDArray[np.intp], Linkage]]:
-    """As `LinkageBatch.alike`; those with rails also by the side that drives."""
-    if all(side.rail is None for side in task.sides):
-        yield from led.alike()
-        return
-    for side in (0, 1):
-        own = np.flatnonzero(trials.driver == side)
-        for index, linkage in led[own].alike():
-            yield own[index], linkage
 
 
 def _of_alike(
@@ -125,19 +115,20 @@ def _of_alike(
         ranged = pose_range(traversal, view)
         traversal, ranged = other_way_round(traversal, ranged, view, conditions.any_order)
         violation, transmission = _along_poses(traversal, ranged, view)
-        ends = _ends(traversal.order.along)
+        along = traversal.order.along
+        ends = np.stack([np.fmin.reduce(along, axis=1), np.fmax.reduce(along, axis=1)], axis=-1)
         size = extent(traversal.circuits, ends, ranged.input_range) / conditions.span
         figures = _figures(linkage, transmission, traversal)
         if (area := conditions.asked.get(FOOTPRINT)) is not None:
             figures = figures._replace(
-                outside=outside(linkage, _frames(traversal.circuits, ends), area)
+                outside=outside(linkage, traversal.circuits.between(ends, FRAMES), area)
             )
         violation = violation + excess(conditions.asked, figures)
         if frozenset({type(linkage.first), type(linkage.second)}) not in conditions.kinds:
             violation = violation + LOST
         if any(each is not None and each.rail.travel is not None for each in rails):
-            along = _frames(traversal.circuits, ends)
-            violation = violation + _beyond(linkage, along, rails) / conditions.span
+            range_ = traversal.circuits.between(ends, FRAMES)
+            violation = violation + _beyond(linkage, range_, rails) / conditions.span
         if conditions.around is not None:
             violation = violation + _too_close(
                 linkage, traversal.circuits, ends, violation, conditions, counts=frames
@@ -159,17 +150,6 @@ def _along_poses(
     violation += np.where(traversal.crosses_branches, LOST, 0.0)
     back = np.where(traversal.order.back > REPEATED_POSE_STEP, traversal.order.back, 0.0)
     return violation + np.minimum(back, NONE), least
-
-
-def _ends(along: FloatArray) -> FloatArray:
-    """The ends (k, 2) of the range of parameters (k, N)."""
-    return np.stack([np.fmin.reduce(along, axis=1), np.fmax.reduce(along, axis=1)], axis=-1)
-
-
-def _frames(circuits: Circuits, ends: FloatArray) -> Displacement:
-    """Places (k, FRAMES) of the coupler along a range of parameters (k, 2)."""
-    share = np.linspace(0.0, 1.0, FRAMES)
-    return circuits.couplers(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * share)
 
 
 def _beyond(
@@ -207,9 +187,7 @@ def _too_close(
     for count in counts:
         if around is None or not len(some):
             break
-        share = np.linspace(0.0, 1.0, count)
-        start, end = ends[some, :1], ends[some, 1:]
-        frames = circuits[some].couplers(start + (end - start) * share)
+        frames = circuits[some].between(ends[some], count)
         bars = bars_of(Linkage(linkage.first[some], linkage.second[some]), frames)
         out[some] = shares_too_close(frames, bars, conditions.body, around, slack)
         some = some[out[some] == 0]  # looked at more closely
@@ -238,20 +216,17 @@ def _by_transmission(value: Assessment, enough: float) -> FloatArray:
     return np.asarray(other - np.minimum(value.transmission, enough))
 
 
-def _by_extent(value: Assessment, _: float) -> FloatArray:
-    return np.asarray(np.log(value.extent))
-
-
-def _by_sensitivity(value: Assessment, _: float) -> FloatArray:
-    return np.asarray(np.log(value.sensitivity))
-
-
 def _by_all(value: Assessment, enough: float) -> FloatArray:
     sine = np.sin(np.clip(value.transmission, 1e-3, enough))
     return np.asarray(np.log(proportions(value.extent, value.sensitivity) / sine**2))
 
 
-AIMS: Final = (_by_transmission, _by_extent, _by_sensitivity, _by_all)
+AIMS: Final[Sequence[Callable[[Assessment, float], FloatArray]]] = (
+    _by_transmission,
+    lambda value, _: np.asarray(np.log(value.extent)),
+    lambda value, _: np.asarray(np.log(value.sensitivity)),
+    _by_all,
+)
 
 
 def costs(value: Assessment, aims: NDArray[np.intp], enough: float) -> FloatArray:

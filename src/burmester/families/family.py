@@ -32,7 +32,6 @@ from burmester.verdicts.assumptions import Assumptions, Bound
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.quality import (
     PROPORTIONS,
-    Quality,
     best_first,
     enough_transmission,
     proportions,
@@ -367,18 +366,16 @@ def recommended_first(
     least = problem.task.requirements.transmission
     order = []
     for _, index in sorted(groups.items()):
-        rows = [_figures(found[k].quality) for k in index]
+        qualities = [found[k].quality for k in index]
+        rows = [
+            (0.0, np.inf, np.inf) if q is None else (q.transmission, q.extent, q.sensitivity)
+            for q in qualities
+        ]
         value = Assessment(np.zeros(len(rows)), *np.array(rows).reshape(-1, 3).T)
         best = _recommended(value, problem.options.prefer, least)
         rest = best_first(*value[1:], enough=enough_transmission(least))
         order += [index[k] for k in (best, *rest[rest != best])]
     return [found[k] for k in order]
-
-
-def _figures(quality: Quality | None) -> tuple[float, float, float]:
-    if quality is None:
-        return 0.0, np.inf, np.inf
-    return float(quality.transmission), float(quality.extent), float(quality.sensitivity)
 
 
 def front(figures: FloatArray) -> NDArray[np.intp]:

@@ -98,7 +98,7 @@ def least_excess(
             every.append((trials, value.extent))
             if not len(trials):
                 break
-            best = _best(value)
+            best = np.argsort(value.extent, kind="stable")[:MOST_STARTS]
             trials, value = take(trials, best), take(value, best)
     if not sum(len(excess) for _, excess in every):
         return None
@@ -174,10 +174,6 @@ def _good(trials: Trials, value: Assessment) -> tuple[Trials, FloatArray]:
     """The linkages that keep all but the limit, and their excess, under the name of extent."""
     good = np.flatnonzero(value.good)
     return take(trials, good), value.extent[good]
-
-
-def _best(value: Assessment) -> NDArray[np.intp]:
-    return np.argsort(value.extent, kind="stable")[:MOST_STARTS]
 
 
 def _starts(trials: Trials, value: Assessment, task: OpenTask) -> NDArray[np.intp]:

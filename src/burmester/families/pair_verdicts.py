@@ -219,9 +219,8 @@ def _outside(
 ) -> FloatArray:
     """How far pivots of some linkages (n,) leave a footprint, at samples of their motions."""
     along = traversal.order.along[some]
-    share = np.linspace(0, 1, FOOTPRINT_SAMPLES)
-    low, high = along.min(axis=1, keepdims=True), along.max(axis=1, keepdims=True)
-    places = traversal.circuits[some].couplers(low + share * (high - low))
+    ends = np.stack([along.min(axis=1), along.max(axis=1)], axis=-1)
+    places = traversal.circuits[some].between(ends, FOOTPRINT_SAMPLES)
     return outside(Linkage(side.first[some], side.second[some]), places, footprint)
 
 

@@ -9,7 +9,7 @@ from typing import Final, Self, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.geometry.regions import Line, Point, Polygon, Region, Segment
+from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, feet
 from burmester.numerics.arrays import FloatArray
 
 ZONES: Final = 5  # number of zones, each twice as wide as the one before; beyond, dyads are rare
@@ -95,8 +95,8 @@ class PivotFreedom:
             if not outside.any():
                 return points, along
             back = points.copy()
-            feet, along[outside] = _nearest_on_edges(own[outside], region.vertices)
-            back[outside] = (feet - self.origin) / self.unit
+            near, along[outside] = _nearest_on_edges(own[outside], region.vertices)
+            back[outside] = (near - self.origin) / self.unit
             return back, along
         if isinstance(region, Point):
             own = np.broadcast_to(region.at, points.shape)
@@ -172,8 +172,8 @@ def _drawn(region: Region, zone: Box, count: int, rng: np.random.Generator) -> F
         found = np.concatenate([found, points[region.signed_distance(points) <= 0]])
         if len(found) >= count:
             return found[:count]
-    feet, _ = _nearest_on_edges(points[: count - len(found)], region.vertices)
-    return np.concatenate([found, feet])
+    near, _ = _nearest_on_edges(points[: count - len(found)], region.vertices)
+    return np.concatenate([found, near])
 
 
 def _outside(points: FloatArray, polygon: Polygon) -> NDArray[np.bool_]:
@@ -197,10 +197,9 @@ def _foot(points: FloatArray, start: FloatArray, end: FloatArray, *, endless: bo
 
 def _nearest_on_edges(points: FloatArray, vertices: FloatArray) -> tuple[FloatArray, FloatArray]:
     """The points of a polygon's edges nearest to points (k, 2), and the edges' projectors."""
-    along = np.roll(vertices, -1, axis=0) - vertices
+    ends = np.roll(vertices, -1, axis=0)
+    near, along = feet(points[:, None], vertices, ends), ends - vertices
+    best = ((near - points[:, None]) ** 2).sum(axis=-1).argmin(axis=1)
     square = (along * along).sum(axis=-1)
-    share = ((points[:, None] - vertices) * along).sum(axis=-1) / square
-    feet = vertices + share.clip(0, 1)[..., None] * along
-    best = ((feet - points[:, None]) ** 2).sum(axis=-1).argmin(axis=1)
     projectors = along[:, :, None] * along[:, None, :] / square[:, None, None]
-    return feet[np.arange(len(points)), best], projectors[best]
+    return near[np.arange(len(points)), best], projectors[best]

@@ -39,7 +39,8 @@ def moved_with_places(batch: LinkageBatch, places: Displacement, kept: Held | No
     z, few = batch.dimensions, places.shape[1] <= DIMENSIONS
     flat = FLAT if few else FLAT_OF_MANY
     if kept is not None:
-        z = z - _onto(kept, z.reshape(len(z), SIZE)).reshape(z.shape)
+        off = kept.gap(z.reshape(len(z), SIZE))[:, None]
+        z = z - (off @ np.where(kept.active[..., None], kept.rows, 0.0)).reshape(z.shape)
     for _ in range(MOVING_STEPS if few else 1):  # more places cannot all be met
         residual, _, by_dimension = LinkageBatch(batch.kinds, z).jacobians(places)
         jacobian = by_dimension
@@ -54,13 +55,6 @@ def moved_with_places(batch: LinkageBatch, places: Displacement, kept: Held | No
         if not (np.abs(step).max(initial=0) > MET):
             break
     return LinkageBatch(batch.kinds, z)
-
-
-def _onto(kept: Held, z: FloatArray) -> FloatArray:
-    """What to take off dimensions z (k, 10) so that they lie on their faces."""
-    return np.asarray(
-        (kept.gap(z)[:, None] @ np.where(kept.active[..., None], kept.rows, 0.0))[:, 0]
-    )
 
 
 def _along(kept: Held) -> FloatArray:

@@ -39,7 +39,6 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, replaced, take
-from burmester.numerics.weights import weights_of_mean_one
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.residuals import SIZE, Problem
 from burmester.refinement.target import Target
@@ -355,11 +354,6 @@ def _passed(batch: LinkageBatch, poses: Displacement) -> NDArray[np.bool_]:
 
 def _problem(batch: LinkageBatch, target: Target) -> Problem:
     """What linkages (k,) are refined for."""
-    number = target.poses.shape[0]
-    exact = np.zeros(number, dtype=bool) if target.exact is None else target.exact
-    share = np.where(exact, 0.0, np.sqrt(weights_of_mean_one(target.weights, (number,))))
-    slots = np.ones((len(batch), 2, DIMENSIONS), dtype=bool)
-    slots[..., -1] = batch.kinds == 0
-    wanted = rows_of(target.poses, target.length)
-    free = slots.reshape(len(batch), SIZE)
-    return Problem(batch.kinds, wanted, target.length, share, exact, None, free)
+    return Problem.of(
+        batch, target.poses, target.length, weights=target.weights, exact=target.exact
+    )

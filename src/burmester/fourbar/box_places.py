@@ -9,6 +9,7 @@ other place is deeper is not proved.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Final, final
 
 import numpy as np
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.foot_points import places_of, wrapped
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import places_at, sampled
+from burmester.fourbar.nearest_places import Bracket, bracketed_least, places_at, sampled
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
@@ -105,18 +106,15 @@ def _deepest(
     width[:, -1:] += 1
     width = np.maximum(width, np.roll(width, 1, axis=-1))
     every = np.arange(len(share))[:, None, None]
-    middle, reach = share[every, starts], width[every, starts]
-    middle, reach, _ = _narrowed(
-        circuits, middle, reach, boxes, rounds=FIRST_ROUNDS, count=FIRST_SAMPLES
-    )
-    rows = _rows_at(circuits, middle, boxes.length)
-    spacing = np.abs(
-        wrapped(_rows_at(circuits, middle + reach, boxes.length) - rows, boxes.length)
-    ).max(axis=-1)
+    bracket = Bracket(share[every, starts], width[every, starts])
+    down = partial(bracketed_least, circuits, measure=boxes.share, length=boxes.length)
+    (middle, reach, *_), rows = down(bracket, rounds=FIRST_ROUNDS, count=FIRST_SAMPLES)
+    ends = (middle + reach).reshape(len(middle), -1)
+    beside = places_at(circuits, ends, boxes.length).reshape(rows.shape)
+    spacing = np.abs(wrapped(beside - rows, boxes.length)).max(axis=-1)
     best = boxes.share(rows, np.nan_to_num(spacing, nan=np.inf)).argmin(axis=1)[:, None]
-    middle, reach = (np.take_along_axis(each, best, axis=1) for each in (middle, reach))
-    _, _, rows = _narrowed(circuits, middle, reach, boxes, rounds=LAST_ROUNDS, count=LAST_SAMPLES)
-    rows = rows[:, 0]
+    bracket = Bracket(*(np.take_along_axis(each, best, axis=1) for each in (middle, reach)))
+    rows = down(bracket, rounds=LAST_ROUNDS, count=LAST_SAMPLES)[1][:, 0]
     return np.asarray(boxes.centre + wrapped(rows - boxes.centre, boxes.length))
 
 
@@ -125,30 +123,3 @@ def _is_lowest(used: FloatArray) -> NDArray[np.bool_]:
     lowest = (used <= np.roll(used, 1, axis=1)) & (used <= np.roll(used, -1, axis=1))
     lowest[:, [0, -1]] = True  # an open circuit ends there
     return np.asarray(lowest)
-
-
-def _narrowed(
-    circuits: Circuits,
-    middle: FloatArray,
-    reach: FloatArray,
-    boxes: Boxes,
-    *,
-    rounds: int,
-    count: int,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Fractions (n, m, N) with the least share near `middle`, their brackets, and rows there."""
-    best = _rows_at(circuits, middle, boxes.length)
-    for _ in range(rounds):
-        tried = middle[:, None] + reach[:, None] * np.linspace(-1, 1, count)[:, None, None]
-        rows = _rows_at(circuits, tried, boxes.length)
-        at = boxes.share(rows).argmin(axis=1)[:, None]
-        middle = np.take_along_axis(tried, at, axis=1)[:, 0]
-        best = np.take_along_axis(rows, at[..., None], axis=1)[:, 0]
-        reach = reach * 2.0 / (count - 1)
-    return middle, reach, best
-
-
-def _rows_at(circuits: Circuits, share: FloatArray, length: float) -> FloatArray:
-    """Rows (n, *, 3) at fractions (n, *) of circuits (n,)."""
-    flat = share.reshape(len(share), -1)
-    return places_at(circuits, flat, length).reshape(*share.shape, 3)

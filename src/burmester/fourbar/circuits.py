@@ -198,6 +198,11 @@ class Circuits:
         shape = (*self.shape, d.shape[-1])
         return displacement_of(d.reshape(shape), turn.reshape(shape))
 
+    def between(self, ends: FloatArray, count: int) -> Displacement:
+        """Coupler places (k, count) at parameters evenly from one end (k, 2) to the other."""
+        share = np.linspace(0.0, 1.0, count)
+        return self.couplers(ends[:, :1] + (ends[:, 1:] - ends[:, :1]) * share)
+
     def _places(self, parameter: FloatArray) -> tuple[ComplexArray, ComplexArray]:
         """Places d and e^(i angle), (m, n), of all circuits in one row; see `couplers`."""
         parameter = np.asarray(parameter, dtype=np.float64)

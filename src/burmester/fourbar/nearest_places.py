@@ -8,6 +8,7 @@ from the one beside it, to the nearest places.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Final, NamedTuple, Self, final
 
@@ -250,6 +251,48 @@ def places_at(circuits: Circuits, share: FloatArray, length: float) -> FloatArra
         slid = MEDIAN_PARAMETER * np.tan(np.pi * (inside - 0.5))
         parameter = np.where(endless, slid, parameter)
     return rows_of(circuits.couplers(parameter), length)
+
+
+class Bracket(NamedTuple):
+    """Fractions (n, *) of circuits (n,), how far to look on both sides, and where circuits end.
+
+    low, high: (n, 1) or broadcastable.
+    """
+
+    middle: FloatArray
+    reach: FloatArray
+    low: FloatArray = np.full((1, 1), -np.inf)
+    high: FloatArray = np.full((1, 1), np.inf)
+
+    def at(self, index: NDArray[np.intp]) -> Bracket:
+        """The brackets of some points."""
+        return self._replace(middle=self.middle[:, index], reach=self.reach[:, index])
+
+
+def bracketed_least(
+    circuits: Circuits,
+    bracket: Bracket,
+    measure: Callable[[FloatArray], FloatArray],
+    length: float,
+    *,
+    rounds: int,
+    count: int,
+) -> tuple[Bracket, FloatArray]:
+    """Brackets around the least of a measure of rows, and the rows (n, *, 3) in their middles.
+
+    count: how many places of a bracket are tried in each round.
+    """
+    middle, reach, low, high = bracket
+    steps = np.linspace(-1, 1, count).reshape(-1, *[1] * (middle.ndim - 1))
+    for _ in range(rounds):
+        tried = (middle[:, None] + reach[:, None] * steps).clip(low[:, None], high[:, None])
+        flat = tried.reshape(len(tried), -1)
+        rows = places_at(circuits, flat, length).reshape(*tried.shape, 3)
+        at = measure(rows).argmin(axis=1)[:, None]
+        middle = np.take_along_axis(tried, at, axis=1)[:, 0]
+        best = np.take_along_axis(rows, at[..., None], axis=1)[:, 0]
+        reach = reach * 2.0 / (count - 1)
+    return bracket._replace(middle=middle, reach=reach), best
 
 
 def _distance_to_next(samples: FloatArray, length: float) -> FloatArray:

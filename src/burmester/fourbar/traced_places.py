@@ -12,7 +12,7 @@ not proved.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from functools import partial
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from burmester.fourbar.box_places import Boxes
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import places_at, sampled
+from burmester.fourbar.nearest_places import Bracket, bracketed_least, places_at, sampled
 from burmester.fourbar.transmission import Transmission
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, even_numbers
 from burmester.numerics.bundles import take
@@ -311,19 +311,6 @@ def _in_order(cost: FloatArray, anchored: NDArray[np.bool_]) -> tuple[NDArray[np
     return out, total.min(axis=1)
 
 
-class _Bracket(NamedTuple):
-    """Fractions (w, N) of circuits (w,), how far to look on both sides, and where circuits end."""
-
-    middle: FloatArray
-    reach: FloatArray
-    low: FloatArray
-    high: FloatArray
-
-    def at(self, index: NDArray[np.intp]) -> _Bracket:
-        """The brackets of some points."""
-        return _Bracket(self.middle[:, index], self.reach[:, index], self.low, self.high)
-
-
 def _at_feet(
     samples: _Samples,
     ways: list[_Way],
@@ -383,7 +370,7 @@ def _block_at_feet(
         if stretch.size == number:  # a whole circuit goes on beyond the last samples
             low[row], high[row] = (-np.inf, np.inf) if stretch.around else (0.0, 1.0)
 
-    bracket = _Bracket(middle, reach, low, high)
+    bracket = Bracket(middle, reach, low, high)
     middle, rows = _nearest(circuits, bracket, wanted, length)
     if boxes is None:
         return rows, middle, speed
@@ -392,9 +379,11 @@ def _block_at_feet(
     own = np.flatnonzero(out.any(axis=0))
     if len(own):
         reach = np.minimum(BESIDE * away / np.maximum(speed, 1e-9), 1 / 4)
-        bracket = _Bracket(middle, np.where(out, reach, 0.0), low, high).at(own)
+        bracket = Bracket(middle, np.where(out, reach, 0.0), low, high).at(own)
         few, out = take(boxes, own), out[:, own]
-        beside, inside = _narrowed(circuits, bracket, few.share, length)
+        (beside, *_), inside = bracketed_least(
+            circuits, bracket, few.share, length, rounds=ROUNDS, count=TRIED
+        )
         out &= few.share(inside) <= 1
         middle[:, own] = np.where(out, beside, middle[:, own])
         rows[:, own] = np.where(out[..., None], inside, rows[:, own])
@@ -437,7 +426,7 @@ def _pooled(x: FloatArray, weight: FloatArray) -> FloatArray:
 
 
 def _nearest(
-    circuits: Circuits, bracket: _Bracket, wanted: ComplexArray, length: float
+    circuits: Circuits, bracket: Bracket, wanted: ComplexArray, length: float
 ) -> tuple[FloatArray, FloatArray]:
     """The places in brackets nearest to points (N,): fractions (w, N), rows (w, N, 3).
 
@@ -448,7 +437,8 @@ def _nearest(
     def away(rows: FloatArray) -> FloatArray:
         return _squares(rows, wanted)
 
-    middle, _ = _narrowed(circuits, bracket, away, length, FIRST_ROUNDS)
+    down = partial(bracketed_least, circuits, measure=away, length=length, count=TRIED)
+    middle = down(bracket, rounds=FIRST_ROUNDS)[0].middle
     reach = bracket.reach * (2.0 / (TRIED - 1)) ** FIRST_ROUNDS
     inside = (middle - reach >= bracket.low) & (middle + reach <= bracket.high)
     side, least = np.array([-1.0, 0.0, 1.0])[:, None], np.full(middle.shape, np.inf)
@@ -466,32 +456,10 @@ def _nearest(
     inside &= away(rows) <= least * (1 + PROMISED) + ROUNDING**2
     if len(rest := np.flatnonzero(~inside.all(axis=0))):
         wanted = wanted[rest]
-        narrow = _narrowed(circuits, bracket.at(rest), away, length)
-        middle[:, rest] = np.where(inside[:, rest], middle[:, rest], narrow[0])
-        rows[:, rest] = np.where(inside[:, rest, None], rows[:, rest], narrow[1])
+        narrow, there = down(bracket.at(rest), rounds=ROUNDS)
+        middle[:, rest] = np.where(inside[:, rest], middle[:, rest], narrow.middle)
+        rows[:, rest] = np.where(inside[:, rest, None], rows[:, rest], there)
     return middle, rows
-
-
-def _narrowed(
-    circuits: Circuits,
-    bracket: _Bracket,
-    measure: Callable[[FloatArray], FloatArray],
-    length: float,
-    rounds: int = ROUNDS,
-) -> tuple[FloatArray, FloatArray]:
-    """Where a measure (*, N) of rows (*, N, 3) is least: fractions (w, N), rows (w, N, 3)."""
-    middle, reach, low, high = bracket
-    best = np.empty((*middle.shape, 3))
-    for _ in range(rounds):
-        tried = middle[:, None] + reach[:, None] * np.linspace(-1, 1, TRIED)[:, None]
-        tried = np.clip(tried, low[:, None], high[:, None])
-        rows = places_at(circuits, tried.reshape(len(middle), -1), length)
-        rows = rows.reshape(*tried.shape, 3)
-        at = measure(rows).argmin(axis=1)[:, None]
-        middle = np.take_along_axis(tried, at, axis=1)[:, 0]
-        best = np.take_along_axis(rows, at[..., None], axis=1)[:, 0]
-        reach = reach * 2.0 / (TRIED - 1)
-    return middle, best
 
 
 def _downhill(samples: _Samples, way: _Way, wanted: ComplexArray) -> NDArray[np.intp]:

@@ -224,7 +224,8 @@ def _defects(
         out.append(Finding("branch", f"meets {_pairs(missed, names)} on another branch"))
     if not bool(generator.runs_through(low, high)):
         locks = _dead_inputs(generator, low, high)
-        where = " and ".join(_degrees(each) for each in locks)
+        angles = np.degrees(locks)
+        where = " and ".join(f"{a:.1f} deg" if np.isfinite(a) else "no angle" for a in angles)
         message = f"locks at an input of {where}" if locks else "cannot be assembled over the range"
         out.append(Finding("dead-point", message))
     return tuple(out)
@@ -257,7 +258,3 @@ def _extent(generator: Generator, inputs: FloatArray) -> float:
 def _pairs(at: NDArray[np.intp], names: list[str]) -> str:
     named = in_runs([names[int(k)] for k in at], MOST_PAIRS)
     return f"pair {named}" if len(at) == 1 else f"pairs {named}"
-
-
-def _degrees(angle: float) -> str:
-    return f"{math.degrees(angle):.1f} deg" if math.isfinite(angle) else "no angle"

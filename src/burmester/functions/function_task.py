@@ -44,13 +44,12 @@ class SampledFunction:
         share = np.asarray(share, dtype=np.float64)
         low, high = self.x
         y = self.values(low + (high - low) * share)
-        first, every = self.values(np.array([low])), self._every()
+        first, every = (
+            self.values(np.array([low])),
+            self.values(np.linspace(*self.x, FUNCTION_SAMPLES)),
+        )
         scale = self.output_range / (every.max() - every.min())
         return self.input_range * share, scale * (y - first)
-
-    def _every(self) -> FloatArray:
-        low, high = self.x
-        return self.values(np.linspace(low, high, FUNCTION_SAMPLES))
 
 
 @final

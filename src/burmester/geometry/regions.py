@@ -282,14 +282,7 @@ class Polygon:
 
     def signed_distance(self, points: FloatArray) -> FloatArray:
         """How far points (*, 2) lie outside it, (*,), or inside where negative."""
-        v, p = self.vertices, points[..., None, :]
-        w = np.roll(v, -1, axis=0)
-        above = (v[:, 1] > p[..., 1]) != (w[:, 1] > p[..., 1])
-        rise = np.where(w[:, 1] == v[:, 1], 1.0, w[:, 1] - v[:, 1])
-        crossing = v[:, 0] + (p[..., 1] - v[:, 1]) / rise * (w[:, 0] - v[:, 0])
-        inside = (above & (p[..., 0] < crossing)).sum(axis=-1) % 2 == 1
-        from_edge = _from_segment(p, v, w).min(axis=-1)
-        return np.asarray(np.where(inside, -from_edge, from_edge))
+        return outside_corners(points, self.vertices)
 
     def corners(self) -> FloatArray:
         """Points (k, 2) whose convex hull holds the region."""
@@ -340,6 +333,12 @@ def box(low: Sequence[float], high: Sequence[float]) -> Region:
     if min(x1 - x0, y1 - y0) > _least_width(corners):
         return Polygon(corners)
     return _flat(corners, _least_width(corners))
+
+
+def box_around(points: FloatArray, margin: float) -> Polygon:
+    """The box around points (k, 2), wider by a margin on each side."""
+    (left, low), (right, high) = points.min(axis=0) - margin, points.max(axis=0) + margin
+    return Polygon(np.array([(left, low), (right, low), (right, high), (left, high)]))
 
 
 def narrowed(region: Region, width: float) -> Region:
@@ -409,12 +408,29 @@ def _line_equation(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.array([[-normal @ start, *normal]])
 
 
+def outside_corners(points: FloatArray, vertices: FloatArray) -> FloatArray:
+    """How far points (*, 2) lie outside corners (n, 2) in order, or inside where negative."""
+    v, p = vertices, points[..., None, :]
+    w = np.roll(v, -1, axis=0)
+    # The rays to the right of a point inside cross an odd number of edges.
+    above = (v[:, 1] > p[..., 1]) != (w[:, 1] > p[..., 1])
+    rise = np.where(w[:, 1] == v[:, 1], 1.0, w[:, 1] - v[:, 1])
+    crossing = v[:, 0] + (p[..., 1] - v[:, 1]) / rise * (w[:, 0] - v[:, 0])
+    inside = (above & (p[..., 0] < crossing)).sum(axis=-1) % 2 == 1
+    from_edge = _from_segment(p, v, w).min(axis=-1)
+    return np.asarray(np.where(inside, -from_edge, from_edge))
+
+
 def _from_segment(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
     """The distance of points (*, 2) from segments (*, 2), broadcast."""
+    return np.asarray(np.linalg.norm(points - feet(points, start, end), axis=-1))
+
+
+def feet(points: FloatArray, start: FloatArray, end: FloatArray) -> FloatArray:
+    """The points (*, 2) of segments (*, 2) nearest to points (*, 2), broadcast."""
     along = end - start
     share = ((points - start) * along).sum(axis=-1) / (along * along).sum(axis=-1)
-    foot = start + np.clip(share, 0, 1)[..., None] * along
-    return np.asarray(np.linalg.norm(points - foot, axis=-1))
+    return np.asarray(start + np.clip(share, 0, 1)[..., None] * along)
 
 
 class _Meeting(NamedTuple):

@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
+from operator import attrgetter
 from typing import NamedTuple, final
 
 import numpy as np
@@ -69,16 +70,14 @@ class Move(NamedTuple):
 def moves(given: FoundLinkage, other: FoundLinkage) -> list[Move]:
     """How far the dyads of a linkage move to become those of another one, by their ids."""
     known = {each.id: each.dyad for each in other.dyads}
-    return [_move(each, known[each.id], given) for each in sorted(given.dyads, key=_id)]
+    return [
+        _move(each, known[each.id], given) for each in sorted(given.dyads, key=attrgetter("id"))
+    ]
 
 
 def greatest_move(given: FoundLinkage, other: FoundLinkage) -> float:
     """The greatest move of a pivot, a length or a line."""
     return max(each.greatest for each in moves(given, other))
-
-
-def _id(dyad: FoundDyad) -> str:
-    return dyad.id
 
 
 def _move(own: FoundDyad, new: Dyad, given: FoundLinkage) -> Move:

@@ -14,6 +14,7 @@ from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.bundles import take
 from burmester.polynomials.bilinear_fit import Parameters, Shape
 from burmester.polynomials.elimination_template import Chart, chart, isotropic, template
+from burmester.polynomials.macaulay import column_ratio
 
 BALANCE = 0.4  # target ratio of linear to bilinear terms; the result is not sensitive to it
 ENTRIES_AT_ONCE = 2_000_000  # of matrices; bounds the memory
@@ -49,15 +50,9 @@ def _eigen_points(
     basis = np.linalg.qr(null[:, : t.trusted])[0]
     values, vectors = np.linalg.eig(np.linalg.solve(c.first @ basis, c.second @ basis))
     at = (t.monomials @ basis) @ vectors
-    z = np.stack([_ratio(at[:, low], at[:, high]) for low, high in t.times], axis=-1)
+    z = np.stack([column_ratio(at[:, low], at[:, high]) for low, high in t.times], axis=-1)
     x = (z @ isotropic(shape).unknowns.T) @ c.turn.T + c.shift
     return x * unit[:, None], values.imag < 0
-
-
-def _ratio(low: ComplexArray, high: ComplexArray) -> ComplexArray:
-    """The factors (T, k) that take columns of `low` to those of `high`, by least squares."""
-    size = np.maximum((np.abs(low) ** 2).sum(axis=1), np.finfo(float).tiny)
-    return np.asarray((low.conj() * high).sum(axis=1) / size)
 
 
 def in_chart(shape: Shape, p: Parameters, c: Chart) -> tuple[FloatArray, ComplexArray]:

@@ -101,15 +101,15 @@ def eigen_points(gram: FloatArray, chart: int) -> tuple[ComplexArray, float]:
     right = u.T @ np.concatenate([second.real, second.imag])
     _, vectors = np.linalg.eig(np.linalg.lstsq(upper, right, rcond=None)[0])
     values_at = monomials @ vectors
-    c, cc, m, mm = (_ratio(values_at[low], values_at[high]) for low, high in t.times)
+    c, cc, m, mm = (column_ratio(values_at[low], values_at[high]) for low, high in t.times)
     zeros = np.stack([(c + cc) / 2, (c - cc) / 2j, (m + mm) / 2, (m - mm) / 2j], axis=-1)
     return zeros, float(np.abs(np.diag(r)).min())
 
 
-def _ratio(low: ComplexArray, high: ComplexArray) -> ComplexArray:
-    """The factor (25,) that takes columns of `low` to those of `high`, by least squares."""
-    size = np.maximum((np.abs(low) ** 2).sum(axis=0), np.finfo(float).tiny)
-    return np.asarray((low.conj() * high).sum(axis=0) / size)
+def column_ratio(low: ComplexArray, high: ComplexArray) -> ComplexArray:
+    """The factors (*, k) that take columns of `low` to those of `high`, by least squares."""
+    size = np.maximum((np.abs(low) ** 2).sum(axis=-2), np.finfo(float).tiny)
+    return np.asarray((low.conj() * high).sum(axis=-2) / size)
 
 
 def _add(e: Exponents, f: Exponents) -> Exponents:

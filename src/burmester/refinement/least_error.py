@@ -15,13 +15,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.foot_points import rows_of
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec, solve
-from burmester.numerics.weights import weights_of_mean_one
 from burmester.refinement.constraints import Constraints
 from burmester.refinement.residuals import (
     SIZE,
@@ -123,19 +122,19 @@ def refine(
     damping : float
         The first one without constraints; less for linkages that are nearly at a minimum.
     """
-    count, number = len(batch), poses.shape[0]
-    exact = np.zeros(number, dtype=bool) if exact is None else exact
-    share = np.where(exact, 0.0, np.sqrt(weights_of_mean_one(weights, (number,))))
-    slots = np.ones((count, 2, DIMENSIONS), dtype=bool)
-    slots[..., -1] = batch.kinds == 0
-    used = slots.reshape(count, SIZE) & (True if free is None else free)
-    if metric is not None:
-        metric = np.broadcast_to(metric, (count, *metric.shape[-3:]))
-    problem = Problem(
-        batch.kinds, rows_of(poses, length), length, share, exact, constraints, used, metric
+    count = len(batch)
+    problem = Problem.of(
+        batch,
+        poses,
+        length,
+        weights=weights,
+        exact=exact,
+        constraints=constraints,
+        free=free,
+        metric=metric,
     )
     state = problem.start(batch.dimensions.reshape(count, SIZE), rows_of(places, length))
-    keeping = bool(exact.any()) or constraints is not None
+    keeping = bool(problem.exact.any()) or constraints is not None
     rows, met = state.rows, np.ones(count, dtype=bool)
     for power in POWERS if worst else POWERS[:1]:
         if keeping:
@@ -147,7 +146,7 @@ def refine(
             state, done = _descend(problem, state, power, steps, damping)
             rows = state.rows
     away = problem.counted(np.arange(count), rows - problem.wanted)
-    size = share * np.sqrt((away**2).sum(axis=-1))
+    size = problem.share * np.sqrt((away**2).sum(axis=-1))
     cost = size.max(axis=-1) if worst else (size * size).sum(axis=-1) / 2
     lost = ~np.isfinite(cost)
     return Refined(problem.batch(np.arange(count), state.z), rows, cost, done & ~lost, met & ~lost)

@@ -14,10 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.coupler_kernel import normal_parts
-from burmester.fourbar.foot_points import newton_steps
+from burmester.fourbar.foot_points import newton_steps, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec
+from burmester.numerics.weights import weights_of_mean_one
 from burmester.refinement.constraints import Constraints
 
 SIZE = 2 * DIMENSIONS
@@ -76,6 +78,31 @@ class Problem:
     constraints: Constraints | None
     free: NDArray[np.bool_]
     metric: FloatArray | None = None
+
+    @classmethod
+    def of(
+        cls,
+        batch: LinkageBatch,
+        poses: Displacement,
+        length: float,
+        *,
+        weights: FloatArray | None,
+        exact: NDArray[np.bool_] | None,
+        constraints: Constraints | None = None,
+        free: NDArray[np.bool_] | None = None,
+        metric: FloatArray | None = None,
+    ) -> Problem:
+        """The problem of linkages (k,) at poses (N,); without exact poses, and all of them free."""
+        count, number = len(batch), poses.shape[0]
+        exact = np.zeros(number, dtype=bool) if exact is None else exact
+        share = np.where(exact, 0.0, np.sqrt(weights_of_mean_one(weights, (number,))))
+        slots = np.ones((count, 2, DIMENSIONS), dtype=bool)
+        slots[..., -1] = batch.kinds == 0
+        used = slots.reshape(count, SIZE) & (True if free is None else free)
+        if metric is not None:
+            metric = np.broadcast_to(metric, (count, *metric.shape[-3:]))
+        wanted = rows_of(poses, length)
+        return cls(batch.kinds, wanted, length, share, exact, constraints, used, metric)
 
     def counted(self, which: NDArray[np.intp], gap: FloatArray) -> FloatArray:
         """What counts of gaps (r, N, 3) of the linkages at the indices."""

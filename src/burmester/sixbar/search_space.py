@@ -10,7 +10,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.regions import Line, Point, Polygon, Region, Segment
+from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box_around
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.candidates import Conditions
 from burmester.sixbar.kinds import KINDS
@@ -57,8 +57,8 @@ class SearchSpace:
         limits = task.limits * (2 if len(task.limits) == 1 else 1) or (Limits(), Limits())
         size = problem.motion_size
         assumed = []
-        around = _box(task.poses.translation, REACH * size)
-        own = _box(np.zeros((1, 2)), REACH * size)
+        around = box_around(task.poses.translation, REACH * size)
+        own = box_around(np.zeros((1, 2)), REACH * size)
         fixed = _regions([each.fixed_pivot for each in limits], around, "fixed")
         moving = _regions([each.moving_pivot for each in limits], own, "moving")
         far = length_of(REACH * size, task)
@@ -154,9 +154,3 @@ def _regions(given: list[Region | None], default: Polygon, name: str) -> tuple[R
             help="give one of the two room, such as box:X,Y:X,Y",
         )
     return first, second
-
-
-def _box(points: FloatArray, margin: float) -> Polygon:
-    """The box around points (k, 2), wider by a margin on each side."""
-    (left, low), (right, high) = points.min(axis=0) - margin, points.max(axis=0) + margin
-    return Polygon(np.array([(left, low), (right, low), (right, high), (left, high)]))

@@ -126,7 +126,8 @@ def along(
     forward = np.mod(drive - start, TURN)
     offset = np.where(forward < up[:, None], forward, forward - TURN)
     held = (offset > CLOSE - down[:, None]) & (offset < up[:, None] - CLOSE)
-    monotone = _goes_one_way(offset)
+    steps = np.diff(offset, axis=-1)
+    monotone = (steps > 0).all(axis=-1) | (steps < 0).all(axis=-1)
     # All the way round: the sum of the steps in one direction is less than a turn.
     steps = np.mod(np.diff(drive, axis=-1), TURN)
     ways = [np.cumsum(each, axis=-1) for each in (steps, steps - TURN)]
@@ -145,12 +146,6 @@ def along(
         np.where(one[:, None], start + offset, np.nan),
         np.where(full[:, None], np.inf, room),
     )
-
-
-def _goes_one_way(offset: FloatArray) -> NDArray[np.bool_]:
-    """Whether rows (n, N) rise or fall all along."""
-    steps = np.diff(offset, axis=-1)
-    return np.asarray((steps > 0).all(axis=-1) | (steps < 0).all(axis=-1))
 
 
 def _shortest(forward: FloatArray) -> FloatArray:

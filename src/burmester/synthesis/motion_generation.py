@@ -141,7 +141,14 @@ def _synthesis(task: Task, options: SynthesisOptions) -> Synthesis:
         *_odd_pose(problem, search),
         *known,
         *dyad_advice(problem, search, linkages),
-        *map(_found_twice, twice),
+        *(
+            Advice(
+                "W205",
+                f"{first.id} and {second.id} are the same dyad within rounding",
+                "only one constraint was found; give more poses, or more different ones",
+            )
+            for first, second in twice
+        ),
         *assumed,
         *linkage_advice(task, linkages, outcome.code),
         *sample_advice(problem, linkages),
@@ -302,15 +309,6 @@ def _odd_pose(problem: SynthesisProblem, search: DyadSearch) -> list[Advice]:
     dyads = [each.dyad for each in search.dyads] if every else []
     odd = disagreement(problem.given, problem.motion, dyads)
     return [] if odd is None else [odd]
-
-
-def _found_twice(pair: Pair) -> Advice:
-    first, second = pair
-    return Advice(
-        "W205",
-        f"{first.id} and {second.id} are the same dyad within rounding",
-        "only one constraint was found; give more poses, or more different ones",
-    )
 
 
 def _certificate(problem: SynthesisProblem, search: DyadSearch) -> Certificate:

@@ -100,7 +100,8 @@ def linkages_near(task: Task, path: TracedPath, options: SynthesisOptions) -> Pa
     asked = options.nine_point_starts and not (path.closed or timed)
     if asked and time_for("looking for linkages through nine of the points"):
         starts = nine_point_starts(points)
-    found = _nearest(task, search, starts)
+    most = CURVES if len(task.poses.angle) <= MANY else FEW
+    found = _with_cognates(_of_fit(search.nearest(most, starts)))
     if timed:
         more = _transmitting(task, search) if time_for("looking for better transmission") else found
         return _joined([found, more])
@@ -117,14 +118,6 @@ def linkages_near(task: Task, path: TracedPath, options: SynthesisOptions) -> Pa
 def is_timed_exactly(task: Task, path: TracedPath) -> bool:
     """Whether linkages pass the points exactly at their crank angles."""
     return path.crank_angles is not None and len(task.poses.angle) == LEAST_TIMED
-
-
-def _nearest(
-    task: Task, search: PathSearch, starts: Sequence[tuple[CrankLinkages, FloatArray]]
-) -> PathLinkages:
-    """The nearest linkages, and the cognates of them that have a crank as well."""
-    most = CURVES if len(task.poses.angle) <= MANY else FEW
-    return _with_cognates(_of_fit(search.nearest(most, starts)))
 
 
 def _of_fit(fit: CurveFit) -> PathLinkages:

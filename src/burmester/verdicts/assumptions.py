@@ -14,8 +14,7 @@ from typing import Final, NamedTuple, Self, final
 import numpy as np
 
 from burmester.errors import Advice
-from burmester.geometry.regions import Polygon
-from burmester.numerics.arrays import FloatArray
+from burmester.geometry.regions import Polygon, box_around
 from burmester.requirements.requirement import Bounds
 from burmester.requirements.table import ASKED, standard
 from burmester.tasks.limits import Limits
@@ -109,11 +108,5 @@ class Assumptions:
                 asked[each] = each.assumed[0 if strict else 1]
                 bounds.append(Bound(each.words(asked[each]), each.option))
         asked |= standard(asked, size, not_asked(task))
-        fixed, own = _box(around, reach * size), _box(body, moving)
+        fixed, own = box_around(around, reach * size), box_around(body, moving)
         return cls(fixed, own, size, asked, tuple(bounds))
-
-
-def _box(points: FloatArray, margin: float) -> Polygon:
-    """The box around points (k, 2), wider by a margin on each side."""
-    (left, low), (right, high) = points.min(axis=0) - margin, points.max(axis=0) + margin
-    return Polygon(np.array([(left, low), (right, low), (right, high), (left, high)]))

@@ -6,14 +6,13 @@ together.  The bounds are conventions, far below those of a linkage to build (`r
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
 
 from burmester.errors import Finding
 from burmester.fourbar.linkage_batch import LinkageBatch, pin_distances
-from burmester.geometry.regions import Point, Region
+from burmester.geometry.regions import Point
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, span
@@ -45,17 +44,13 @@ def least_links(problem: SynthesisProblem) -> FloatArray:
     """
     limits = (problem.given.limits * 2)[:2]
     fixed, moving = (
-        0.0 if _are_points(pivots) else least_link(problem)
+        0.0 if pivots and all(isinstance(at, Point) for at in pivots) else least_link(problem)
         for pivots in (
             [each.fixed_pivot for each in limits],
             [each.moving_pivot for each in limits],
         )
     )
     return np.array([*least_cranks(problem), fixed, moving])
-
-
-def _are_points(regions: Sequence[Region | None]) -> bool:
-    return bool(regions) and all(isinstance(region, Point) for region in regions)
 
 
 def degenerate_defects(

@@ -103,7 +103,8 @@ class _FirstOrder(NamedTuple):
     def greatest(self, off: FloatArray) -> FloatArray:
         """The greatest errors (k, n) of linkages with errors (n, 10)."""
         greatest = np.zeros((len(self.gap), len(off)))
-        for at in _blocks(self.gap.shape[1]):
+        for first in range(0, self.gap.shape[1], POSES_PER_BLOCK):
+            at = slice(first, first + POSES_PER_BLOCK)
             moved = np.einsum("sj,kncj->ksnc", off, self.slope[:, at]) + self.gap[:, None, at]
             greatest = np.maximum(greatest, np.hypot(moved[..., 0], moved[..., 1]).max(axis=-1))
         return greatest
@@ -188,19 +189,14 @@ def _first_order(
     return _FirstOrder(gap, slope, worst, corner)
 
 
-def _corners(first: _FirstOrder) -> FloatArray:
-    """The errors (n, 10) of the worst corners to first order, at the poses of most error."""
-    most = np.argsort(first.worst[0])[::-1][:CORNERS]
-    return np.unique(first.corner[0, most], axis=0)
-
-
 def _checked(first: _FirstOrder, built: BuiltLinkages, off: FloatArray) -> tuple[bool, Built]:
     """Whether first order is right to a tenth, and the worst corner of the tolerance found.
 
     Right at its own worst corners, for the 95 % of a few draws, and for the worst corner that a
     search from these finds.
     """
-    corners, draws = _corners(first), off[:PILOT_DRAWS]
+    most = np.argsort(first.worst[0])[::-1][:CORNERS]  # the poses of most error
+    corners, draws = np.unique(first.corner[0, most], axis=0), off[:PILOT_DRAWS]
     some = built.with_errors(np.concatenate([corners, draws]))
     if not some.assembled.any():
         return False, take(some, slice(0))
@@ -309,7 +305,3 @@ def _greatest_sum(parts: FloatArray) -> FloatArray:
     sign = np.sign(np.einsum("...cj,...ci->...ji", normal, parts))
     corner = np.einsum("...ji,...ci->...cj", sign, parts)
     return np.asarray(np.hypot(corner[..., 0, :], corner[..., 1, :]).max(axis=-1))
-
-
-def _blocks(count: int) -> Iterator[slice]:
-    return (slice(at, at + POSES_PER_BLOCK) for at in range(0, count, POSES_PER_BLOCK))
