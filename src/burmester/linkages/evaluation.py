@@ -11,8 +11,10 @@ from typing import NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.selection import FoundDyad
 from burmester.errors import Finding
 from burmester.fourbar.defects import Driven, Verdict, judge
+from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
@@ -78,6 +80,14 @@ SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
 MAX_PLACES_OF_QUALITY = 2000
 PLACES_AT_ONCE = 200_000  # number of places judged at once; bounds the memory
 MAX_ROUNDED = 5  # round at most this many linkages
+
+
+def pair_of(first: Dyad, second: Dyad, poses: Displacement) -> Pair:
+    """The dyads of a linkage, D1 and D2, with their errors at poses (N,)."""
+    one, two = (
+        FoundDyad.of(id, dyad, poses, minimum=False) for id, dyad in (("D1", first), ("D2", second))
+    )
+    return one, two
 
 
 class Candidates(NamedTuple):

@@ -8,13 +8,12 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.describe.cognates import cognates_of
-from burmester.dyads.selection import FoundDyad
 from burmester.errors import InputError
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.linkages.evaluation import Candidates, Evaluation, pair_of
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Synthesis
@@ -62,10 +61,7 @@ def _judged(synthesis: Synthesis, found: FoundLinkage, cognate: Linkage, link: R
     angle: FloatArray = np.unwrap(np.arctan2(arm[..., 1], arm[..., 0]))
     own = LinkageBatch.of([cognate])
     rows = target.rows_at(Displacement(there.translation, angle))
-    one, two = (
-        FoundDyad.of(id, dyad, evaluation.task.poses, minimum=False)
-        for id, dyad in (("D1", cognate.first), ("D2", cognate.second))
-    )
+    pair = pair_of(cognate.first, cognate.second, evaluation.task.poses)
     batch, searched = own.to_canonical(target.frames), np.zeros(1, dtype=bool)
-    (judged,) = evaluation.members(Candidates(batch, rows[None], [(one, two)], searched, own))
+    (judged,) = evaluation.members(Candidates(batch, rows[None], [pair], searched, own))
     return judged

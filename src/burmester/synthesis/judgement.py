@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.diagnosis.checks import diagnose
-from burmester.dyads.selection import FoundDyad
 from burmester.errors import Advice, InputError
 from burmester.families.family import best_of_family
 from burmester.fourbar.dyad import RR
@@ -22,6 +21,7 @@ from burmester.linkages.evaluation import (
     Evaluation,
     at_given_poses,
     numbered,
+    pair_of,
     sizable,
 )
 from burmester.linkages.from_dyads import target_of
@@ -87,11 +87,7 @@ def _judgement(
     problem, findings = _problem(task, options)
     task = problem.given
     evaluation = Evaluation(problem, target_of(problem))
-    one, two = (
-        FoundDyad.of(f"D{number}", dyad, task.poses, minimum=False)
-        for number, dyad in enumerate(both, start=1)
-    )
-    given = one, two
+    given = pair_of(*both, task.poses)
     step("judging the linkage")
     orders = [given, given[::-1]] if len(problem.task.limits) > 1 else [given]
     judged = _judged(orders, np.zeros(len(orders), dtype=bool), evaluation)
