@@ -18,8 +18,9 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 @click.command(cls=Sectioned)
 @with_options(POSES)
+@click.option("--verbose", is_flag=True, help="Say also how many quadrics hold the poses.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
-def check(poses: str, *, as_json: bool, **given: Any) -> int:
+def check(poses: str, *, verbose: bool, as_json: bool, **given: Any) -> int:
     """Read POSES, or pairs of angles, and report anything unusual.
 
     Exit code 0: nothing unusual; 1: a finding; 2: the file cannot be used.
@@ -41,7 +42,7 @@ def check(poses: str, *, as_json: bool, **given: Any) -> int:
     if as_json:
         print_json(overview.check_data(diagnosis))
     else:
-        overview.show(diagnosis, console())
+        overview.show(diagnosis, console(), verbose=verbose)
         if diagnosis.sound:
             again = " ".join(map(quoted, (poses, *pose_arguments(given))))
             click.echo(f"\nNothing stands out. Next: burmester synthesize {again}")

@@ -26,9 +26,10 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
     "--all",
     "everything",
     is_flag=True,
-    help="List the linkages that are not usable as well, with the reasons.",
+    help="List all usable linkages, and those that are not, with the reasons.",
 )
 @click.option("--dyads", is_flag=True, help="List the dyads as well.")
+@click.option("--verbose", is_flag=True, help="Say why these come first, and what the columns are.")
 @click.option(
     "--require-determined",
     is_flag=True,
@@ -50,6 +51,7 @@ def synthesize(
     *,
     everything: bool,
     dyads: bool,
+    verbose: bool,
     require_determined: bool,
     as_json: bool,
     family_map: str | None,
@@ -76,7 +78,7 @@ def synthesize(
     if family_map is not None:
         with working("drawing the map"):
             click.echo(write_map(synthesis, family_map, force=force), err=True)
-    shown = {"everything": everything, "dyads": dyads}
+    shown = {"everything": everything, "dyads": dyads, "verbose": verbose}
     hand_over(synthesis, output, force=force, as_json=as_json, **shown)
     good = synthesis.determined if require_determined else synthesis.works
     if synthesis.usable and not good:

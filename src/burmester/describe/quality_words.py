@@ -25,16 +25,21 @@ def in_short(quality: Quality | None) -> tuple[str, str]:
     return figure(float(quality.extent)), figure(float(quality.sensitivity))
 
 
-def quality_note(found: FoundLinkage, task: Task) -> str | None:
-    """Room, errors as built and the driver's way, in sentences; None where nothing is known."""
+def quality_note(found: FoundLinkage, task: Task, *, short: bool = False) -> str | None:
+    """Room, errors as built and the driver's way, in sentences; None where nothing is known.
+
+    short: the driver's way alone.
+    """
     if found.quality is None or not math.isfinite(found.quality.extent):
         return None
     extent, sensitivity = in_short(found.quality)
     turn, reserve, _ = _driver(found, found.quality, task)
+    way = f"Its driver {turn}{reserve}."
+    if short:
+        return way
     return (
         f"Its pivots stay in a box with a diagonal of {extent} times the motion's span. Errors of "
-        f"all pivots and lengths come out up to {sensitivity} times as large at a pose. "
-        f"Its driver {turn}{reserve}."
+        f"all pivots and lengths come out up to {sensitivity} times as large at a pose. {way}"
     )
 
 

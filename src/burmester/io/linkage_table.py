@@ -105,25 +105,25 @@ def show_warnings(warnings: Sequence[Advice], console: Console) -> None:
         show("warning", warning, console)
 
 
-def usable_table(synthesis: Synthesis, console: Console) -> Table:
+def usable_table(synthesis: Synthesis, usable: Sequence[FoundLinkage], console: Console) -> Table:
     """Usable linkages, with as many columns and decimals as the console has room for."""
-    decimals = [decimals_of(synthesis, found) for found in synthesis.usable]
-    both = zip(decimals, synthesis.usable, strict=True)
+    decimals = [decimals_of(synthesis, found) for found in usable]
+    both = zip(decimals, usable, strict=True)
     most = max((each.lengths for each, found in both if found.linkage.links), default=-1)
     cuts = [most - cut for cut in range(min(MOST_CUT, most) + 1)]
     trials = [(most, 1, True), *((places, 0, dyads) for dyads in (True, False) for places in cuts)]
     for places, gap, dyads in trials if cuts else ():
         shown = [replace(each, lengths=min(each.lengths, places)) for each in decimals]
-        table = _usable(synthesis, shown, gap, dyads=dyads)
+        table = _usable(synthesis, usable, shown, gap, dyads=dyads)
         if places < most:
             table.title = f"{table.title}; links to {count(places, 'decimal')}"
         if _width(table) <= console.width:
             return table
     for gap, dyads in ((1, True), (0, True), (0, False)):
-        table = _usable(synthesis, None, gap, dyads=dyads)
+        table = _usable(synthesis, usable, None, gap, dyads=dyads)
         if _width(table) <= console.width:
             return table
-    return _usable(synthesis, None, 0, dyads=False, quality=False)
+    return _usable(synthesis, usable, None, 0, dyads=False, quality=False)
 
 
 def _width(table: Table) -> int:
@@ -136,13 +136,13 @@ def _width(table: Table) -> int:
 
 def _usable(
     synthesis: Synthesis,
+    usable: Sequence[FoundLinkage],
     decimals: Sequence[Decimals] | None,
     gap: int,
     *,
     dyads: bool,
     quality: bool = True,
 ) -> Table:
-    usable = synthesis.usable
     # Of the longest name, the second word stands under the first.
     types = [each.type.replace("inverted ", "inverted\n") for each in usable]
     doubts = [" ±" if each.other_types else "" for each in usable]
@@ -183,33 +183,41 @@ def unusable(synthesis: Synthesis, found: Sequence[FoundLinkage], width: int) ->
     return Group(*rows)
 
 
-def in_full(synthesis: Synthesis, best: FoundLinkage, console: Console) -> Iterator[Text | Table]:
+def in_full(
+    synthesis: Synthesis, best: FoundLinkage, console: Console, *, short: bool = False
+) -> Iterator[Text | Table]:
     """One linkage: its dimensions, how certain they are, and what follows of that.
 
     Beside them, where a terminal can show it and has room, the linkage in braille; else above.
+    short: without what a table of linkages says as well.
     """
     unit = in_unit(synthesis.task.length_unit)
-    yield Text(f"\n{best.id} in full{unit and ','}{unit}", style="bold")
-    unlimited = console.options.update(max_width=10 * console.width)
+    title = Text(f"\n{best.id} in full{unit and ','}{unit}", style="bold")
     table = _dimensions(synthesis, best)
-    wide = console.measure(table, options=unlimited).maximum
+    wide = _measured(table, console)
     if wide > console.width:
         table = _dimensions(synthesis, best, stacked=True)
     room = console.width - wide - GAP
     drawn = sketch(best, min(max(room, LEAST_SKETCH), MOST_SKETCH, console.width))
     if drawn is None or not _shows_braille(console):
+        flat = _flat(synthesis, best)
+        if flat is not None and _measured(flat, console) <= console.width:
+            title, table = Text(), flat
+        yield title
         yield table
     elif room < LEAST_SKETCH:
+        yield title
         yield Text("\n".join(drawn))
         yield table
     else:
+        yield title
         both = Table.grid(padding=(0, GAP, 0, 0))
         both.add_row(table, Text("\n".join(drawn)))
         yield both
     tolerances = synthesis.task.tolerances
     if tolerances is not None and tolerances.gives_room and best.within_tolerance is not None:
         yield _shares(synthesis, best)
-    quality = quality_note(best, synthesis.task)
+    quality = quality_note(best, synthesis.task, short=short)
     if quality is not None:
         yield Text(quality)
     uncertainty, of_type = sentences.uncertainty_note, sentences.type_note
@@ -236,6 +244,27 @@ def _dimensions(synthesis: Synthesis, best: FoundLinkage, stacked: bool = False)
         ground, _, coupler, _ = links(best, decimals_of(synthesis, best))
         table.add_row("", "ground link", ground)
         table.add_row("", "coupler", coupler)
+    return table
+
+
+def _measured(table: Table, console: Console) -> int:
+    """The columns that a table would take if there were room for all."""
+    unlimited = console.options.update(max_width=10 * console.width)
+    return console.measure(table, options=unlimited).maximum
+
+
+def _flat(synthesis: Synthesis, best: FoundLinkage) -> Table | None:
+    """The dimensions of a linkage of pins without half-widths, a row a dyad; None of another."""
+    if best.linkage.links is None or not (certain(synthesis, best) or not best.usable):
+        return None
+    table = Table.grid(padding=(0, 3, 0, 0))
+    rows = dimensions(synthesis, best)
+    heads = Text(f"{best.id}{in_unit(synthesis.task.length_unit)}", style="bold")
+    table.add_row(heads, *(each.what for each in rows[:3]))
+    for three in (rows[:3], rows[3:]):
+        table.add_row(three[0].dyad, *(each.value for each in three))
+    ground, _, coupler, _ = links(best, decimals_of(synthesis, best))
+    table.add_row("", f"ground link  {ground}", f"coupler  {coupler}")
     return table
 
 

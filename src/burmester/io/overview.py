@@ -25,6 +25,12 @@ from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.wording import count as count_of
 from burmester.wording import figure
 
+EXPECT = {  # of a general motion, by the number of independent quadrics that hold the poses
+    0: "no linkage passes all poses exactly; the nearest ones are looked for",
+    1: "one link at most meets all poses exactly, so no linkage does; the nearest are looked for",
+    2: "one linkage at most passes all poses exactly",
+    3: "four links at most meet all poses exactly, so six linkages at most do",
+}
 SCHEMA = "burmester.check/1"
 LEAST_CLOSED = 6  # points of a path that may be closed
 NEAR_ENDS = 1.5  # steps between neighbours; ends of a path that are nearer nearly meet
@@ -43,13 +49,16 @@ def check_data(diagnosis: Diagnosis) -> dict[str, Any]:
     }
 
 
-def show(diagnosis: Diagnosis, console: Console) -> None:
-    """The poses as they were read, what they are, and what stands out."""
+def show(diagnosis: Diagnosis, console: Console, *, verbose: bool = False) -> None:
+    """The poses as they were read, what they are, and what stands out.
+
+    verbose: also what a mathematician would ask, the quadrics that hold them.
+    """
     task = diagnosis.task
     # Free angles say nothing of a motion.
     turns = task.path is None and point_conditions(task) is None
     motion = diagnosis.motion if turns else None
-    show_read(_columns(task), _facts(diagnosis), (), console)
+    show_read(_columns(task), _facts(diagnosis, verbose), (), console)
     if motion is not None and not isinstance(motion.kind, General):
         console.print()
         show_message("result", motion.kind, console)
@@ -99,7 +108,7 @@ def _add_tolerances(columns: dict[str, list[str]], tolerances: PoseTolerances, u
         columns["along"] = [{"fixed": "F", "body": "the body"}[each] for each in tolerances.axes]
 
 
-def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
+def _facts(diagnosis: Diagnosis, verbose: bool) -> Iterator[tuple[str, str]]:
     """The facts about the poses as a whole, each with its name."""
     task = diagnosis.task
     motion = diagnosis.motion if task.path is None else None
@@ -118,9 +127,9 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
     if length or angle:
         positions = f"positions to ±{figure(length)}{unit}" if length else "positions are exact"
         angles = f", angles to ±{figure(math.degrees(angle))}°" if angle else ", angles are exact"
-        yield "known", f"{positions}{'' if task.angles_are_free else angles}"
+        yield "accuracy", f"{positions}{'' if task.angles_are_free else angles}"
     else:
-        yield "known", "exact, unless --pose-sigma says otherwise"
+        yield "accuracy", "taken as exact, unless --pose-sigma says otherwise"
     if task.timing is not None:
         yield "crank", _crank(task.timing)
     if task.path is not None:
@@ -129,7 +138,13 @@ def _facts(diagnosis: Diagnosis) -> Iterator[tuple[str, str]]:
         yield "asks", points.in_words()
     elif motion is not None:
         general = isinstance(motion.kind, General)
-        yield "motion", motion.kind.message if general else motion.kind.name
+        if general:
+            few = f"infinitely many linkages pass {count_of(task.poses.shape[0], 'pose')}"
+            yield "expect", EXPECT.get(motion.nullity, f"{few}; the best are looked for")
+        if verbose or not general:
+            yield "motion", motion.kind.message if general else motion.kind.name
+        if not verbose:
+            return
         quadrics = {0: "no quadric holds", 1: "1 quadric holds"}.get(
             motion.nullity, f"{motion.nullity} independent quadrics hold"
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 NARROW, SLIM = 64, 48
 WIDE = 72  # columns; on fewer tables of six-bars have their first columns only
 CLOSEST = 3  # linkages in the outcome, where none is usable
+MOST_USABLE = 4  # linkages in the table, unless all are asked for
 PLAIN = ("R300", "R305", "R307", "R308", "R340")  # outcomes that are told without their code
 
 
@@ -37,10 +39,12 @@ def show_synthesis(
     *,
     everything: bool = False,
     dyads: bool = False,
+    verbose: bool = False,
 ) -> None:
     """What to build first, then the other usable linkages, and what has been found in all.
 
-    everything: also the linkages that are not usable, with the reasons; dyads: also the dyads.
+    everything: all usable linkages, and those that are not, with the reasons; dyads: also the
+    dyads; verbose: also why these come first, and what the columns are.
     """
     if not isinstance(synthesis, Synthesis):
         from burmester.io.function_table import show_function
@@ -52,10 +56,13 @@ def show_synthesis(
         show_warnings(synthesis.warnings, console)
         return
     rest: list[FoundLinkage] = []
+    hidden = 0
     if synthesis.outcome.code in JUDGED:
         _judged(synthesis, console)
     elif synthesis.usable:
-        _answer(synthesis, console)
+        shown = synthesis.usable if everything else _first_usable(synthesis)
+        hidden = len(synthesis.usable) - len(shown)
+        _answer(synthesis, shown, console, verbose=verbose)
         rest = [each for each in synthesis.linkages if not each.usable]
     else:
         ordered = synthesis.outcome.code == "R352"  # they are ranked by nearness
@@ -71,11 +78,21 @@ def show_synthesis(
     if synthesis.dyads and (dyads or not synthesis.linkages):
         print_trimmed(_dyads(synthesis, console.width), console)
     if synthesis.outcome.code not in JUDGED:
-        _in_all(synthesis, 0 if everything else len(rest), console, dyads)
+        left = 0 if everything else len(rest)
+        _in_all(synthesis, (hidden, left), console, dyads=dyads, verbose=verbose)
     _certificate(synthesis, console)
     show_warnings(synthesis.warnings, console)
-    if synthesis.dyads:
+    if synthesis.dyads and verbose:
         print_trimmed(Text(f"\n{sentences.footnotes(synthesis)}", style="dim"), console)
+
+
+def _first_usable(synthesis: Synthesis) -> list[FoundLinkage]:
+    """The usable linkages of the table: the first ones, and those that words name."""
+    told = [] if synthesis.family else [*sentences.alternatives(synthesis)]
+    for each in synthesis.warnings:
+        told += (each.message, each.help or "")
+    named = set(re.findall(r"\bL\d+\b", " ".join(told)))
+    return [each for k, each in enumerate(synthesis.usable) if k < MOST_USABLE or each.id in named]
 
 
 def _certificate(synthesis: Synthesis, console: Console) -> None:
@@ -129,17 +146,21 @@ def _six_bars(synthesis: Synthesis, result: SixBars, console: Console) -> None:
         print_trimmed(Text(f"\n{outcome.message}."), console)
 
 
-def _answer(synthesis: Synthesis, console: Console) -> None:
-    """The linkage to build, in a sentence and in full; then the other usable ones."""
+def _answer(
+    synthesis: Synthesis, usable: Sequence[FoundLinkage], console: Console, *, verbose: bool
+) -> None:
+    """The linkage to build, in a sentence and in full; then the first usable ones in a table."""
     if synthesis.outcome.code not in PLAIN:
         show("result", synthesis.outcome, console)
     print_trimmed(Text(sentences.headline(synthesis), style="bold"), console)
-    for sentence in sentences.alternatives(synthesis):
+    # Of a family the table has their figures.
+    for sentence in sentences.alternatives(synthesis) if verbose or not synthesis.family else ():
         print_trimmed(Text(sentence), console)
-    for part in linkage_table.in_full(synthesis, synthesis.usable[0], console):
+    short = len(usable) > 1 and not verbose
+    for part in linkage_table.in_full(synthesis, usable[0], console, short=short):
         print_trimmed(part, console)
-    if len(synthesis.usable) > 1:
-        print_trimmed(linkage_table.usable_table(synthesis, console), console)
+    if len(usable) > 1:
+        print_trimmed(linkage_table.usable_table(synthesis, usable, console), console)
 
 
 def _judged(synthesis: Synthesis, console: Console) -> None:
@@ -176,16 +197,28 @@ def _no_answer(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Con
         draw(note("help", outcome.help, console.width), console)
 
 
-def _in_all(synthesis: Synthesis, unlisted: int, console: Console, dyads: bool) -> None:
-    """How many there are in all, and how the rest is listed."""
-    told = []
+def _in_all(
+    synthesis: Synthesis, left: tuple[int, int], console: Console, *, dyads: bool, verbose: bool
+) -> None:
+    """How many there are in all, and how the rest is listed.
+
+    left: how many usable and how many other linkages have not been listed.
+    """
+    told, family = [], synthesis.family
     if synthesis.usable and synthesis.outcome.code in PLAIN:
-        told.append(f"{synthesis.outcome.message}.")
-    options = []
-    if unlisted:
-        options.append(f"{unlisted} more, not usable: --all")
+        message = synthesis.outcome.message
+        if family is not None and not verbose:
+            message = message.removesuffix(family.rule).rstrip(" .")
+        told.append(f"{message}.")
+    options, (usable, other) = [], left
+    if usable:
+        options.append(f"{usable} more{f', and {other} not usable' * bool(other)}: --all")
+    elif other:
+        options.append(f"{other} more, not usable: --all")
     if synthesis.linkages and synthesis.dyads and not dyads:
         options.append("the dyads: --dyads")
+    if synthesis.usable and not verbose:
+        options.append("how to read this: --verbose")
     if options:
         text = "; ".join(options)
         told.append(f"{text[0].upper()}{text[1:]}.")

@@ -39,8 +39,8 @@ class Bound(NamedTuple):
 def assumed_advice(code: str, assumed: Sequence[tuple[str, str]]) -> Advice:
     """What was assumed where the task says nothing, and the options that change it."""
     words, options = zip(*assumed, strict=True)
-    message = f"assumed, as the task does not say: {listed(words)}"
-    return Advice(code, message, f"change it with {listed(options, 'or')}")
+    message = f"assumed: {listed(words)}"
+    return Advice(code, message, f"set {listed(options, 'or')}")
 
 
 @final
@@ -96,12 +96,10 @@ class Assumptions:
         around = task.poses[:, None].act(body).reshape(-1, 2)
         limits = task.limits or (Limits(),)
         if any(each.fixed_pivot is None and each.rail is None for each in limits):
-            beside = (
-                f"fixed pivots at most {length_of(reach * size, task)} beside the body's places"
-            )
+            beside = f"fixed pivots within {length_of(reach * size, task)} of the body's places"
             bounds.append(Bound(beside, "--fixed-pivot"))
         if any(each.moving_pivot is None and each.slot is None for each in limits):
-            away = f"moving pivots at most {length_of(moving, task)} from {near}"
+            away = f"moving pivots within {length_of(moving, task)} of {near}"
             bounds.append(Bound(away, "--moving-pivot"))
         for each in ASKED:
             if each.assumed and each not in asked:
