@@ -259,8 +259,8 @@ def _flat(synthesis: Synthesis, best: FoundLinkage) -> Table | None:
         return None
     table = Table.grid(padding=(0, 3, 0, 0))
     rows = dimensions(synthesis, best)
-    heads = Text(f"{best.id}{in_unit(synthesis.task.length_unit)}", style="bold")
-    table.add_row(heads, *(each.what for each in rows[:3]))
+    heads = *(each.what for each in rows[:2]), f"length{in_unit(synthesis.task.length_unit)}"
+    table.add_row(Text(best.id, style="bold"), *heads)
     for three in (rows[:3], rows[3:]):
         table.add_row(three[0].dyad, *(each.value for each in three))
     ground, _, coupler, _ = links(best, decimals_of(synthesis, best))
