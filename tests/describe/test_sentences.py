@@ -50,10 +50,10 @@ def synthesized(task, **options):
     data = json.loads(json.dumps(synthesis_data(synthesis), allow_nan=False))
     jsonschema.Draft202012Validator(SCHEMA).validate(data)
 
-    def screen(width=200, everything=True, dyads=True):
+    def screen(width=200, whole=True):
         out = io.StringIO()
         console = Console(file=out, width=width, highlight=False)
-        show_synthesis(synthesis, console, everything=everything, dyads=dyads)
+        show_synthesis(synthesis, console, everything=whole, dyads=whole, verbose=whole)
         return out.getvalue()
 
     return synthesis, data, screen
@@ -252,10 +252,14 @@ def test_nothing_is_wider_than_the_screen_or_cut_off(cases, name, width):
         for defect in linkage["defects"]:
             if defect["kind"] != "assembly":
                 assert " ".join(defect["message"].split()) in one_line
-    short = " ".join(screen(width, everything=False, dyads=False).split())
-    rest = len(data["linkages"]) - len(usable)
-    if rest > 3 or (usable and rest):
-        assert f"{rest if usable else rest - 3} more, not usable: --all" in short.lower()
+    short = " ".join(screen(width, whole=False).split())
+    rest = len(data["linkages"]) - len(usable) - (0 if usable else 3)
+    hidden = sum(not re.search(rf"\b{each['id']}\b", short) for each in usable)
+    assert hidden <= max(0, len(usable) - 4)
+    if hidden:
+        assert f"{hidden} more{f', and {rest} not usable' if rest else ''}: --all" in short
+    elif rest > 0:
+        assert f"{rest} more, not usable: --all" in short.lower()
     assert ("Usable, the best first" in short) == (len(usable) > 1)
     for heading in ("Not usable, and why", "rms miss"):
         assert heading not in short

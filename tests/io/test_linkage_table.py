@@ -25,7 +25,8 @@ def test_the_widest_table_that_fits_is_taken(case: str) -> None:
     for columns in range(50, 150, 5):
         console = Console(width=columns, file=io.StringIO())
         unlimited = console.options.update(max_width=10 * columns)
-        table = usable_table(synthesis_of(case), console)
+        synthesis = synthesis_of(case)
+        table = usable_table(synthesis, synthesis.usable, console)
         widths.append(console.measure(table, options=unlimited).maximum)
         if columns >= 60:
             assert widths[-1] <= columns

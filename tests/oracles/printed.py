@@ -38,8 +38,14 @@ def dyads_of(rows):
 
 
 def in_full(text):
-    """The rows under "L1 in full" on a terminal."""
+    """The rows under "L1 in full" on a terminal, or of L1 with a row a dyad."""
     rows, name = [], None
+    if flat := re.search(r"\nL1 +fixed pivot .*\n((?:D.*\n)+)", text):
+        names = "fixed pivot", "moving pivot", "length"
+        for line in flat[1].splitlines():
+            dyad, *values = re.split(r"  +", line)
+            rows += [(dyad, *each) for each in zip(names, values, strict=True)]
+        return rows
     for line in re.split(r"\nL1 in full.*\n", text)[1].splitlines():
         match = re.match(
             rf"(\w*) +{WHAT} +(.+?)(?: *±.*| *not determined.*)?$",

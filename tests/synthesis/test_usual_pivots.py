@@ -42,7 +42,7 @@ def test_a_tipper_gets_pivots_beside_its_motion_and_is_told_so():
     assert farther.combined_error <= first.combined_error <= 1.5 * farther.combined_error
     assert max(dyad.dyad.radius for dyad in farther.dyads if isinstance(dyad.dyad, RR)) > 3000
     (told,) = (each for each in result.warnings if each.code == "W215")
-    assert "fixed pivots at most 564 mm" in told.message
+    assert "fixed pivots within 564 mm" in told.message
     assert "take L2" in told.help
 
 
