@@ -699,3 +699,18 @@ def test_rounded_dimensions_leave_no_type_open():
     _, data, _ = synthesized(task, rounding_step=0.01)
     assert all(len(each["possible_types"]) == 1 for each in data["linkages"] if "rounded" in each)
     assert any("rounded" in each for each in data["linkages"])
+
+
+def test_three_poses_are_answered_on_25_lines():
+    """On a screen of 80 columns; what is left out is told with --verbose, and named."""
+    synthesis, _, screen = synthesized(
+        Task.from_rows([[0, 0, 0], [3, 1, 30], [5, 3, 60]], angle_unit="deg")
+    )
+    short = screen(80, whole=False).rstrip().splitlines()
+    assert len(short) <= 25
+    whole = " ".join(screen(80).split())
+    for words in ("Recommended is", "Smallest: ", "sens.: the position error at a pose"):
+        assert words in whole
+        assert words not in " ".join(short)
+    assert "how to read this: --verbose." in " ".join(short)
+    assert len(synthesis.usable) > 4

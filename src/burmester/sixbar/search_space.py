@@ -63,10 +63,10 @@ class SearchSpace:
         moving = _regions([each.moving_pivot for each in limits], own, "moving")
         far = length_of(REACH * size, task)
         if around in fixed:
-            words = f"fixed pivots at most {far} beside the body's origin at the poses"
+            words = f"fixed pivots within {far} of the body's origin at the poses"
             assumed.append((words, "--fixed-pivot"))
         if own in moving:
-            assumed.append((f"moving pivots at most {far} from the origin of M", "--moving-pivot"))
+            assumed.append((f"moving pivots within {far} of the origin of M", "--moving-pivot"))
         conditions = Conditions(
             crank=asked.driver == "crank",
             any_order=asked.any_order,
