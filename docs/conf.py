@@ -24,7 +24,7 @@ exclude_patterns = ["jupyter_execute", "**.ipynb"]
 myst_enable_extensions = ["dollarmath", "html_image", "attrs_block"]
 myst_heading_anchors = 4
 myst_dmath_double_inline = True
-suppress_warnings = ["myst.header"]  # a page of messages begins where its family does
+suppress_warnings = ["misc.highlighting_failure"]  # what a command prints is no language
 
 # Notebooks: run anew in every build, and nothing of theirs from elsewhere.
 nb_execution_mode = "force"

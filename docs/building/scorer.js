@@ -1,8 +1,9 @@
 /* Which page comes first in the search: the glossary, then what a user does, then how the code is built. */
-const rankOfPage = (name) =>
+/* `var`: searchtools.js declares it once more. */
+var rankOfPage = (name) =>
   name === "glossary" ? 30 : /^(project|reference\/modules|choices)/.test(name) ? -20 : 0;
 
-const Scorer = {
+var Scorer = {
   score: ([docname, , , , score]) => score + rankOfPage(docname),
   objNameMatch: 11,
   objPartialMatch: 6,
