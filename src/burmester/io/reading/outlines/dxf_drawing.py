@@ -32,9 +32,8 @@ def read_dxf(data: bytes, part: str | None) -> Drawing:
 
     # What ezdxf passes over in a damaged file is no message of ours.
     logging.getLogger("ezdxf").addHandler(logging.NullHandler())
-    document = _document(ezdxf, data)
     try:
-        return _drawing(document, paths, part)
+        return _drawing(_document(ezdxf, data), paths, part)
     except InputError:
         raise
     except Exception as error:  # of many kinds, for files that are damaged
@@ -93,11 +92,7 @@ def _document(ezdxf: Any, data: bytes) -> Any:
     most = 3 * MAX_ENTITIES  # with layers and other entries of tables
     if sum(1 for _ in islice(_ENTRY.finditer(text), most + 1)) > most:
         raise unreadable(f"it has more than {most} entries", ALONE_HELP)
-    try:
-        return ezdxf.read(io.StringIO(text))
-    except Exception as error:  # of many kinds, for files that are damaged
-        said = str(error).partition("\n")[0][:150] or type(error).__name__
-        raise unreadable(f"as DXF it is damaged: {said}", ASCII_HELP) from None
+    return ezdxf.read(io.StringIO(text))
 
 
 def _entities(document: Any) -> Iterator[tuple[Any, str]]:
