@@ -8,7 +8,6 @@ E109 not TOML or JSON                E191, E192, E194 as `function_options` says
 
 from __future__ import annotations
 
-import functools
 import math
 import os
 from collections.abc import Sequence
@@ -95,7 +94,7 @@ def read_pairs(source: Source, settings: FunctionSettings) -> FunctionTask:
                 help=f"give {len(names)} cells in every row",
             )
         for role, (column, unit) in columns.items():
-            where = functools.partial(row.where, column, role)
+            where = partial(row.where, column, role)
             quoted = '"' in row.cells[column]
             text = own.read(row.value(column), number, where, unit=unit, quoted=quoted)
             numbers[role].append(math.degrees(float(text)) if unit == "rad" else float(text))
