@@ -10,7 +10,10 @@ import pytest
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Point, Polygon, Segment, box
 from burmester.tasks.limits import Limits
+from burmester.tasks.motion_task import Task
+from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.surroundings import KeepOut
 from burmester.values import real_numbers, require_instance, shown
 
 
@@ -224,6 +227,41 @@ def test_requirements_of_the_wrong_type_are_refused(field, value):
     assert caught.value.code == "E134"
     assert caught.value.help
     assert len(caught.value.message) < 200
+
+
+BAD_OPTIONS = {
+    "time_limit": (0, -1.0, True, "2", np.inf),
+    "rounding_step": (0, -1.0, True, "2", np.nan),
+    "stock_lengths": ([0], "10", [10, -1]),
+    "method": ("best", None),
+    "certify": (1, "yes"),
+}
+
+
+@pytest.mark.parametrize(
+    ("field", "value"), [(f, v) for f, values in BAD_OPTIONS.items() for v in values]
+)
+def test_options_that_cannot_be_are_refused(field, value):
+    with pytest.raises(InputError) as caught:
+        SynthesisOptions(**{field: value})
+    assert caught.value.code == "E134"
+    assert field in caught.value.message
+    assert caught.value.help
+
+
+def test_long_names_are_refused():
+    rows = [[0, 0, 0], [1, 0, 10]]
+    long = "x" * 1000
+    poses = Task.from_rows(rows, angle_unit="deg").poses
+    for make, code, what in (
+        (lambda: Task.from_rows(rows, angle_unit="deg", length_unit=long), "E122", "length unit"),
+        (lambda: Task(poses, names=("short", long)), "E122", "name of pose 2"),
+        (lambda: KeepOut(box([0, 0], [1, 1]), long), "E176", "keep-out region"),
+    ):
+        with pytest.raises(InputError, match="too long") as caught:
+            make()
+        assert caught.value.code == code
+        assert what in caught.value.message
 
 
 def test_limits_take_their_numbers_in_any_make():

@@ -65,6 +65,14 @@ def test_what_is_wrong_is_told_with_its_place(text, code):
     assert caught.value.where
 
 
+def test_a_point_without_its_crank_angle_is_shown_by_its_row_in_the_file():
+    lines = TIMED.splitlines(keepends=True)
+    lines[3] = lines[3].rpartition(",")[0] + ",\n"
+    with pytest.raises(InputError, match="row 3 has no crank angle") as caught:
+        read("".join(lines), drop=["1"])
+    assert caught.value.where.partition("\n")[0].endswith(":4:1")
+
+
 def test_drawn_curves():
     circle = svg('<circle cx="50" cy="40" r="30"/>')
     task = read(circle, "round.svg")
