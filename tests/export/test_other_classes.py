@@ -157,7 +157,7 @@ def test_its_file_makes_the_same_mechanism(chosen, monkeypatch):
 
 
 def test_its_words_build_it(chosen):
-    rows = six_bar_words.joint_rows(chosen) + six_bar_words.length_rows(chosen)
+    rows = six_bar_words.dimension_rows(chosen)
     assert len(rows) == 6
     assert sum(text.count("(") for _, *own in rows for text in own) >= 6
     assert six_bar_words.driver_name(chosen) == chosen.skeleton.arm(chosen.driver)

@@ -295,8 +295,7 @@ class ResultSixBar(FoundSixBar, Chosen):
     """A `FoundSixBar` that can be drawn and handed over."""
 
     def _dimensions(self) -> str:
-        rows = six_bar_words.joint_rows(self) + six_bar_words.length_rows(self)
-        return plain_html((), rows, ())
+        return plain_html((), six_bar_words.dimension_rows(self), ())
 
     def __repr__(self) -> str:
         return six_bar_words.headline(self)

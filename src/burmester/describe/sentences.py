@@ -115,8 +115,8 @@ def _members(synthesis: Synthesis, best: FoundLinkage) -> Iterator[str]:
 
 
 def _passes(synthesis: Synthesis, best: FoundLinkage) -> str:
-    tolerances, asked = synthesis.task.tolerances, explanation.asked_for(synthesis.task)
-    if tolerances is not None and tolerances.gives_room:
+    asked = explanation.asked_for(synthesis.task)
+    if synthesis.task.gives_room:
         return f"stays inside the tolerance of every {asked}"
     if explanation.meets_exactly(best, synthesis.length):
         return f"passes every {asked} exactly, up to rounding"
@@ -284,10 +284,7 @@ def uncertainty_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
 
 def pose_tolerance_note(synthesis: Synthesis, found: FoundLinkage) -> str | None:
     """How much of the poses' tolerances a linkage uses that stays inside them."""
-    tolerances = synthesis.task.tolerances
-    if found.within_tolerance is None or tolerances is None or not found.usable:
-        return None
-    if not tolerances.gives_room:
+    if found.within_tolerance is None or not (found.usable and synthesis.task.gives_room):
         return None
     whose = "points'" if synthesis.task.angles_are_free else "poses'"
     return f"Of the {whose} tolerances {found.id} uses {most_used(found, synthesis.task)}."

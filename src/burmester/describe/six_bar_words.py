@@ -10,7 +10,6 @@ import numpy as np
 from burmester.describe.digits import degrees
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
-from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import (
     length_of,
     pose_labels,
@@ -64,10 +63,11 @@ def sentences(synthesis: Synthesis, found: FoundSixBar) -> list[str]:
     return out
 
 
-def joint_rows(found: FoundSixBar) -> list[tuple[str, ...]]:
-    """The joints of each link that has more than a length, in the frame of the link."""
+def dimension_rows(found: FoundSixBar) -> list[tuple[str, ...]]:
+    """The links: the joints of each that has more than a length, in its frame; then the lengths."""
     skeleton, rows = found.skeleton, []
-    for link in skeleton.held(found.carries):
+    held = skeleton.held(found.carries)
+    for link in held:
         joints = dict(found.frames[link])
         frame = "in F" if link == skeleton.ground else "in M"
         if link not in (skeleton.ground, found.carries):
@@ -76,18 +76,11 @@ def joint_rows(found: FoundSixBar) -> list[tuple[str, ...]]:
             del joints[origin]
         places = {name: ", ".join(map(_number, at)) for name, at in joints.items()}
         rows.append((f"{link}, {frame}", *(f"{name} ({at})" for name, at in places.items())))
+    length = dict(distances(found))
+    for link, bar in skeleton.links.items():
+        if link not in held:
+            rows.append((bar if link == bar else f"{link}, {bar}", length[bar]))
     return rows
-
-
-def length_rows(found: FoundSixBar) -> list[tuple[str, ...]]:
-    """The lengths of the links that have no more than that."""
-    skeleton, length = found.skeleton, found.lengths
-    held = skeleton.held(found.carries)
-    plain = {link: bar for link, bar in skeleton.links.items() if link not in held}
-    return [
-        (bar if link == bar else f"{link}, {bar}", _number(length[bar]))
-        for link, bar in plain.items()
-    ]
 
 
 def distances(found: FoundSixBar) -> list[tuple[str, str]]:
@@ -129,7 +122,7 @@ def pose_rows(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, ...]]
             f"{math.degrees(found.drive[k]):.1f}°",
             least_angle(float(transmits[k])),
         ]
-        if found.within_tolerance is not None and _gives_room(task):
+        if found.within_tolerance is not None and task.gives_room:
             cells.append(percent(float(found.within_tolerance[k].max())))
         rows.append(tuple(cells))
     return rows
@@ -137,7 +130,7 @@ def pose_rows(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, ...]]
 
 def pose_heads(synthesis: Synthesis) -> tuple[str, ...]:
     """The heads of `pose_rows`."""
-    return (*POSE_HEADS, OF_TOLERANCE) if _gives_room(synthesis.task) else POSE_HEADS
+    return (*POSE_HEADS, OF_TOLERANCE) if synthesis.task.gives_room else POSE_HEADS
 
 
 def errors(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, str]]:
@@ -160,10 +153,6 @@ def met(synthesis: Synthesis, found: FoundSixBar) -> str | None:
     if meets_exactly(found, synthesis.length):
         return None
     return f"within {worst_miss(found, synthesis.task)}"
-
-
-def _gives_room(task: Task) -> bool:
-    return task.tolerances is not None and task.tolerances.gives_room
 
 
 def _at_poses(synthesis: Synthesis, found: FoundSixBar) -> str:

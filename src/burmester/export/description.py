@@ -105,7 +105,7 @@ def dimension_notes(chosen: Candidate, options: Options, unit: str = "mm") -> li
     reference = Reference.of(chosen, options, unit)
     if reference.found is not None:
         found = reference.found
-        links = six_bar_words.joint_rows(found) + six_bar_words.length_rows(found)
+        links = six_bar_words.dimension_rows(found)
         return [f"{name}: {' '.join(each for each in own if each)}." for name, *own in links]
     linkage = reference.dyads
     assert linkage is not None

@@ -15,9 +15,8 @@ from burmester.families.pair_verdicts import CLASS_WORDS
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.regions import Polygon
-from burmester.io.linkage_data import dimensions_data
+from burmester.io.linkage_data import dimensions_data, numbers
 from burmester.io.pose_data import poses_data
-from burmester.numerics.arrays import FloatArray
 from burmester.requirements.links import LINK_RATIO, LONGEST_LINK, SHORTEST_LINK
 from burmester.requirements.transmission import TRANSMISSION
 
@@ -55,25 +54,20 @@ def family_map_data(found: FamilyMap, recommended: Linkage | None = None) -> dic
     else:
         data["chosen"] = dimensions_data(found.first)
         data["plane"] = _circles(found.second)
-        data["poles"] = _numbers(found.poles)
+        data["poles"] = numbers(found.poles)
     return data | {
         "class": classes.tolist(),
-        "transmission_deg": _numbers(np.degrees(angle)),
+        "transmission_deg": numbers(np.degrees(angle)),
         "driver": driver.tolist(),
     }
 
 
 def _circles(dyads: RR) -> dict[str, Any]:
     return {
-        "fixed_pivot": _numbers(dyads.fixed_pivot),
-        "moving_pivot": _numbers(dyads.moving_pivot),
-        "radius": _numbers(dyads.radius),
+        "fixed_pivot": numbers(dyads.fixed_pivot),
+        "moving_pivot": numbers(dyads.moving_pivot),
+        "radius": numbers(dyads.radius),
     }
-
-
-def _numbers(values: FloatArray) -> Any:
-    """Nested lists of an array; None where there is no number."""
-    return np.where(np.isfinite(values), values, None).tolist()  # type: ignore[call-overload]
 
 
 def _corners(region: Polygon | None) -> Any:

@@ -38,6 +38,11 @@ def number(value: float) -> float | None:
     return float(value) if math.isfinite(value) else None
 
 
+def numbers(values: FloatArray) -> Any:
+    """Nested lists of an array; None where there is no number."""
+    return np.where(np.isfinite(values), values, None).tolist()  # type: ignore[call-overload]
+
+
 def dyad_data(found: FoundDyad, places: Displacement) -> dict[str, Any]:
     """A dyad by its kind's own dimensions; places (N,): of the coupler, or poses."""
     dyad = found.dyad
@@ -103,7 +108,7 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
     if found.clearance is not None:
         data["clearance"] = _clearance(found.clearance, found.driver_first.first)
     if found.timing_error is not None:
-        data["timing_error_deg"] = [number(each) for each in np.degrees(found.timing_error)]
+        data["timing_error_deg"] = numbers(np.degrees(found.timing_error))
     if (links := found.driver_first.links) is not None:
         data["links"] = {name: float(length) for name, length in links._asdict().items()}
     if np.isfinite(found.error.angle).all():
@@ -311,8 +316,8 @@ def _spread(spread: Spread, tolerance: float | None) -> dict[str, Any]:
         "rms": number(float(spread.rms)),
         "max_95": number(float(spread.greatest_95)),
         "bound": number(float(spread.bound)),
-        "deviation_at_poses": [number(value) for value in spread.deviation],
-        "bound_at_poses": [number(value) for value in spread.worst],
+        "deviation_at_poses": numbers(spread.deviation),
+        "bound_at_poses": numbers(spread.worst),
         "method": "monte_carlo" if spread.monte_carlo else "first_order",
         "lost": number(float(spread.lost)) if spread.monte_carlo else None,
     }

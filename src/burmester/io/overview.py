@@ -187,7 +187,5 @@ def _asked_of_path(task: Task, path: TracedPath) -> str:
     if path.crank_angles is not None and task.poses.shape[0] == LEAST_TIMED:
         return f"the four-bars through {points} at their crank angles"
     near = f"four-bars near {points}" + ("" if path.crank_angles is None else ", timed")
-    tolerances = task.tolerances
-    stated = task.requirements.within is not None
-    stated |= tolerances is not None and tolerances.gives_room
+    stated = task.requirements.within is not None or task.gives_room
     return near + (", within a tolerance" if stated else "; no tolerance is stated: one is assumed")

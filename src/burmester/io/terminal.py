@@ -133,7 +133,7 @@ def _six_bars(synthesis: Synthesis, result: SixBars, console: Console) -> None:
         print_trimmed(table_of(heads, rows, title), console)
     unit = in_unit(synthesis.task.length_unit)
     grid = Table.grid(padding=(0, 2))
-    for name, *joints in (*six_bar_words.joint_rows(best), *six_bar_words.length_rows(best)):
+    for name, *joints in six_bar_words.dimension_rows(best):
         cells = [Text(each) for each in joints if each]
         grid.add_row(name, *(cells if wide else [Text("\n").join(cells)]))
     print_trimmed(Text(f"\nDimensions{unit and ','}{unit}", style="bold"), console)

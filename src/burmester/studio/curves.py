@@ -9,7 +9,7 @@ import numpy as np
 from burmester.dyads.burmester_curve import dyad_curve
 from burmester.families.family_map import curve_map
 from burmester.families.pair_verdicts import CLASS_WORDS
-from burmester.numerics.arrays import FloatArray
+from burmester.io.linkage_data import numbers
 from burmester.tasks.motion_task import Task
 
 SAMPLES: Final = 100  # dyads on all loops together, where they are judged: pairs are their square
@@ -31,7 +31,7 @@ def curves(task: Task, *, judged: bool) -> dict[str, Any]:
         loops = [
             (
                 found.second[own],
-                {"class": classes[own].tolist(), "transmission_deg": _points(degrees[own])},
+                {"class": classes[own].tolist(), "transmission_deg": numbers(degrees[own])},
             )
             for own in every
         ]
@@ -39,18 +39,11 @@ def curves(task: Task, *, judged: bool) -> dict[str, Any]:
         loops = [(each, {}) for each in dyad_curve(task.poses, DRAWN).components]
     parts = [
         {
-            "fixed": _points(dyads.fixed_pivot),
-            "moving": _points(dyads.moving_pivot),
-            "length": _points(dyads.radius),
+            "fixed": numbers(dyads.fixed_pivot),
+            "moving": numbers(dyads.moving_pivot),
+            "length": numbers(dyads.radius),
             **more,
         }
         for dyads, more in loops
     ]
     return {"loops": parts, "words": list(CLASS_WORDS.values())}
-
-
-def _points(values: FloatArray) -> Any:
-    """Nested lists; null where a number does not exist, as of a dyad that is a slider there."""
-    out = values.astype(object)
-    out[~np.isfinite(values)] = None
-    return out.tolist()

@@ -140,6 +140,11 @@ class Task:
         """Whether only points of the body are asked for, and no angle anywhere."""
         return bool(self.free_angles.all())
 
+    @property
+    def gives_room(self) -> bool:
+        """Whether tolerances let poses be missed, and do not only free components of them."""
+        return self.tolerances is not None and self.tolerances.gives_room
+
     def at(self, index: NDArray[np.intp], weights: FloatArray | None = None) -> Task:
         """The task of some of its poses, by default with their weights."""
         if weights is None and self.weights is not None:

@@ -14,7 +14,7 @@ import numpy as np
 
 from burmester.functions.found_generator import ROUNDING, FoundGenerator
 from burmester.functions.function_task import FunctionTask
-from burmester.io.linkage_data import number
+from burmester.io.linkage_data import numbers
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.function_generation import FunctionSynthesis, coupler_synthesis
@@ -177,15 +177,13 @@ def _pair_texts(x: float, y: float, error: float) -> list[str]:
 
 def _error_panel(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
     """The structural error: of a function along the range, else at the pairs."""
-    known = np.degrees(found.range_errors)
-    inputs, _, errors = _pair_degrees(found, task)
-    pairs = list(zip(inputs, map(number, errors), strict=True)) if len(inputs) <= MOST_DOTS else []
-    at = np.degrees(task.compared()[0]).tolist()
+    inputs, errors = np.degrees(task.inputs).tolist(), numbers(np.degrees(found.errors))
+    pairs = zip(inputs, errors, strict=True) if len(inputs) <= MOST_DOTS else ()
     whole = task.function is not None
     return {
         "title": "structural error (°)" + ("" if whole else ", at the pairs"),
-        "x": at,
-        "y": [number(each) for each in known.tolist()],
+        "x": np.degrees(task.compared()[0]).tolist(),
+        "y": numbers(np.degrees(found.range_errors)),
         "dots": [each for each in pairs if each[1] is not None],
         "stems": not whole,
     }

@@ -167,7 +167,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar, scene: float) -> dict[str
                 "lengths": True,
                 "rows": [
                     [link, [each for each in joints if each]]
-                    for link, *joints in (*words.joint_rows(found), *words.length_rows(found))
+                    for link, *joints in words.dimension_rows(found)
                 ],
                 "class": "bm-dimensions bm-joints",
             },
