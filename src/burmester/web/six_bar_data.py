@@ -102,7 +102,8 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar, scene: float) -> dict[str
     least = least_angle(found.transmission)
     cranks = sorted(skeleton.links[skeleton.ground], key=lambda each: each != found.driver_pivot)
     ground = found.frames[skeleton.ground]
-    frame, transmits = _stops(found), np.degrees(_transmission(found, found.drive))
+    way, frame = _way(found, scene)
+    transmits = np.degrees(_transmission(found, found.drive))
     drives = np.degrees(found.drive).tolist()
     misses = words.errors(synthesis, found) if met else [("exact", "exact")] * len(drives)
     places = found.body(found.drive)
@@ -117,7 +118,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar, scene: float) -> dict[str
         ],
         "ground": {name: _pair(at) for name, at in ground.items()},
         **_drawn(found),
-        "ways": [_way(found, scene)],
+        "ways": [way],
         "loops": [f"{name}at {tip}" for name, tip in zip(which, tips, strict=False)],
         "pose_errors": [
             {
@@ -213,45 +214,31 @@ def _drawn(found: FoundSixBar) -> dict[str, Any]:
     }
 
 
-def _ends(found: FoundSixBar) -> tuple[float, float]:
-    """Between which angles the driver moves, in radians: once all round, or until it locks."""
+def _way(found: FoundSixBar, scene: float) -> tuple[dict[str, Any], list[float]]:
+    """Places along the branch, and the frames at which the poses are met.
+
+    Once all round where the driver turns fully, evenly; else until it locks, closer to both ends.
+    """
     low, high = found.drive_range
     below, above = found.room.tolist()
     middle, turn = (low + high) / 2, math.pi * found.turns
-    return (middle - turn, middle + turn) if found.turns else (low - below, high + above)
-
-
-def _frames(found: FoundSixBar) -> int:
-    low, high = _ends(found)
-    return FRAMES * max(1, math.ceil((high - low) / (2 * math.pi) - 1e-9))
-
-
-def _stops(found: FoundSixBar) -> list[float]:
-    """The frames at which the poses are met."""
-    low, high = _ends(found)
-    share = np.clip((found.drive - low) / (high - low), 0, 1)
-    along = share if found.turns else np.arccos(1 - 2 * share) / np.pi
-    return (_frames(found) * along).tolist()  # type: ignore[no-any-return]
-
-
-def _way(found: FoundSixBar, scene: float) -> dict[str, Any]:
-    """Places along the branch: evenly where the driver turns fully, else closer to both ends."""
-    low, high = _ends(found)
-    share = np.linspace(0, 1, _frames(found) + 1)
+    low, high = (middle - turn, middle + turn) if found.turns else (low - below, high + above)
+    count = FRAMES * max(1, math.ceil((high - low) / (2 * math.pi) - 1e-9))
+    share, met = np.linspace(0, 1, count + 1), np.clip((found.drive - low) / (high - low), 0, 1)
     if not found.turns:
         share = (1 - np.cos(np.pi * np.clip(share, END, 1 - END))) / 2
+        met = np.arccos(1 - 2 * met) / np.pi
     drive = low + (high - low) * share
     places = found.body(drive)
     # Where rounding keeps loops open at a dead point, the nearest place stands for it.
     known = np.flatnonzero(np.isfinite(places.angle))
     near = known[np.abs(known - np.arange(len(drive))[:, None]).argmin(axis=1)]
     drive, places = drive[near], places[near]
-    angle = np.unwrap(places.angle)
     loops = np.degrees(_transmission(found, drive))
     digits = DIGITS - math.ceil(math.log10(scene))
     x, y = np.round(places.translation.T, digits).tolist()
     ground = found.skeleton.links[found.skeleton.ground]
-    return {
+    way = {
         "circuit": 1,
         "branch": 1,
         "branches": 1,
@@ -261,7 +248,7 @@ def _way(found: FoundSixBar, scene: float) -> dict[str, Any]:
         "drive": np.degrees(drive).tolist(),
         "x": x,
         "y": y,
-        "angle": np.round(angle, DIGITS).tolist(),
+        "angle": np.round(np.unwrap(places.angle), DIGITS).tolist(),
         "joints": {
             name: np.round(at.T, digits).tolist()
             for name, at in found.joints(drive).items()
@@ -270,6 +257,7 @@ def _way(found: FoundSixBar, scene: float) -> dict[str, Any]:
         "transmission": np.round(loops.min(axis=0), 4).tolist(),
         "loops": np.round(loops, 4).tolist(),
     }
+    return way, (count * met).tolist()
 
 
 def _transmission(found: FoundSixBar, drive: FloatArray) -> FloatArray:
