@@ -104,8 +104,10 @@ def row(synthesis: Synthesis, found: FoundSixBar) -> tuple[str, ...]:
     )
 
 
-def pose_rows(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, ...]]:
-    """What it does at the poses, under `pose_heads`; of many poses those that are missed most."""
+def pose_table(
+    synthesis: Synthesis, found: FoundSixBar
+) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """What it does at the poses: heads and rows; of many poses those that are missed most."""
     task = synthesis.task
     numbers = np.arange(len(found.drive))
     if len(numbers) > MOST_POSES:
@@ -125,12 +127,8 @@ def pose_rows(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, ...]]
         if found.within_tolerance is not None and task.gives_room:
             cells.append(percent(float(found.within_tolerance[k].max())))
         rows.append(tuple(cells))
-    return rows
-
-
-def pose_heads(synthesis: Synthesis) -> tuple[str, ...]:
-    """The heads of `pose_rows`."""
-    return (*POSE_HEADS, OF_TOLERANCE) if synthesis.task.gives_room else POSE_HEADS
+    heads = (*POSE_HEADS, OF_TOLERANCE) if task.gives_room else POSE_HEADS
+    return heads, rows
 
 
 def errors(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, str]]:

@@ -499,12 +499,9 @@ def _certificate(given: Any, dyads: Sequence[FoundDyad]) -> Certificate | None:
         index = by_id.get(str(each.get("id"))) if isinstance(each, dict) else None
         if index is None:
             continue
-        bounds = [each.get(key) for key in ("radius", "angle_radius_deg")]
-        radius, angle = (
-            float(bound) if isinstance(bound, int | float) else math.inf for bound in bounds
-        )
-        kind, flags = type(dyads[index].dyad).__name__, (each.get("proved"), each.get("minimum"))
-        proved, minimum = (flag is True for flag in flags)
+        radius, angle = (_number(each.get(key)) for key in ("radius", "angle_radius_deg"))
+        proved, minimum = (each.get(key) is True for key in ("proved", "minimum"))
+        kind = type(dyads[index].dyad).__name__
         own = CertifiedDyad(index, kind, proved, radius, math.radians(angle), minimum)
         certified.append(own)
     return Certificate(

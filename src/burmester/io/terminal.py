@@ -126,11 +126,10 @@ def _six_bars(synthesis: Synthesis, result: SixBars, console: Console) -> None:
     for sentence in told:
         print_trimmed(Text(sentence), console)
     if result.given:
-        rows = six_bar_words.pose_rows(synthesis, best)
+        heads, rows = six_bar_words.pose_table(synthesis, best)
         title = f"At the poses{' that are missed most' * (len(rows) < len(best.drive))}"
         title += ", on one branch" * best.on_branches
-        heads = six_bar_words.pose_heads(synthesis)[: None if wide else 3]
-        print_trimmed(table_of(heads, rows, title), console)
+        print_trimmed(table_of(heads[: None if wide else 3], rows, title), console)
     unit = in_unit(synthesis.task.length_unit)
     grid = Table.grid(padding=(0, 2))
     for name, *joints in six_bar_words.dimension_rows(best):
