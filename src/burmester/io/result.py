@@ -34,7 +34,6 @@ from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.limits import KINDS, Limits
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
-from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.rails import Rail
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.price_list import price_list
@@ -59,11 +58,18 @@ def synthesis_data(synthesis: AnySynthesis) -> dict[str, Any]:
         return function_data(synthesis)
     task, outcome, motion = synthesis.task, synthesis.outcome, synthesis.motion
     tolerance = synthesis.options.manufacturing_tolerance
+    # Those of the fit where it has some, else those that classify the motion.
+    values = [fit.singular_values for fit in synthesis.fits if not isinstance(fit, BestDyads)]
+    values += [] if motion is None else [motion.singular_values]
     return {
         "schema": SCHEMA,
         "outcome": {**outcome.to_dict(), **_causes(synthesis)},
         "method": synthesis.method,
-        "options": _options(synthesis.options),
+        "options": {
+            name: list(each) if isinstance(each, tuple) else each
+            for name, each in asdict(synthesis.options).items()
+            if name != "time_limit"  # how long it might take is no part of the answer
+        },
         "task": task_data(task),
         "motion": None if motion is None else motion_data(motion),
         "dyads": [dyad_data(dyad, synthesis.task.poses) for dyad in synthesis.dyads],
@@ -79,7 +85,7 @@ def synthesis_data(synthesis: AnySynthesis) -> dict[str, Any]:
         "warnings": [each.to_dict() for each in synthesis.warnings],
         "characteristic_length": synthesis.length,
         "length_per_radian": synthesis.length_per_radian,
-        "singular_values": _singular_values(synthesis),
+        "singular_values": values[0].tolist() if values else None,
         **_critical_points(synthesis),
         "search": [*map(_search, synthesis.fits), *_counted(synthesis)],
         "family": None if synthesis.family is None else _family(synthesis.family),
@@ -90,12 +96,6 @@ def synthesis_data(synthesis: AnySynthesis) -> dict[str, Any]:
         "six_bars": None if synthesis.six_bars is None else _six_bars(synthesis.six_bars),
         **{key: synthesis.search[key] for key in SEARCH_KEYS if key in synthesis.search},
     }
-
-
-def _options(options: SynthesisOptions) -> dict[str, Any]:
-    """How the task was solved; how long that might take is no part of the answer."""
-    data = asdict(options) | {"stock_lengths": list(options.stock_lengths)}
-    return {name: each for name, each in data.items() if name != "time_limit"}
 
 
 def _prices(synthesis: Synthesis) -> dict[str, Any]:
@@ -270,14 +270,6 @@ def motion_data(motion: MotionClass) -> dict[str, Any]:
         "rotation_deg": math.degrees(motion.rotation),
         "nullity": motion.nullity,
     }
-
-
-def _singular_values(synthesis: Synthesis) -> list[float] | None:
-    """Those of the fit where it has some, else those that classify the motion."""
-    for fit in synthesis.fits:
-        if not isinstance(fit, BestDyads):
-            return list(fit.singular_values.tolist())
-    return None if synthesis.motion is None else list(synthesis.motion.singular_values.tolist())
 
 
 def _critical_points(synthesis: Synthesis) -> dict[str, Any]:
