@@ -236,7 +236,7 @@ def text(data: dict[str, Any], template: str = "page.md") -> str:
         sources="\n".join(sources),
         functions=_functions(results),
         limit=f"{data['limit']:g}",
-        ahead="\n".join(f"- {line}" for line in better(data)) or "Nowhere in these results.",
+        ahead="\n".join(map(_as_list, better(data))) or "Nowhere in these results.",
         trouble=f"\nWhat crashed or ran out of time:\n\n{trouble}\n" if trouble else "",
         paths=_paths(results),
         dates=_dates(results),
@@ -244,18 +244,24 @@ def text(data: dict[str, Any], template: str = "page.md") -> str:
     )
 
 
+def _as_list(line: str) -> str:
+    """What stands behind the colon of a sentence, as items below it."""
+    head, _, items = line.removesuffix(".").partition(": ")
+    return "\n".join([f"- {head}:", *(f"  - {each}" for each in items.split("; "))])
+
+
 def _answer(results: Results) -> str:
     """The outcome in a few sentences, from the figures."""
     parts = {name: results.of(name) for name in results.names}
     ours = parts.pop(OURS)
     ranked = sorted(parts, key=lambda name: -sum(map(_solved, parts[name])) / len(parts[name]))
-    rest = [f"{SHORT[name]} {_share(parts[name])}" for name in ranked]
+    rest = [f"{SHORT[name]}: {_share(parts[name])}" for name in ranked]
     return (
         f"burmester solves {_share(ours)} tasks. The median task takes {_seconds(ours):.2g} s of "
-        f"processor time. The others, of the tasks that they take: {'; '.join(rest)}. The same "
-        "script lists [where other tools are better](#where-other-tools-are-better). The authors "
-        "of burmester wrote this page. A judge that shares no code with any tool decides what is "
-        "solved."
+        "processor time. The authors of burmester wrote this page, and the same script lists "
+        "[where other tools are better](#where-other-tools-are-better). A judge that shares no "
+        "code with any tool decides what is solved. Of the tasks that they take, the others "
+        "solve:\n\n" + "\n".join(f"- {each}" for each in rest)
     )
 
 
