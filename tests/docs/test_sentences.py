@@ -27,8 +27,6 @@ EXEMPT: set[str] = {
     "docs/mathematics/dyads.md",
     "docs/mathematics/families.md",
     "docs/mathematics/linkages.md",
-    "docs/mathematics/motions.md",
-    "docs/paper.md",
     "docs/theory.md",
 }
 
