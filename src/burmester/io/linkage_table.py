@@ -214,7 +214,7 @@ def in_full(
         both = Table.grid(padding=(0, GAP, 0, 0))
         both.add_row(table, Text("\n".join(drawn)))
         yield both
-    if synthesis.task.gives_room and best.within_tolerance is not None:
+    if not short and synthesis.task.gives_room and best.within_tolerance is not None:
         yield _shares(synthesis, best)
     quality = quality_note(best, synthesis.task, short=short)
     if quality is not None:
