@@ -195,7 +195,7 @@ def read_task(
             outlines=outlines,
             tolerance=tolerance,
             convention=names,
-            crank=CrankOptions(absolute_crank, _radians(within_crank_deg)),
+            crank=CrankOptions(absolute_crank, within_crank_deg and math.radians(within_crank_deg)),
         )
     except InputError as error:
         error.where = blanked(error.where or label)
@@ -430,10 +430,6 @@ def _task(
             error.why = f"{left_out} of {left_out + len(values)} poses of the file are left out"
             error.help = "take more of them with --every, --from, --to and --drop"
         raise
-
-
-def _radians(degrees: float | None) -> float | None:
-    return None if degrees is None else math.radians(degrees)
 
 
 def _timing(

@@ -192,7 +192,8 @@ def _task(
             f"the length of the ground link is {settings.ground:g}",
             help="give a number above 0 and below 1e+09",
         )
-    for name, value in (("input", settings.input_phase_deg), ("output", settings.output_phase_deg)):
+    one, two = settings.input_phase_deg, settings.output_phase_deg
+    for name, value in (("input", one), ("output", two)):
         if value is not None and not math.isfinite(value):
             raise InputError(
                 "E194", f"the {name} phase is {shown(value)}", help="give an angle in degrees"
@@ -200,18 +201,14 @@ def _task(
     return FunctionTask(
         inputs,
         outputs,
-        _radians(settings.input_phase_deg),
-        _radians(settings.output_phase_deg),
+        one and math.radians(one),
+        two and math.radians(two),
         weights,
         settings.ground,
         function,
         settings.minimax,
         settings.requirements,
     )
-
-
-def _radians(degrees: float | None) -> float | None:
-    return None if degrees is None else math.radians(degrees)
 
 
 def _checked(function: Callable[[FloatArray], FloatArray]) -> Callable[[FloatArray], FloatArray]:
