@@ -27,7 +27,6 @@ EXEMPT: set[str] = {
     "docs/mathematics/dyads.md",
     "docs/mathematics/families.md",
     "docs/mathematics/linkages.md",
-    "docs/theory.md",
 }
 
 
