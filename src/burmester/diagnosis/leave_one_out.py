@@ -148,13 +148,6 @@ def _refit_to_all(normalized: NormalizedPoses, whole: Fits, fits: Fits) -> Fits:
     return concatenate([whole, Fits(linkages, cost, none)]).best(FITS_PER_LABEL)
 
 
-def _dyads(poses: Displacement, weights: FloatArray | None) -> list[Dyad]:
-    """The best dyads of poses (N,)."""
-    best = best_dyads(poses, weights)
-    circles: list[Dyad] = [best.dyads[i] for i in range(len(best.rms_error))]
-    return circles + [best.frames.line_from_canonical(line) for line in best.sliders]
-
-
 def _paired(dyads: Sequence[Dyad], poses: Displacement) -> LinkageBatch:
     """The best of the dyads, joined in pairs, those of better dyads first."""
     dyads = [each for each in dyads if not isinstance(each, PP)]
@@ -167,7 +160,8 @@ def _best_pairs(normalized: NormalizedPoses, left_out: int) -> LinkageBatch:
     """The best dyads of all poses but one (of a sample, where there are many), joined in pairs."""
     keep = np.flatnonzero(normalized.mask_without(left_out))
     keep = keep[:: max(1, len(keep) // SAMPLE_SIZE)]
-    return _paired(_dyads(normalized.poses[keep], normalized.weights[keep]), normalized.poses[keep])
+    poses = normalized.poses[keep]
+    return _paired(best_dyads(poses, normalized.weights[keep]).listed(), poses)
 
 
 def pencil_pairs(

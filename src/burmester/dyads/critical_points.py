@@ -164,17 +164,12 @@ def critical_dyads(poses: Displacement, weights: FloatArray | None = None) -> Cr
     centred = RR(x[..., :2], x[..., 2:], np.zeros(x.shape[:-1]))[..., None]
     with np.errstate(invalid="ignore"):
         distance = centred.residual(seen[..., None, :])
-    radius = np.sqrt(_mean(distance**2, weights))
+        share = weights_or_ones(None if weights is None else weights[..., None, :], distance.shape)
+        radius = np.sqrt((distance**2 * share).sum(axis=-1) / share.sum(axis=-1))
     dyads = frames.circle_from_canonical(RR(x[..., :2], x[..., 2:], radius))
     return CriticalDyads(
         frames, points, found, far, charts, real, minimum, dyads, residual, triangle
     )
-
-
-def _mean(values: FloatArray, weights: FloatArray | None) -> FloatArray:
-    """The weighted mean of values (*, k, N) over the poses: (*, k)."""
-    share = weights_or_ones(None if weights is None else weights[..., None, :], values.shape)
-    return np.asarray((values * share).sum(axis=-1) / share.sum(axis=-1))
 
 
 def residual_rows(poses: Displacement) -> FloatArray:

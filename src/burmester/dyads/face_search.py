@@ -138,12 +138,6 @@ class Descents:
                 kept.append(k)
         return self.dyads[kept]
 
-    def _gap(self, z: FloatArray) -> FloatArray:
-        """The greatest distances (k,) at exact poses."""
-        return np.asarray(
-            np.abs(self.distances.only(z)[:, self.search.exact]).max(axis=-1, initial=0)
-        )
-
     def _followed(self, z: FloatArray, *, may_leave: bool = True) -> NDArray[np.bool_]:
         """Add the minima of the norm to which dyads z (k, n) within limits lead, if they are new.
 
@@ -171,7 +165,8 @@ class Descents:
             z[rows], settled[rows] = descend(z[rows], self.distances, minimax, self.blocks)
         size = _size(z)
         slider = ~(size < np.where(settled, LINE_LENGTH, SLIDER_LENGTH))  # or on its way to one
-        found = settled & ~slider & (self._gap(z) <= EXACT_TOLERANCE * size)
+        gap = np.abs(self.distances.only(z)[:, exact]).max(axis=-1, initial=0)
+        found = settled & ~slider & (gap <= EXACT_TOLERANCE * size)
         self.dyads = unique_rows(np.concatenate([self.dyads, z[found]]), SAME_DYAD, "maximum")
         # On an edge or at a corner there may be too little freedom to meet the exact poses.
         return np.asarray(found | slider)[each]

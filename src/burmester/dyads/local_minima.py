@@ -18,7 +18,7 @@ from burmester.dyads.critical_search import COUNT
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.dyads.starts_down import pivots_of_fits, starts_down
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.bundles import concatenate, take
@@ -65,6 +65,11 @@ class BestDyads:
     def coefficients(self) -> FloatArray:
         """Their manifolds (k, 8), in `frames`."""
         return self.circles.coefficients()
+
+    def listed(self) -> list[Dyad]:
+        """The circles and then the sliders, in the task's frames."""
+        circles: list[Dyad] = [self.dyads[k] for k in range(len(self.rms_error))]
+        return circles + [self.frames.line_from_canonical(each) for each in self.sliders]
 
 
 class Minima(NamedTuple):

@@ -20,7 +20,6 @@ from burmester.dyads.local_minima import BestDyads, is_hard, starts_of_one
 from burmester.dyads.sliders import fixed_lines, moving_lines
 from burmester.following.minimum_step import (
     MovedMinima,
-    listed,
     moved_fit,
     moved_minima,
     twins,
@@ -84,7 +83,7 @@ class FreeMinima:
             there = replace(there, descents=down.z[down.ended_at == 0])
         own = np.delete(np.arange(len(z)), twins(z))
         new = moved_fit(fit, z[own], sliders, seen)
-        before, after = listed(fit), listed(new)
+        before, after = fit.listed(), new.listed()
         moves = list(zip(before[-len(sliders) :], after[-len(sliders) :], strict=True))
         moves += [
             (before[number[k]], each)

@@ -114,16 +114,18 @@ class LimitedMinima:
 
     def dyads(self, frames: CanonicalFrames) -> list[Dyad]:
         """The minima in the task's frames."""
-        out: list[Dyad] = []
-        for each in self.z:
-            if self.kind is RR:
-                one = frames.circle_from_canonical(RR(each[None, :2], each[None, 2:4], each[4:]))
-                out.append(RR(one.fixed_pivot[0], one.moving_pivot[0], one.radius[0]))
-            elif self.kind is PR:
-                out.append(frames.line_from_canonical(PR(each[0], each[1], each[2:])))
-            else:
-                out.append(frames.line_from_canonical(RP(each[2:], each[0], each[1])))
-        return out
+        if self.kind is RR:
+            z = self.z
+            every = frames.circle_from_canonical(RR(z[:, :2], z[:, 2:4], z[:, 4]))
+            return [every[k] for k in range(len(z))]
+        return [frames.line_from_canonical(each) for each in self.sliders]
+
+    @property
+    def sliders(self) -> list[PR | RP]:
+        """The minima that are no circles, in the frames of the fit."""
+        if self.kind is PR:
+            return [PR(each[0], each[1], each[2:]) for each in self.z]
+        return [RP(each[2:], each[0], each[1]) for each in self.z if self.kind is RP]
 
 
 def _coordinates(kind: type[RR] | type[PR] | type[RP], fit: BestDyads) -> FloatArray:
@@ -190,15 +192,8 @@ def _down(
 
 def limited_fit(fit: BestDyads, strands: Sequence[LimitedMinima], seen: Displacement) -> BestDyads:
     """The fit with the minima where they are now."""
-    z = np.empty((0, 5))
-    sliders: list[PR | RP] = []
-    for strand in strands:
-        if strand.kind is RR:
-            z = strand.z
-        elif strand.kind is PR:
-            sliders += [PR(each[0], each[1], each[2:]) for each in strand.z]
-        else:
-            sliders += [RP(each[2:], each[0], each[1]) for each in strand.z]
-    new = moved_fit(fit, z, tuple(sliders), seen)
+    z = next((strand.z for strand in strands if strand.kind is RR), np.empty((0, 5)))
+    sliders = tuple(each for strand in strands for each in strand.sliders)
+    new = moved_fit(fit, z, sliders, seen)
     assert isinstance(fit.search, LimitedDyads)
     return replace(new, search=replace(fit.search, circles=new.circles, sliders=new.sliders))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from burmester.dyads.geometric_fit import DistanceFunction
 from burmester.dyads.limited_block import Held
 from burmester.dyads.local_minima import BestDyads, with_errors
-from burmester.fourbar.dyad import PR, RP, RR, Dyad
+from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import matvec, solve_or_shortest
@@ -123,15 +123,6 @@ def moved_minima(
         slope, terms = matvec(along, force), matvec(np.abs(along), np.abs(force))
         let_go = np.asarray((slope < -INWARD_ROUNDING * terms).any(axis=1))
     return MovedMinima(z, np.asarray(settled & near & convex), let_go)
-
-
-def listed(fit: BestDyads) -> list[Dyad]:
-    """The circles and sliders of a fit, in the task's frames."""
-    every: list[Dyad] = [
-        RR(fit.dyads.fixed_pivot[k], fit.dyads.moving_pivot[k], fit.dyads.radius[k])
-        for k in range(len(fit.dyads.radius))
-    ]
-    return every + [fit.frames.line_from_canonical(each) for each in fit.sliders]
 
 
 def moved_fit(

@@ -16,7 +16,7 @@ import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, pairs_of
 from burmester.numerics.weights import shares
 
 # Mean squared deviation of e^(i angle).  A smaller one is rounding: M only translates.
@@ -70,8 +70,8 @@ class CanonicalFrames:
         # Poses with a common pole leave nothing to measure by but the motion itself.
         length = np.where(length > SHARED_POLE * before, length, before)
         length = np.where(length > 0, length, 1.0)
-        frames = cls(_pair(c[..., 0]), _pair(m[..., 0]), length)
-        return frames, Displacement(_pair(rest / length[..., None]), poses.angle)
+        frames = cls(pairs_of(c[..., 0]), pairs_of(m[..., 0]), length)
+        return frames, Displacement(pairs_of(rest / length[..., None]), poses.angle)
 
     def to_canonical(self, poses: Displacement) -> Displacement:
         """Poses (*, N) as these frames (*,) see them."""
@@ -120,7 +120,3 @@ def _less_rounding(poses: Displacement, c: np.ndarray, m: np.ndarray) -> np.ndar
 def _rms(share: FloatArray, values: np.ndarray) -> FloatArray:
     squares: FloatArray = (share * (values.real**2 + values.imag**2)).sum(axis=-1)
     return np.sqrt(squares)
-
-
-def _pair(values: np.ndarray) -> FloatArray:
-    return np.stack([values.real, values.imag], axis=-1)

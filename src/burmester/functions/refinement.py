@@ -54,7 +54,9 @@ def refined(
     (k,) are closed at all pairs and keep what they have to.
     """
     problem = _Problem(task, kept, start.side, minimax)
-    first = problem.point(np.arange(len(start)), _unknowns(start))
+    phases = np.stack([start.input_phase, start.output_phase], axis=-1)
+    unknowns = np.concatenate([np.log(start.sizes[:, 1:]), phases], axis=-1)
+    first = problem.point(np.arange(len(start)), unknowns)
     rows = np.flatnonzero(np.isfinite(first.error))
     ends, _ = damped_descent(
         problem.attempt, first, rows, damping=START_DAMPING, max_steps=MAX_STEPS
@@ -216,13 +218,6 @@ def at_bounds(generators: Generator) -> NDArray[np.bool_]:
     """Which of generators (k,) have a link of the greatest or the least size allowed."""
     size = np.abs(np.log(generators.sizes)).max(axis=-1)
     return np.asarray(np.abs(size - np.log(MOST_SIZE)) < AT_BOUND * np.log(MOST_SIZE))
-
-
-def _unknowns(g: Generator) -> FloatArray:
-    """The unknowns (k, 5) of generators: the logarithms of the links, and the phases."""
-    return np.concatenate(
-        [np.log(g.sizes[:, 1:]), np.stack([g.input_phase, g.output_phase], axis=-1)], axis=-1
-    )
 
 
 def _generator(x: FloatArray, side: FloatArray) -> Generator:

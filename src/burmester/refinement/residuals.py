@@ -7,7 +7,7 @@ dimensions z.  Where places are free, steps along the motion are unknowns beside
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple, final
 
 import numpy as np
@@ -18,6 +18,7 @@ from burmester.fourbar.foot_points import newton_steps, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.numerics.bundles import take
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.weights import weights_of_mean_one
 from burmester.refinement.constraints import Constraints
@@ -114,16 +115,8 @@ class Problem:
 
     def part(self, index: NDArray[np.intp]) -> Problem:
         """The problem of the linkages at the indices, without their constraints."""
-        return Problem(
-            self.kinds[index],
-            self.wanted,
-            self.length,
-            self.share,
-            self.exact,
-            None,
-            self.free[index],
-            None if self.metric is None else self.metric[index],
-        )
+        kinds, free, metric = take((self.kinds, self.free, self.metric), index)
+        return replace(self, kinds=kinds, free=free, metric=metric, constraints=None)
 
     def state(self, which: NDArray[np.intp], z: FloatArray, rows: FloatArray) -> State:
         """The linkages z (k, 10) with their places nearest to the poses, by steps from rows."""

@@ -195,7 +195,9 @@ class _Rounding:
             weights = np.where(target.exact, EXACT_WEIGHT * weights.max(), weights)
             target = replace(target, weights=weights, exact=None)
         lead, here = np.array([driver]), rows[None]
-        sine = _branch_sign(batch, here, target.length, lead)
+        with np.errstate(invalid="ignore"):
+            positive = Transmission.of(batch, here, target.length, lead).sine > 0
+        sine = np.where(positive.mean(axis=1) >= 0.5, 1.0, -1.0)  # that of most places
         middle = middle_input(batch, target.places_of(rows[None, 0]), driver)
         branch_and_order = BranchAndOrder.of(
             batch, here, target.length, DrivenBranch(lead, sine, middle), target.requirements
@@ -387,15 +389,6 @@ def _moves(some: NDArray[np.bool_], pairs: bool) -> FloatArray:
     single = [sign * row for row in np.eye(SIZE)[some] for sign in (1, -1)]
     both = [a + b for a, b in combinations(single, 2) if (a + b).any()] if pairs else []
     return np.array(single + both)
-
-
-def _branch_sign(
-    batch: LinkageBatch, rows: FloatArray, length: float, driver: NDArray[np.intp]
-) -> FloatArray:
-    """The sign (k,) of the transmission angle at most of the places (k, N, 3)."""
-    with np.errstate(invalid="ignore"):
-        positive = (Transmission.of(batch, rows, length, driver).sine > 0).mean(axis=1)
-    return np.where(positive >= 0.5, 1.0, -1.0)
 
 
 def _required_type(batch: LinkageBatch, driver: int, target: Target) -> str:

@@ -7,6 +7,7 @@ near to each pose as it comes.  What kind of mechanism it is does not matter her
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple, final
 
 import numpy as np
@@ -228,9 +229,8 @@ def _along(
     """
     motion = problem.motion
     if problem.is_merged and motion is not None:
-        once = _along(
-            drives[:, motion.first], places[:, motion.first], turns, slack, _distinct(problem)
-        )
+        distinct = replace(problem, given=problem.task, motion=None)
+        once = _along(drives[:, motion.first], places[:, motion.first], turns, slack, distinct)
         return once._replace(along=once.along[:, motion.group])
     ones, closed = np.ones(len(drives)), turns > 0
     period = np.maximum(turns, 1)[:, None]  # of a closed branch, in turns
@@ -351,18 +351,6 @@ def _by_tolerances(problem: SynthesisProblem) -> bool:
 def _tie(problem: SynthesisProblem) -> float:
     """The difference below which distances from poses are one."""
     return ALIKE * (1.0 if _by_tolerances(problem) else problem.motion_size)
-
-
-def _distinct(problem: SynthesisProblem) -> SynthesisProblem:
-    """The problem of the poses that are different."""
-    return SynthesisProblem(
-        problem.task,
-        problem.task,
-        None,
-        problem.length,
-        problem.options,
-        problem.length_per_radian,
-    )
 
 
 @final
