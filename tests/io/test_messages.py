@@ -1742,8 +1742,8 @@ def said(case, done, code=None):
         counted = re.search(
             r"(?m)^\d+ (?:of \d+ )?(?:four-bar|pose|six-bar)s? (?:.*\n)+?(?=\n|\Z)", out
         )
-        in_full = "Dimensions" if code == "R370" else "L1 in full"
-        return f"{out[: out.index(in_full)]}{counted[0]}"
+        in_full = re.search("Dimensions|L1 in full|L1 +fixed pivot", out)
+        return f"{out[: in_full.start()]}{counted[0]}"
     found = re.search(rf"(?m)^(warning|result)\[{code}\]: .*\n(?:  .*\n|L\d+ .*\n)*", out)
     return found[0] if found else ""
 
