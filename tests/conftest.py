@@ -4,14 +4,13 @@ Every test is in one of three layers, and has its name as a marker.  `campaign` 
 cases, each much like the next: they differ by a `seed` or `number`, or tests/layers.toml names the
 test.  By default a fixed sample of them is run, and all of them with `scripts/test --all`.  The
 others are `unit` where they are light, and else `cross`: whole runs and comparisons with oracles.
-What is light is measured: `--weigh` keeps the CPU seconds of each test in tests/weights.json.
+What is light is measured: `--weigh` keeps the seconds of each test in tests/weights.json.
 
 A worker takes whole files, so that what is set up for a file is set up once: first those that need
 a browser, then the heaviest, so that all workers end together.
 """
 
 import json
-import os
 import tomllib
 import zlib
 from collections import defaultdict
@@ -31,7 +30,7 @@ solved.install()
 FOLDER = Path(__file__).parent
 WEIGHTS = FOLDER / "weights.json"
 DRAWN = {"seed", "number"}  # what a test is given to draw its case by
-LIGHT_S = 1.0  # CPU seconds of a test function, with all its cases, that is `unit`
+LIGHT_S = 1.0  # seconds of a test function, with all its cases, that is `unit`
 
 settings.register_profile("house", deadline=None, derandomize=True, max_examples=share(100))
 settings.register_profile("search", deadline=None, print_blob=True, max_examples=300)
@@ -89,7 +88,7 @@ def _file(item: pytest.Item) -> str:
     return item.nodeid.partition("::")[0]
 
 
-def _function(item: pytest.Item) -> str:
+def _function(item: pytest.Item | pytest.TestReport) -> str:
     """A test function without the brackets of its case."""
     return item.nodeid.partition("[")[0]
 
@@ -119,31 +118,11 @@ def pytest_runtest_teardown(nextitem: pytest.Item | None) -> None:
 
 # --- how long each test takes
 
-_BEGAN = pytest.StashKey[float]()
 _measured: dict[str, float] = defaultdict(float)
 
 
-def _cpu_s() -> float:
-    """What this process and those that it has waited for have used."""
-    times = os.times()
-    return times.user + times.system + times.children_user + times.children_system
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_runtest_setup(item: pytest.Item) -> None:
-    item.stash[_BEGAN] = _cpu_s()
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> None:
-    if call.when == "teardown":
-        item.user_properties.append(("cpu_s", _cpu_s() - item.stash[_BEGAN]))
-
-
 def pytest_runtest_logreport(report: pytest.TestReport) -> None:
-    # Examples in docstrings of the package are no tests of this folder, and nobody measures them.
-    if report.when == "teardown" and (seconds := dict(report.user_properties).get("cpu_s")):
-        _measured[report.nodeid.partition("[")[0]] += seconds
+    _measured[_function(report)] += report.duration
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:
