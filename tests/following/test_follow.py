@@ -12,7 +12,12 @@ from scipy.optimize import least_squares, minimize
 
 import burmester
 from burmester import RR, Displacement, InputError, Limits, Task, box, follow, synthesize
+from burmester.dyads.selection import FoundDyad
+from burmester.errors import Finding
+from burmester.following.dyad_strands import identities
+from burmester.following.follow import linkage_changes
 from burmester.following.linkage_strands import Way
+from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.linkages.from_dyads import target_of
 from burmester.synthesis.dyad_search import search_dyads
 from tests.oracles.witness import places
@@ -332,3 +337,30 @@ def test_linkages_are_judged_where_it_is_asked_for():
         assert one.error.worst == pytest.approx(other.error.worst, rel=1e-9)
         assert one.usable == other.usable
     assert follow(start, task_at(TEN, 1, TEN_STEP, 1), judged=()).linkages == start.linkages
+
+
+def test_of_two_dyads_as_near_it_is_doubtful_which_went_on():
+    """A circle between two: a quarter of the way is sure, four tenths is not."""
+    task = task_at(TEN, 1, TEN_STEP, 0)
+    frames, _ = CanonicalFrames.of(task.poses)
+
+    def found(id, share):
+        dyad = RR(np.array([2.0 + 0.1 * share, 5.0]), np.array([1.0, 1.0]), np.array(4.0))
+        return FoundDyad.of(id, dyad, task.poses)
+
+    before = found("D1", 0.0), found("D2", 1.0)
+    for share, doubtful in ((0.0, []), (0.2, []), (0.4, [(0, 1)]), (0.6, [(1, 0)])):
+        told = identities(before, [found("", share)], [], frames)
+        assert told.old == [int(share > 0.5)]
+        assert told.doubtful == doubtful, share
+
+
+def test_another_reason_to_fail_is_told():
+    here = synthesize(burmester.read_task("case:motiongen-shoulder"))
+    found = here.linkages[0]
+    ratio, other = Finding("link ratio", "is long"), Finding("footprint", "is wide")
+    failing = replace(found, usable=False, violations=(ratio,))
+    for violations, kinds in (((ratio,), []), ((other,), ["other defects"])):
+        after = replace(failing, violations=violations)
+        told = linkage_changes({found.id: failing}, [after], [], here.task)
+        assert [each.kind for each in told] == kinds

@@ -9,7 +9,9 @@ import pytest
 from benchmarks.function_requirements import TABLE, drawn, task_of, witnessed
 
 from burmester.functions.exact_pairs import exact_generators
+from burmester.functions.found_generator import found_generators
 from burmester.functions.function_task import FunctionTask
+from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import KeptRequirements
 from burmester.functions.nearest_generators import FurtherStarts
 from burmester.numerics.bundles import concatenate
@@ -154,3 +156,20 @@ def test_further_starts_keep_what_is_asked():
     assert (starts.least_transmission(*task.input_ends) >= 40 * DEG).all()
     assert (starts.link_ratio <= 5).all()
     assert set(starts.types) == {"triple-rocker"}
+
+
+@pytest.mark.parametrize(("noise", "first"), [(1e-4, "nearest"), (8e-3, "sound")])
+def test_a_sound_one_comes_first_where_it_is_about_as_near(noise, first):
+    """One that transmits at 26 degrees makes the outputs, but for noise; a sound one is near it."""
+    near, sound = (
+        Generator(*np.array([values]).T, side=np.ones(1))
+        for values in ((0.62, 1.2, 0.5, 0.9, 0.0), (0.686, 1.335, 0.506, 1.158, 0.096))
+    )
+    inputs = np.radians(np.linspace(0, 60, 13))
+    outputs = near.outputs(inputs)[0] + noise * np.where(np.arange(13) % 2, 1, -1)
+    task = FunctionTask(inputs, outputs)
+    found = found_generators(concatenate([near, sound]), task, exact=False)
+    errors = {"nearest": noise, "sound": np.abs(sound.error(inputs, outputs)).max()}
+    assert found[0].max_error == pytest.approx(errors[first])
+    assert bool(found[0].shortcomings) == (first == "nearest")
+    assert len(found) == 2

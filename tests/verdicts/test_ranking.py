@@ -204,3 +204,13 @@ def test_the_closest_linkage_is_made_sound_where_that_costs_little():
     assert not best.shortcomings
     assert best.combined_error < 1.1 * closest.combined_error
     assert comes_by(best, np.radians(30))
+
+
+def test_a_trade_gains_much_in_one_error_and_pays_little_in_the_other(synthesis):
+    one = synthesis.usable[0]
+    best = made(one, "L1", 0.2, angle=0.1)
+    trades = {(0.09, 0.1): True, (0.2, 0.04): True, (0.09, 0.29): True, (0.09, 0.31): False}
+    trades |= {(0.11, 0.1): False, (0.2, 0.1): False, (0.7, 0.04): False, (0.05, 20.0): False}
+    for (error, angle), trade in trades.items():
+        assert is_trade(made(one, "L2", error, angle=angle), best) == trade, (error, angle)
+    assert not is_trade(best, best)
