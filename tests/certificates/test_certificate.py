@@ -352,6 +352,9 @@ def test_a_list_with_a_fault_is_not_complete(seed):
         assert not certificate.complete
         assert not said(certificate, "local minima|global")
         assert len(certificate.numerical) > 1
+    moved, double, *_ = (certify(poses, None, each, []) for each in tampered(critical))
+    lost = "critical points are computed, not proved"
+    assert any(lost in text for text in (*moved.numerical, *double.numerical))
 
 
 def test_without_the_points_at_infinity_nothing_is_complete(monkeypatch):

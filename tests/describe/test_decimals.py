@@ -9,7 +9,7 @@ import pytest
 from rich.console import Console
 
 from burmester.api.linkage import ResultLinkage, as_held
-from burmester.describe.decimals import decimals_of_dyad, decimals_of_linkage
+from burmester.describe.decimals import decimals_of_dyad, decimals_of_linkage, figures_of
 from burmester.export import Options, export
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
@@ -232,3 +232,21 @@ def residual_of(dyad, poses):
     else:
         point = (dyad.fixed_pivot @ [1, 1j] - d) / turn
     return (np.conj(normal) * point).real - dyad.offset
+
+
+@pytest.mark.parametrize(
+    ("size", "decimals"),
+    [
+        (0.03, 2),
+        (0.029, 3),
+        (0.02, 3),
+        (0.011, 3),
+        (0.099, 2),
+        (0.4, 1),
+        (0.25, 2),
+        (4, 0),
+        (70, 0),
+    ],
+)
+def test_a_size_shows_a_digit_or_two_where_the_first_is_1_or_2(size, decimals):
+    assert figures_of(size) == decimals

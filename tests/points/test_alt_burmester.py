@@ -84,6 +84,15 @@ def test_cognates_are_an_involution():
     assert np.abs(again - x).max() < 1e-12
 
 
+def test_cognates_of_one_curve_are_one_class():
+    start = start_system(next(case for case in CASES if case.poses == 1 and not case.pivots))
+    assert start.positions.has_cognates
+    some = start.x[:40]
+    every = cognates(some)
+    assert np.abs(every[:, 1:] - some[:, None]).max(axis=-1).min() > 1e-3
+    assert len(distinct(every.reshape(-1, 8), start.positions)) == len(some)
+
+
 def test_the_same_linkage_is_counted_once():
     start = start_system(Case(3, 4))
     exchanged = np.concatenate([start.x[:, 4:], start.x[:, :4]], axis=1)

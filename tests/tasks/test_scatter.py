@@ -12,7 +12,7 @@ from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_kinds import General, Rotation, TwoSliders
 from burmester.tasks.motion_task import Task
 from burmester.tasks.plain_motions import plain_motions
-from burmester.tasks.scatter import last_digit
+from burmester.tasks.scatter import is_scatter, last_digit
 from tests.oracles.recordings import trc
 from tests.oracles.two_slider_motions import general, planted
 from tests.samples import samples
@@ -197,3 +197,13 @@ def test_poses_that_somebody_sketched_are_no_scatter():
     rows = [(0, 0, 0), (3, 1, 20), (5, 4, 50), (4, 8, 70), (1, 9, 95), (0, 12, 110)]
     task = Task.from_rows(np.array(rows, dtype=float), angle_unit="deg")
     assert isinstance(classify_motion(task).kind, General)
+
+
+def test_what_the_next_powers_of_the_turn_explain_is_no_scatter_however_rough():
+    """Six poses: of all that the powers 0, 1, -1 and 2 make, the last jumps to and fro."""
+    turn = np.exp(0.1j * np.arange(6))
+    every, _ = np.linalg.qr(np.stack([turn**power for power in (0, 1, -1, 2, 3, -2)], axis=-1))
+    assert not is_scatter(every[:, 3], turn)
+    assert is_scatter(every[:, 5], turn)
+    assert is_scatter(every[:, 5] + 0.5 * every[:, 3], turn)
+    assert not is_scatter(0.4 * every[:, 5] + every[:, 3], turn)
