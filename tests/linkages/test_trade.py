@@ -11,7 +11,7 @@ from tests.oracles.hard_tasks import noisy_task
 
 
 @pytest.mark.parametrize("seed", [3, 4])
-def test_a_trade_gains_in_one_error(seed):
+def test_a_trade_halves_one_error_and_at_most_triples_the_other(seed):
     """The greatest distances and turns, by hand, of linkages that still work."""
     rows, *_ = noisy_task(np.random.default_rng(seed), 5)
     synthesis = synthesize(Task(Displacement.from_poses(rows)))
@@ -28,4 +28,6 @@ def test_a_trade_gains_in_one_error(seed):
             turn = np.abs(np.angle(np.exp(1j * (of.error.places.angle - poses.angle))))
             gains.append((gap.max(), turn.max()))
         (before, turned), (after, turned_after) = gains
-        assert after < 0.8 * before or turned_after < 0.8 * turned
+        assert after < 0.5 * before or turned_after < 0.5 * turned
+        assert after <= 3 * before
+        assert turned_after <= 3 * turned
