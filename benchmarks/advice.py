@@ -33,11 +33,11 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import box
 from burmester.io.reading.specification_text import limits_from_options
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 
 LIMIT_NAMES = ("fixed_pivot", "moving_pivot", "length", "kinds")
 OPTION = re.compile(r'(--[a-z-]+)(?: ("[^"]+"|[^-\s;()"][^\s;()]*))?')

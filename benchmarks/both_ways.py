@@ -22,8 +22,8 @@ from tests.oracles.coupler_curves import dyads_of, random_crank, traced
 
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_task import Task
+from burmester.tasks.traced_path import TracedPath
 
 MOST = 0.1  # diameters that a usable linkage may stray
 EXACT = 1e-5  # spans; a planted curve that misses its points by less is found

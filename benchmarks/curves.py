@@ -18,8 +18,8 @@ from tests.oracles.coupler_curves import dyads_of, random_crank, refined_from, t
 from burmester.curves import path_fit
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_task import Task
+from burmester.tasks.traced_path import TracedPath
 
 NOISE = 0.01
 LONGER = {

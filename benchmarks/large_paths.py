@@ -15,8 +15,8 @@ from tests.oracles.coupler_curves import distances, dyads_of, random_crank, trac
 
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_task import Task
+from burmester.tasks.traced_path import TracedPath
 
 NOISE = 0.01  # of the root mean square size
 CHECKED = 60  # places of the drawn curve that are looked at

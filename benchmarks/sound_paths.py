@@ -27,8 +27,8 @@ from scipy.optimize import least_squares
 
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_task import Task
+from burmester.tasks.traced_path import TracedPath
 
 LONGER = 10.0  # times the seconds of the answer that SciPy is given
 DRAWN = 30_000  # random linkages of SciPy's search

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from rich.console import Console
 
-from burmester.api.linkage import ResultLinkage, as_held
+from burmester.api.linkage import ResultLinkage, as_type
 from burmester.describe.decimals import decimals_of_dyad, decimals_of_linkage, figures_of
 from burmester.export import Options, export
 from burmester.fourbar.dyad import PR, RP, RR
@@ -177,7 +177,7 @@ def rounded(dyad, places, degrees, middle):
 def test_drawings_have_the_same_dimensions(synthesis, kind, tmp_path):
     if not synthesis.usable:
         return
-    best = as_held(ResultLinkage, synthesis.usable[0])
+    best = as_type(ResultLinkage, synthesis.usable[0])
     (path,) = export(best, kind, tmp_path / f"drawing.{kind}", Options(unit="mm"))
     text = path.read_text(encoding="utf-8")
     dyads = printed.dyads_of(printed.in_drawing(text))
@@ -199,7 +199,7 @@ def test_drawings_have_the_same_dimensions(synthesis, kind, tmp_path):
 
 def test_a_notebook_shows_the_same_dimensions(synthesis):
     for each in synthesis.usable:
-        page = as_held(ResultLinkage, each)._repr_html_()
+        page = as_type(ResultLinkage, each)._repr_html_()
         cells = re.findall(r"<td[^>]*>(.*?)</td>", page)
         dyads = printed.dyads_of(list(zip(cells[::3], cells[1::3], cells[2::3], strict=True)))
         bounds = [

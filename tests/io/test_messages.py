@@ -42,8 +42,8 @@ from burmester.io.message import location_lines, note, show
 from burmester.io.reading.poses import read_task
 from burmester.io.result import failure, synthesis_data
 from burmester.io.saved import read_result
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_class import classify_motion
+from burmester.tasks.traced_path import TracedPath
 from tests.oracles.conventions import crank_rocker, table, written
 from tests.oracles.coupler_curves import CABRERA, CABRERA_TURNS
 from tests.oracles.drawings import svg

@@ -13,11 +13,11 @@ from burmester.geometry.displacement import Displacement
 from burmester.synthesis.given_linkage import OpenLink
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 from tests.oracles.coupler_curves import distances, dyads_of, random_crank, traced
 from tests.oracles.witness import missed, places
 

@@ -10,11 +10,11 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.explanation import nearness
 from tests.oracles.both_ways import from_path, travelled
 from tests.oracles.coupler_curves import CABRERA, CABRERA_TURNS, distances, dyads_of, random_crank

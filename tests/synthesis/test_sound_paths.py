@@ -12,9 +12,9 @@ from burmester.describe.sentences import best_sentences
 from burmester.geometry.displacement import Displacement
 from burmester.io.result import synthesis_data
 from burmester.synthesis.motion_generation import synthesize
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 from tests.oracles.coupler_curves import distances, dyads_of, random_crank, traced
 from tests.oracles.witness import places
 

@@ -8,10 +8,10 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.result import synthesis_data
 from burmester.synthesis.judgement import judge_linkage
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.tracing import Tracing
 from tests.oracles.both_ways import from_path, from_segment, travelled
 from tests.oracles.coupler_curves import dyads_of, random_crank, traced

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Self, final
 import numpy as np
 from numpy.typing import ArrayLike
 
-from burmester.api.linkage import as_held
+from burmester.api.linkage import as_type
 from burmester.api.result import AnyResult, Result
 from burmester.api.synthesize import require_callable
 from burmester.errors import InputError
@@ -54,7 +54,7 @@ class FunctionGenerators(AnyResult[FoundGenerator], FunctionSynthesis):
     @classmethod
     def of(cls, synthesis: FunctionSynthesis) -> Self:
         """A synthesis that can be looked at and handed over."""
-        return as_held(cls, synthesis)
+        return as_type(cls, synthesis)
 
     def coupler_motion(self, which: int | str = 0) -> Result:
         """A generator as a linkage that guides its coupler, to draw, animate and export."""

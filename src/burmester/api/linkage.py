@@ -42,10 +42,10 @@ if TYPE_CHECKING:
 SWEPT_PLACES = 49  # of the body along the motion; each is a thin outline
 
 
-Held = TypeVar("Held")
+Value = TypeVar("Value")
 
 
-def as_held(kind: Callable[..., Held], found: Any, **others: Any) -> Held:
+def as_type(kind: Callable[..., Value], found: Any, **others: Any) -> Value:
     """A value of an answer as one that can be drawn and handed over; others: fields to change."""
     own = {each.name: getattr(found, each.name) for each in fields(found)}
     return kind(**own | others)

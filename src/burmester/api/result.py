@@ -19,7 +19,7 @@ from typing import (
     overload,
 )
 
-from burmester.api.linkage import MovingPicture, ResultLinkage, ResultSixBar, as_held
+from burmester.api.linkage import MovingPicture, ResultLinkage, ResultSixBar, as_type
 from burmester.api.python_words import in_python_words
 from burmester.api.table import HEADS, NUMBERS, as_text, cells, plain_html
 from burmester.describe import six_bar_words
@@ -157,10 +157,10 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
         """A synthesis whose linkages can be drawn and handed over."""
         six_bars = synthesis.six_bars
         if six_bars is not None:
-            found = tuple(as_held(ResultSixBar, each) for each in six_bars.found)
+            found = tuple(as_type(ResultSixBar, each) for each in six_bars.found)
             six_bars = replace(six_bars, found=found)
-        linkages = tuple(as_held(ResultLinkage, each) for each in synthesis.linkages)
-        return as_held(cls, synthesis, linkages=linkages, six_bars=six_bars)
+        linkages = tuple(as_type(ResultLinkage, each) for each in synthesis.linkages)
+        return as_type(cls, synthesis, linkages=linkages, six_bars=six_bars)
 
     @property
     def best(self) -> Linkages | None:

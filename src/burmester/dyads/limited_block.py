@@ -44,7 +44,7 @@ class LengthRange:
         return np.maximum(np.maximum(self.least - points, points - self.most), 0.0)[..., 0]
 
 
-class Held(NamedTuple):
+class FaceConditions(NamedTuple):
     """Linear conditions on dyads z (k, n): rows (k, m, n) · z = at (k, m), where active (k, m).
 
     inward: (k, w, n), directions from the faces into their regions; zero where there is none.
@@ -162,7 +162,7 @@ class Block:
         best = int(away.argmin())
         return best, on[best]
 
-    def held(self, on: NDArray[np.intp], size: int) -> Held:
+    def conditions(self, on: NDArray[np.intp], size: int) -> FaceConditions:
         """Faces (k,) as conditions on dyads with `size` coordinates; -1 is the last one, too."""
         faces = self._faces
         normals, across = faces.normals[on], faces.inward[on]
@@ -171,7 +171,7 @@ class Block:
         inward = np.zeros((len(on), across.shape[1], size))
         rows[..., self.at], inward[..., self.at] = normals, across
         offset = matvec(normals, faces.origin[on])
-        return Held(rows, offset, np.arange(width) < width - free, inward)
+        return FaceConditions(rows, offset, np.arange(width) < width - free, inward)
 
     def share_inside(self, z: FloatArray, to: FloatArray) -> FloatArray:
         """The shares (k,) of the ways from dyads to others on which they stay in the region."""
@@ -269,7 +269,9 @@ def face_numbers(z: FloatArray, blocks: Sequence[Block]) -> NDArray[np.intp]:
     return np.stack([block.lying_on(z) for block in blocks], axis=-1)
 
 
-def held(blocks: Sequence[Block], numbers: NDArray[np.intp], size: int) -> Held:
+def face_conditions(
+    blocks: Sequence[Block], numbers: NDArray[np.intp], size: int
+) -> FaceConditions:
     """The conditions of dyads (k, size) on the faces of these numbers (k, blocks)."""
-    parts = [block.held(on, size) for block, on in zip(blocks, numbers.T, strict=True)]
-    return Held(*(np.concatenate(part, axis=1) for part in zip(*parts, strict=True)))
+    parts = [block.conditions(on, size) for block, on in zip(blocks, numbers.T, strict=True)]
+    return FaceConditions(*(np.concatenate(part, axis=1) for part in zip(*parts, strict=True)))

@@ -23,7 +23,7 @@ from burmester.dyads.geometric_fit import (
     line_distances,
 )
 from burmester.dyads.least_powers import least_squares_step
-from burmester.dyads.limited_block import Block, circle_blocks, face_numbers, held
+from burmester.dyads.limited_block import Block, circle_blocks, face_conditions, face_numbers
 from burmester.dyads.local_minima import BestDyads
 from burmester.dyads.minima_within_limits import LimitedDyads
 from burmester.following.minimum_step import moved_fit, moved_minima, twins
@@ -87,7 +87,7 @@ class LimitedMinima:
         poses = seen.inverse() if self.kind is RP else seen
         distances = circle_distances(poses) if self.kind is RR else line_distances(poses)
         share = shares(weights, poses.shape)
-        kept = held(blocks, self.numbers, self.z.shape[1])
+        kept = face_conditions(blocks, self.numbers, self.z.shape[1])
         there = moved_minima(self.z, distances, share, exact, kept)
         z, numbers = there.z.copy(), self.numbers.copy()
         outside = np.any([block.outside(z) for block in blocks], axis=0)
@@ -162,7 +162,7 @@ def _onto(
     if sound and not any(block.outside(new) for block in blocks):
         return new
     start = old.copy()
-    kept = held(blocks, numbers[None], len(start))
+    kept = face_conditions(blocks, numbers[None], len(start))
     rows, gap = kept.rows[0][kept.active[0]], kept.gap(start[None])[0][kept.active[0]]
     start = start - np.linalg.pinv(rows) @ gap if len(rows) else start
     for block in blocks:  # on the nearest face, where an edge came over the dyad

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from burmester.dyads.limited_block import (
     Block,
-    Held,
+    FaceConditions,
     circle_blocks,
+    face_conditions,
     face_numbers,
-    held,
 )
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
@@ -28,7 +28,7 @@ KEPT_BLOCKS = 16  # limits that are remembered with their faces
 
 def linkages_held(
     numbers: NDArray[np.intp], limits: Sequence[Limits], frames: CanonicalFrames
-) -> Held | None:
+) -> FaceConditions | None:
     """The faces of these numbers (k, 2, 3) as conditions on dimensions (k, 10), in frames.
 
     limits: of a task, in its own frames.  None without limits.
@@ -39,10 +39,12 @@ def linkages_held(
     shift = np.array([*frames.fixed_origin, *frames.moving_origin, 0.0])
     sides = []
     for side in (0, 1):
-        own = held(_blocks_of(_of_side(limits, side), scale), numbers[:, side], DIMENSIONS)
+        own = face_conditions(
+            _blocks_of(_of_side(limits, side), scale), numbers[:, side], DIMENSIONS
+        )
         sides.append(own._replace(at=(own.at * 2.0**scale - own.rows @ shift) / frames.length))
     one, two = sides
-    return Held(
+    return FaceConditions(
         _blocks(one.rows, two.rows),
         np.concatenate([one.at, two.at], axis=1),
         np.concatenate([one.active, two.active], axis=1),

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.dyads.limited_block import Held
+from burmester.dyads.limited_block import FaceConditions
 from burmester.following.minimum_step import saddle_system
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -31,7 +31,9 @@ MET = 1e-13  # lengths; places that are missed by less are met
 INWARD_ROUNDING = 1e-7  # of the terms of a derivative; what leads down less does not
 
 
-def moved_with_places(batch: LinkageBatch, places: Displacement, kept: Held | None) -> LinkageBatch:
+def moved_with_places(
+    batch: LinkageBatch, places: Displacement, kept: FaceConditions | None
+) -> LinkageBatch:
     """Linkages (k,) changed by as little as leads them through places (k, N), or nearest to them.
 
     Newton's shortest step in the dimensions of each dyad, along the faces that it keeps.
@@ -57,7 +59,7 @@ def moved_with_places(batch: LinkageBatch, places: Displacement, kept: Held | No
     return LinkageBatch(batch.kinds, z)
 
 
-def _along(kept: Held) -> FloatArray:
+def _along(kept: FaceConditions) -> FloatArray:
     """The projections (k, 2, 5, 5) of both dyads' dimensions along their faces."""
     rows = np.where(kept.active[..., None], kept.rows, 0.0)
     whole = np.eye(SIZE) - np.swapaxes(rows, -1, -2) @ rows
@@ -78,7 +80,9 @@ class Least(NamedTuple):
     let_go: NDArray[np.bool_]
 
 
-def least_errors(problem: Problem, state: State, curvature: FloatArray, kept: Held | None) -> Least:
+def least_errors(
+    problem: Problem, state: State, curvature: FloatArray, kept: FaceConditions | None
+) -> Least:
     """Linkages (k,) some of Newton's steps nearer to their least errors.
 
     Where a step does not help, the curvature is computed anew, and in the end the step is damped.
@@ -135,7 +139,9 @@ def curvatures(problem: Problem, state: State) -> FloatArray:
     return np.where(free & np.isfinite(rest), rest, 0.0)
 
 
-def gains(problem: Problem, state: State, curvature: FloatArray, kept: Held | None) -> FloatArray:
+def gains(
+    problem: Problem, state: State, curvature: FloatArray, kept: FaceConditions | None
+) -> FloatArray:
     """What share (k,) of the squared error one step of Newton's method would gain."""
     every = np.arange(len(state.z))
     model = linearised(problem, every, state, 2.0)
@@ -146,7 +152,7 @@ def gains(problem: Problem, state: State, curvature: FloatArray, kept: Held | No
     return np.asarray(gain / np.maximum((residual**2).sum(axis=1), np.finfo(float).tiny))
 
 
-def _missed(problem: Problem, state: State, kept: Held | None) -> FloatArray:
+def _missed(problem: Problem, state: State, kept: FaceConditions | None) -> FloatArray:
     """By how much linkages (k,) miss exact poses and faces."""
     off = np.abs(state.residual[:, problem.exact]).max(axis=(1, 2), initial=0)
     if kept is not None:
@@ -160,7 +166,7 @@ def _step(  # noqa: PLR0917  all of it belongs to a step
     model: Linearisation,
     curvature: FloatArray,
     damping: FloatArray,
-    kept: Held | None,
+    kept: FaceConditions | None,
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
     """Newton's step (k, 10) under exact poses and faces; which (k,) faces are to be let go."""
     count, free = len(state.z), problem.free

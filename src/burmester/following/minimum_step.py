@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.geometric_fit import DistanceFunction
-from burmester.dyads.limited_block import Held
+from burmester.dyads.limited_block import FaceConditions
 from burmester.dyads.local_minima import BestDyads, with_errors
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
@@ -66,7 +66,7 @@ def moved_minima(
     distances: DistanceFunction,
     share: FloatArray,
     exact: NDArray[np.bool_] | None = None,
-    kept: Held | None = None,
+    kept: FaceConditions | None = None,
 ) -> MovedMinima:
     """The minima of the weighted sum of squares to which old ones z (k, n) move.
 

@@ -85,7 +85,7 @@ def assembly_defects(
     far: BoolArray, assembled: BoolArray, missed: FloatArray, names: PoseNames
 ) -> list[Finding]:
     """The assembly defects of one linkage that is too far from poses `far` (N,)."""
-    nowhere, near = numbers(~assembled), numbers(far & assembled)
+    nowhere, near = pose_numbers(~assembled), pose_numbers(far & assembled)
     defects = []
     if nowhere:
         text = f"it cannot be assembled near {names.phrase(nowhere)}"
@@ -125,7 +125,7 @@ def circuit_defect(
         text += ": it must be taken apart between them"
     else:
         text += f": it must be taken apart {names.between(changes(labels, clear))}"
-    return Finding("circuit", text, numbers(clear & (labels != main)), not change)
+    return Finding("circuit", text, pose_numbers(clear & (labels != main)), not change)
 
 
 def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseNames) -> Finding:
@@ -212,20 +212,20 @@ def undetermined_defect(on: BoolArray) -> Finding:
         "its guides are parallel or a link has zero length, within rounding, "
         "so its motion cannot be determined"
     )
-    return Finding("branch", text, numbers(on), certain=False)
+    return Finding("branch", text, pose_numbers(on), certain=False)
 
 
-def numbers(mask: BoolArray) -> tuple[int, ...]:
+def pose_numbers(mask: BoolArray) -> tuple[int, ...]:
     """The numbers of the poses that a mask holds."""
     return tuple(np.flatnonzero(mask).tolist())
 
 
 def changes(key: NDArray[np.int8] | BoolArray, clear: BoolArray) -> list[tuple[int, int]]:
     """The pairs of successive poses between which the key changes."""
-    return [(a, b) for a, b in pairwise(numbers(clear)) if key[a] != key[b]]
+    return [(a, b) for a, b in pairwise(pose_numbers(clear)) if key[a] != key[b]]
 
 
 def _parts(key: NDArray[np.int8], clear: BoolArray, names: PoseNames) -> tuple[str, str]:
     """The poses with the key of the first one, and the others."""
     same = clear & (key == key[clear.argmax()])
-    return names.phrase(numbers(same)), names.listed(numbers(clear & ~same))
+    return names.phrase(pose_numbers(same)), names.listed(pose_numbers(clear & ~same))

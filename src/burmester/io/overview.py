@@ -17,11 +17,12 @@ from burmester.io.linkage_table import show_read
 from burmester.io.message import show as show_message
 from burmester.io.result import motion_data, task_data
 from burmester.synthesis.point_conditions import point_conditions
-from burmester.tasks.crank_timing import LEAST_TIMED, CrankTiming, TracedPath
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.pose_tolerances import PoseTolerances
+from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
 from burmester.wording import count as count_of
 from burmester.wording import figure
 

@@ -26,9 +26,9 @@ from burmester.refinement.constraints import (
 from burmester.refinement.kept_timing import TimingConstraint
 from burmester.refinement.least_error import Refined, refine
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 
 # Stay on one circuit if its worst error is at most this many times the unrestricted one.
 ONE_CIRCUIT_RATIO = 2.0

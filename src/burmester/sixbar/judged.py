@@ -19,7 +19,7 @@ from burmester.fourbar.defect_messages import (
     changes,
     in_another_order,
     locks_between,
-    numbers,
+    pose_numbers,
 )
 from burmester.fourbar.pose_error import PoseError
 from burmester.fourbar.pose_order import (
@@ -279,7 +279,7 @@ def _defects(driven: _OneDriver, k: int, task: Task) -> Iterator[Finding]:
     given = task.names or ("",) * len(here)
     names = tuple(name or str(number) for number, name in enumerate(given, start=1))
     told = PoseNames(names)
-    if far := numbers(missed & ~locked & ~apart):
+    if far := pose_numbers(missed & ~locked & ~apart):
         shares = driven.shares
         text = (
             too_far_from(far, driven.errors[k], task)
@@ -287,20 +287,20 @@ def _defects(driven: _OneDriver, k: int, task: Task) -> Iterator[Finding]:
             else outside(far, shares[k], names)
         )
         yield Finding("assembly", text, far)
-    one = numbers(here)
-    if other := numbers(apart):
+    one = pose_numbers(here)
+    if other := pose_numbers(apart):
         verb = "is" if len(one) == 1 else "are"
         text = f"{told.phrase(one)} {verb} on one assembly, {told.listed(other)} on another"
         between = "between them" if any_order else told.between(changes(here, here | apart))
         yield Finding("circuit", f"{text}: it must be taken apart {between}", other)
-    if (other := numbers(locked)) and any_order:
+    if (other := pose_numbers(locked)) and any_order:
         text = f"locks at a dead point between {told.phrase(one)} and {told.listed(other)}"
         yield Finding("branch", text, other)
     elif other:
         pairs = changes(here, here | locked)
         poses = tuple(sorted({pose for pair in pairs for pose in pair}))
         yield Finding("branch", locks_between(pairs, told), poses)
-    if stuck := numbers(here & (driven.at_poses[k] < DEAD_POINT_ANGLE)):
+    if stuck := pose_numbers(here & (driven.at_poses[k] < DEAD_POINT_ANGLE)):
         text = f"is at a dead point at {told.phrase(stuck)}"
         yield Finding("branch", text, stuck, certain=False)
     if driven.out_of_order[k] and not (locked | apart).any():  # an order is that of one branch

@@ -34,7 +34,6 @@ from burmester.synthesis.point_approximation import with_nearest_angles
 from burmester.synthesis.point_conditions import each_once, special_curve
 from burmester.synthesis.result import Outcome, Synthesis, with_time_limit
 from burmester.synthesis.usual_pivots import with_usual_pivots
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.feasibility import require_feasible
 from burmester.tasks.motion_kinds import FewPoses, MotionKind, Rest, Undetermined
 from burmester.tasks.motion_task import CONDITIONS, Task
@@ -42,6 +41,7 @@ from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.special_motions import CircularTranslation
+from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.verdicts.ranking import ranked
 

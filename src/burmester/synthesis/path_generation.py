@@ -33,7 +33,6 @@ from burmester.synthesis.point_generation import (
     none_on_curve,
 )
 from burmester.synthesis.result import Outcome, Synthesis
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.motion_task import MOST_POINTS, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
@@ -41,6 +40,7 @@ from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.explanation import hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
 from burmester.verdicts.price_list import MET, price_list

@@ -34,13 +34,13 @@ from burmester.refinement.defect_free_search import refined_on_branch
 from burmester.refinement.kept_limits import DyadLimitsConstraint
 from burmester.refinement.least_error import Refined
 from burmester.refinement.target import Target
-from burmester.tasks.crank_timing import LEAST_TIMED, TracedPath
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
+from burmester.tasks.traced_path import LEAST_TIMED, TracedPath
 
 NINE = 9
 

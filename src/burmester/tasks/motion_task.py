@@ -14,12 +14,13 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
-from burmester.tasks.crank_timing import CrankTiming, TracedPath
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, kept, nominal_rows
 from burmester.tasks.requirements import Requirements, require_possible
 from burmester.tasks.surroundings import Surroundings, require_clear_at_poses
+from burmester.tasks.traced_path import TracedPath
 from burmester.values import real_numbers, require_instance, short_text, shown
 from burmester.wording import count as count_of
 

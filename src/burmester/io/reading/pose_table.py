@@ -17,7 +17,7 @@ from burmester.io.reading.specification import Specification, StatedSurroundings
 from burmester.io.reading.stated_tolerances import DefaultTolerance, StatedTolerances
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked
-from burmester.tasks.crank_timing import TracedPath
+from burmester.tasks.traced_path import TracedPath
 
 HEADER = "x,y,angle_deg"  # what a file may begin with
 UNITS = {"deg": "degrees", "rad": "radians"}

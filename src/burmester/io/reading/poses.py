@@ -60,9 +60,10 @@ from burmester.io.reading.stated_tolerances import (
 from burmester.io.reading.tables.text_source import label_of, text_source
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable
-from burmester.tasks.crank_timing import CrankTiming, TracedPath
+from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import nominal_rows
+from burmester.tasks.traced_path import TracedPath
 
 if TYPE_CHECKING:  # a reader is loaded with the first file that needs it
     from burmester.io.reading.markers.marker_recording import MarkerRecording

@@ -38,7 +38,7 @@ from burmester.io.reading.pose_table import PoseTable, Rows, shown
 from burmester.io.reading.stated_tolerances import StatedTolerances
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
-from burmester.tasks.crank_timing import TracedPath
+from burmester.tasks.traced_path import TracedPath
 from burmester.wording import count, figure, in_unit, listed
 
 FROM_PAGE: Final = "<page>/"  # in front of the name of a task that a page sent

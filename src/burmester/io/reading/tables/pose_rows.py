@@ -48,8 +48,8 @@ from burmester.io.reading.tables.columns_together import (
 from burmester.io.reading.tables.grid import SEPARATOR_NAMES, Grid, Row, rows_of, split_cells
 from burmester.io.reading.tables.header import read_header
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.pose_tolerances import COMPONENTS
+from burmester.tasks.traced_path import TracedPath
 
 BLOCK = 1 << 20  # characters parsed at a time, so that a million rows need little memory
 LEAST_POINTS = 10  # of a path without crank angles; fewer points are met exactly

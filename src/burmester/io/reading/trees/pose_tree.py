@@ -37,15 +37,15 @@ from burmester.io.reading.specification import (
 from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance, StatedTolerances
 from burmester.io.reading.trees.locations import Document, close_match
 from burmester.io.reading.trees.node import Field, Fields, Node
-from burmester.tasks.crank_timing import TracedPath
 from burmester.tasks.option_table import TABLES, TOP_KEYS
 from burmester.tasks.pose_tolerances import COMPONENTS
+from burmester.tasks.traced_path import TracedPath
 from burmester.wording import listed
 
 ANGLE_KEYS: Final = {"angle": None, "angle_deg": "deg", "angle_rad": "rad"}
 
 
-def _bound(node: Node) -> float:
+def _tolerance_bound(node: Node) -> float:
     """The nearest double of a number; infinite for "free"."""
     if isinstance(node.value, str):
         if node.value.strip().lower() in FREE_WORDS:
@@ -54,15 +54,15 @@ def _bound(node: Node) -> float:
     return node.number()
 
 
-_FIELDS: Final[Fields] = {
-    **{key: Field(_bound) for key in ("x", "y", *ANGLE_KEYS)},
+_TOLERANCE_FIELDS: Final[Fields] = {
+    **{key: Field(_tolerance_bound) for key in ("x", "y", *ANGLE_KEYS)},
     "axes": Field(partial(Node.word, known=("fixed", "body"))),
 }
 
 
-def _table(node: Node) -> dict[str, Any]:
+def _stated_tolerance(node: Node) -> dict[str, Any]:
     """The keys of a tolerance that are stated; raises E108 for an angle that is stated twice."""
-    given = node.table(_FIELDS)
+    given = node.table(_TOLERANCE_FIELDS)
     twice = [key for key in ANGLE_KEYS if key in given]
     if len(twice) > 1:
         help = f"delete one of them, such as {twice[1]}"
@@ -71,7 +71,7 @@ def _table(node: Node) -> dict[str, Any]:
 
 
 TOLERANCE: Final = Field(
-    _table,
+    _stated_tolerance,
     'a tolerance has x, y and angle_deg (or angle, angle_rad), each a number or "free", and axes, '
     '"fixed" or "body"',
 )
@@ -93,7 +93,7 @@ def bounds_of(given: dict[str, Any], unit: str | None) -> tuple[float, float, fl
 
 def read_tolerance(node: Node, unit: str | None) -> DefaultTolerance:
     """The tolerance beside the poses; raises E103 to E108.  unit: of the poses' angles."""
-    given = _table(node._replace(help=TOLERANCE.help))
+    given = _stated_tolerance(node._replace(help=TOLERANCE.help))
     where = node.document.where(*node.path, key=True)
     return DefaultTolerance(bounds_of(given, unit), given.get("axes", "fixed"), unit, where)
 
