@@ -7,6 +7,7 @@ import pytest
 from benchmarks.practical_tasks import practical_tasks
 
 from burmester import RR, Linkage, read_task
+from burmester.errors import Finding
 from burmester.fourbar.pose_error import PoseError
 from burmester.requirements.table import shortcomings
 from burmester.synthesis.motion_generation import synthesize
@@ -214,3 +215,17 @@ def test_a_trade_gains_much_in_one_error_and_pays_little_in_the_other(synthesis)
     for (error, angle), trade in trades.items():
         assert is_trade(made(one, "L2", error, angle=angle), best) == trade, (error, angle)
     assert not is_trade(best, best)
+
+
+def test_of_two_drivers_the_better_one_has_the_lower_rank(synthesis):
+    """Fewer defects, fewer requirements broken, a full turn, and then the transmission angle."""
+    driven = replace(synthesis.usable[0].driven, turns_fully=False, least_over_range=0.7)
+    worse = [
+        replace(driven, least_over_range=0.3).rank(),
+        driven.rank(violated=1),
+        replace(driven, turns_fully=True, defects=(Finding("branch", "locks", (1, 2)),)).rank(),
+    ]
+    assert worse == sorted(worse)
+    assert driven.rank() < worse[0]
+    assert replace(driven, turns_fully=True, least_over_range=0.1).rank() < driven.rank()
+    assert replace(driven, least_over_range=0.7 + 1e-9).rank() == driven.rank()
