@@ -5,6 +5,7 @@ package uses a private name of it: private behaviour is tested through the publi
 """
 
 import ast
+import importlib.util
 from pathlib import Path
 
 import pytest
@@ -96,3 +97,12 @@ text = "burmester._ is no address"
 def test_all_files_are_read():
     names = {str(file.relative_to(ROOT)) for file in FILES}
     assert {"tests/conftest.py", "tests/oracles/witness.py", "benchmarks/odd_pose.py"} <= names
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(ROOT)))
+def test_every_imported_name_of_the_package_exists(file):
+    """Also those that are imported only when they are needed, which nothing else would notice."""
+    for module, name, _ in imported(ast.parse(file.read_text())):
+        if module.partition(".")[0] == "burmester" and name:
+            owner = importlib.import_module(module)
+            assert hasattr(owner, name) or importlib.util.find_spec(f"{module}.{name}")

@@ -9,11 +9,11 @@ from burmester.batch.engines import Processes
 class Lasting:
     """Processes of the machine that a run leaves to the next one."""
 
-    lost, breaks_all, tries = Processes.lost, Processes.breaks_all, Processes.tries
+    lost, tries = Processes.lost, Processes.tries
 
     def __init__(self, processes):
         self._processes = processes
-        self.size, self.submit, self.renew = processes.size, processes.submit, processes.renew
+        self.size, self.submit = processes.size, processes.submit
 
     def close(self):
         """They are ended with the session."""

@@ -354,7 +354,8 @@ def test_ctrl_c_twice_stops_at_once():
 
 def children_of(process):
     """The processes that a process has started."""
-    return Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()
+    lists = Path(f"/proc/{process.pid}/task").glob("*/children")  # of each thread
+    return [child for each in lists for child in each.read_text().split()]
 
 
 def gone(numbers):

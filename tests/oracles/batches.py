@@ -1,8 +1,11 @@
 """Tasks in long tables, folders of parts as bytes, and work that does something to its worker."""
 
+import gc
 import os
 import signal
+import struct
 import time
+from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import NamedTuple
 
@@ -67,14 +70,14 @@ class Numbers(NamedTuple):
 
 
 AS_GOOD_AS_ENDLESS_S = 20.0
-FIRST_ONLY, KILLS, ENDLESS, RAISES, GREEDY, TOGETHER = range(1001, 1007)
+FIRST_ONLY, KILLS, ENDLESS, RAISES, GREEDY, TOGETHER, HALF = range(1001, 1008)
 
 
 def squares(part, plan, left_out):
     """The squares of the numbers of a part; special ones do harm.
 
     plan: a folder.  FIRST_ONLY: kills its process once only.  KILLS: whenever it is tried.
-    TOGETHER: where it is not alone.
+    TOGETHER: where it is not alone.  HALF: is killed in the midst of an answer.
     """
     values = [each for k, each in enumerate(part.tasks.values) if k not in left_out]
     if FIRST_ONLY in values:
@@ -85,6 +88,11 @@ def squares(part, plan, left_out):
         else:
             os.kill(os.getpid(), signal.SIGKILL)
     if KILLS in values:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if HALF in values:
+        for each in gc.get_objects():
+            if isinstance(each, Connection) and each.writable:
+                os.write(each.fileno(), struct.pack("!i", 100) + b"half of it")
         os.kill(os.getpid(), signal.SIGKILL)
     if RAISES in values:
         raise ValueError("no such number")

@@ -26,8 +26,8 @@ def refuses(task: FieldTask) -> str | None:
 
 def solve(task: FieldTask, seconds: float) -> list[FourBar]:
     import burmester
-    from burmester.tasks.crank_timing import TracedPath
     from burmester.tasks.pose_tolerances import PoseTolerances
+    from burmester.tasks.traced_path import TracedPath
 
     if task.is_function:
         made = burmester.synthesize_function(task.rows, angle_unit="rad", minimax=True)

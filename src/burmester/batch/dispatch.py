@@ -8,7 +8,7 @@ are known.  These are marked as failed, with the reason, and the part is worked 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
+from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import replace
 from time import monotonic
 from typing import Any, TypeAlias, final
@@ -21,7 +21,6 @@ Work: TypeAlias = Callable[[Part, Any, Mapping[int, str]], Any]
 
 AHEAD = 4  # for so many workers one more part is handed out than is worked on, and two at least
 PERIOD_S = 0.2  # between two looks whether to stop
-LAST_S = 20.0  # for the other futures of a broken pool to say so
 
 
 @final
@@ -70,11 +69,7 @@ class Dispatch:
                 if part is None:
                     more = False
                     break
-                try:
-                    self._running[self._begin(part, {})] = part
-                except self._engine.lost:
-                    self._aside.append(part)
-                    self._set_all_aside()
+                self._running[self._begin(part, {})] = part
             if self._stopped():
                 self._call_off()
             if not self._running:
@@ -99,36 +94,15 @@ class Dispatch:
 
     def _take(self, future: Future[Any]) -> None:
         """Keep what came of a part, or set the part aside."""
-        part = self._running.pop(future, None)
-        if part is None:  # it was set aside with others
-            return
+        part = self._running.pop(future)
         try:
             worked = future.result()
-        except CancelledError:
-            self._aside.append(part)
-        except self._engine.lost:
-            self._aside.append(part)
-            if self._engine.breaks_all:
-                self._set_all_aside()
         except BurmesterError:
             raise
         except Exception:
             self._aside.append(part)
         else:
             self._keep(part, worked)
-
-    def _set_all_aside(self) -> None:
-        """After the pool broke: keep what was done before, set the rest aside, begin anew."""
-        done, lost = wait(self._running, LAST_S)
-        for future in done:
-            part = self._running.pop(future)
-            if future.cancelled() or future.exception() is not None:
-                self._aside.append(part)
-            else:
-                self._keep(part, future.result())
-        self._aside += [self._running.pop(future) for future in lost]
-        if not self._stopped():
-            self._engine.renew()
 
     def _alone(self, part: Part) -> None:
         """Work on a part that failed among others, with nothing beside it."""
@@ -183,7 +157,6 @@ class Dispatch:
                     self._tick()
                 return future.result(), ""
             except self._engine.lost:
-                self._engine.renew()
                 if monotonic() - begun >= self._limit:
                     return None, f"it takes longer than {self._limit:g} s"
                 reason = "its worker ended each time: killed, or out of memory"

@@ -10,29 +10,32 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import CancelledError, Future, ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from multiprocessing.connection import Connection
 from typing import Any, Protocol, final
 
-from burmester.batch.worker import begin, ready
+from burmester.batch.worker import ready, serve
 from burmester.errors import InputError
 
-START_S = 120.0  # for a worker to begin
+START_S = 120.0  # for the first worker to begin
 CONNECT_S = 10.0  # for a cluster to answer
+
+
+class WorkerEndedError(Exception):
+    """A process ended before it had answered."""
 
 
 class Engine(Protocol):
     """Who works on parts.
 
-    lost: what the result of a future raises where its worker ended; breaks_all: whether all other
-    futures are lost with it; tries: how often a part is tried alone before its worker's end is
-    put down to it.
+    lost: what the result of a future raises where its worker ended; tries: how often a part is
+    tried alone before its worker's end is put down to it.
     """
 
     lost: tuple[type[BaseException], ...]
-    breaks_all: bool
     tries: int
 
     @property
@@ -44,10 +47,6 @@ class Engine(Protocol):
         """Begin a call somewhere."""
         ...
 
-    def renew(self) -> None:
-        """Get workers in place of those that ended."""
-        ...
-
     def close(self) -> None:
         """End the workers, also in the midst of work."""
         ...
@@ -55,73 +54,80 @@ class Engine(Protocol):
 
 @final
 class Processes:
-    """Processes of this machine, which end when this one does.
+    """Processes of this machine, which end when this one does; a thread here speaks for each.
 
-    workers: how many; memory: bytes that each may have.
+    Each process has a pipe of its own, so that one which is killed in the midst of a word ends
+    its own answer only: with a queue for all, the others would wait for the rest of the word.
+
+    workers: how many; memory: bytes that each may have; raises E182.
     """
 
-    lost: tuple[type[BaseException], ...] = (BrokenProcessPool,)
-    breaks_all = True
+    lost: tuple[type[BaseException], ...] = (WorkerEndedError,)
     tries = 3
 
     def __init__(self, workers: int, memory: int | None = None) -> None:
         self.size = workers
         self._memory = memory
-        self._pool: ProcessPoolExecutor | None = None
-        self._leash: Any = None
-        self.renew()
-
-    def renew(self) -> None:
-        """Start the processes anew; raises E182."""
-        self.close()
-        context = multiprocessing.get_context("spawn")
-        held, self._leash = context.Pipe(duplex=False)
-        self._pool = ProcessPoolExecutor(self.size, context, begin, (held, self._memory))
+        self._context = multiprocessing.get_context("spawn")
+        self._held, self._leash = self._context.Pipe(duplex=False)
+        self._own = threading.local()
+        self._threads = ThreadPoolExecutor(workers, initializer=_leave_interrupts)
         try:
             self.submit(ready).result(START_S)
-        except (BrokenProcessPool, TimeoutError):
+        except (WorkerEndedError, TimeoutError):
             self.close()
             raise InputError(
                 "E182",
                 "the processes that are to work cannot be started",
-                why="each of them ended before it began",
+                why="the first of them ended before it began",
                 help='call burmester.batch.run under `if __name__ == "__main__":`, and give the '
                 "processes more memory if they have a limit",
             ) from None
 
     def submit(self, work: Callable[..., Any], *arguments: Any) -> Future[Any]:
         """Begin a call in one of the processes."""
-        assert self._pool is not None
-        with _interrupts_held():  # a process that starts now never sees those of the keyboard
-            return self._pool.submit(work, *arguments)
+        return self._threads.submit(self._ask, work, arguments)
+
+    def _ask(self, work: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
+        """What the process of this thread answers; the next call gets a new one if it ended."""
+        pipe: Connection | None = getattr(self._own, "pipe", None)
+        if pipe is None:
+            pipe = self._own.pipe = self._begun()
+        try:
+            pipe.send((work, arguments))
+            well, answer = pipe.recv()
+        except (EOFError, OSError):
+            self._own.pipe = None
+            pipe.close()
+            raise WorkerEndedError from None
+        if well:
+            return answer
+        raise answer
+
+    def _begun(self) -> Connection:
+        """The pipe to a new process."""
+        pipe, its = self._context.Pipe()
+        arguments = (its, self._held, self._memory)
+        self._context.Process(target=serve, args=arguments, daemon=True).start()
+        its.close()  # it ends with the process
+        return pipe
 
     def close(self) -> None:
         """End the processes at once."""
-        if self._leash is not None:
-            self._leash.close()  # they see it
-        if self._pool is not None:
-            self._pool.shutdown(wait=True, cancel_futures=True)
-        self._pool = self._leash = None
+        self._leash.close()  # they see it
+        self._threads.shutdown(wait=True, cancel_futures=True)
 
 
-@contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """A block in which SIGINT waits, and is blocked in processes that start."""
-    if not hasattr(signal, "pthread_sigmask"):
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+def _leave_interrupts() -> None:
+    """Block SIGINT in this thread and in what it starts: a keyboard's is for the main thread."""
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
 
 
 @final
 class Cluster:
     """A Dask cluster that runs already, by the address of its scheduler."""
 
-    breaks_all = False
     tries = 1  # the scheduler has tried a part on several workers when it gives it up
 
     def __init__(self, address: str) -> None:
@@ -167,9 +173,6 @@ class Cluster:
             message = f"the cluster at {self._address} {fault}"
             why = str(error).partition("\n")[0][:200] or type(error).__name__
             raise InputError("E182", message, why=why, help=help) from None
-
-    def renew(self) -> None:
-        """The cluster sees to its workers."""
 
     def close(self) -> None:
         """Leave the cluster; it goes on."""

@@ -18,12 +18,24 @@ ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THRE
 TIMED_OUT = 75  # exit code of a worker that ended itself as a part took too long
 
 
-def begin(leash: Connection, memory: int | None) -> None:
-    """What a worker does first.
+def serve(pipe: Connection, leash: Connection, memory: int | None) -> None:
+    """Work on what comes through a pipe, and send back (True, result) or (False, error).
 
     leash: nothing is ever sent on it; it ends with who holds the other end, however that happens,
     and the worker ends with it.  memory: bytes of address space that it may have.
     """
+    _prepare(leash, memory)
+    with suppress(EOFError):
+        while True:
+            work, arguments = pipe.recv()
+            try:
+                answer = True, work(*arguments)
+            except Exception as error:
+                answer = False, error
+            pipe.send(answer)
+
+
+def _prepare(leash: Connection, memory: int | None) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # a keyboard's is for who started the worker
     warnings.simplefilter("ignore")  # numbers that overflow are judged by what comes of them
     os.environ.update(ONE_THREAD)
