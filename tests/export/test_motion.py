@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from burmester.errors import InputError
-from burmester.export.motion import Motion
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
+from burmester.verdicts.motion import Motion
 from tests.oracles import tracer, witness
 from tests.oracles.handed_over import found
 from tests.oracles.saved_linkages import PAPER, paper, saved

@@ -13,6 +13,7 @@ import numpy as np
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.skeleton import Skeleton, seen_along
+from burmester.sixbar.found import FoundSixBar
 
 LOOKS = 2001
 MOVED = Displacement(np.array([0.3, -0.2]), np.array(0.7))  # of M in the link that is the body
@@ -58,6 +59,10 @@ class Relabelled:
                 given = {each: seen_along(given, axis, each) for each in given}
             out[link] = given
         return out
+
+    bodies = FoundSixBar.bodies
+    bodies_at = FoundSixBar.bodies_at
+    travel = FoundSixBar.travel
 
     @property
     def moved(self):

@@ -247,7 +247,7 @@ class ResultLinkage(FoundLinkage, Chosen):
         >>> here.body.translation.shape, here.joints["follower_moving"].shape
         ((3, 2), (3, 2))
         """
-        from burmester.export.motion import Motion  # noqa: PLC0415
+        from burmester.verdicts.motion import Motion  # noqa: PLC0415
 
         given = real_numbers(driver, (...,), "the driver")
         middle = circuit_of(self.driver_first, Motion.of(self, 3).places[1], as_given=True)
@@ -264,7 +264,7 @@ class ResultLinkage(FoundLinkage, Chosen):
 
         See `at`.  Raises InputError E163 where it goes from no pose to another.
         """
-        from burmester.export.motion import Motion  # noqa: PLC0415
+        from burmester.verdicts.motion import Motion  # noqa: PLC0415
 
         motion = Motion.of(self, count)
         driver = np.degrees(motion.drive) if motion.in_turns else motion.drive

@@ -18,25 +18,18 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.export.motion import Motion
 from burmester.export.numbers import decimals_within, rounded
 from burmester.export.options import Options, stated_unit
-from burmester.export.reference import (
-    GROUND,
-    PRECISION,
-    LinkPlaces,
-    Reference,
-    as_rows,
-    require_equal,
-    require_places,
-)
+from burmester.export.reference import PRECISION, Reference, as_rows, require_equal, require_places
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import dimensions_data, six_bar_data
 from burmester.io.pose_data import poses_data
+from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.synthesis.result import Candidate
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.motion import Motion
 
 SCHEMA: Final = "burmester.linkage/1"
 JOINTS_SCHEMA: Final = "burmester.six-bar/1"

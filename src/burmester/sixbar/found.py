@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import ArrayLike
 from burmester.errors import Finding
 from burmester.fourbar.linkage import Configuration
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import Bodies, LinkPlaces, bodies_of_skeleton, plate_names
 from burmester.mechanisms.branches import Branch
 from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.skeleton import Frames, Skeleton
@@ -20,6 +22,7 @@ from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.values import real_numbers
 from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.motion import Motion
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -183,6 +186,27 @@ class FoundSixBar(JudgedLinkage):
         low, high = self.drive_range
         ends = (high, low) if self.drive[-1] < self.drive[0] else (low, high)
         return np.linspace(*ends, count)
+
+    @property
+    def bodies(self) -> Bodies:
+        """Its bodies and joints."""
+        return bodies_of_skeleton(self.skeleton, self.frames, self.carries, self.driver_pivot)
+
+    def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
+        """Where its bodies are when the driver is at (*,) and M at places (*,)."""
+        named = plate_names(self.skeleton)
+        return LinkPlaces({named[link]: each for link, each in self.links(drive).items()})
+
+    def travel(self, share: FloatArray, whole: bool = False) -> Motion:
+        """Its motion at shares (n,) of the way; see `Motion.of`."""
+        start, end = self.along(2).tolist()
+        full = whole and self.turns > 0
+        if full:
+            start = float(self.drive[0])
+            end = start + math.copysign(2 * math.pi * self.turns, self.drive[-1] - start)
+        drive = start + (end - start) * share
+        met = (self.drive - start) / (end - start)
+        return Motion(self.body(drive), drive, met, True, self.turns > 0, full)
 
     def _joints(self, drive: FloatArray) -> ComplexArray:
         return self.branch.at(self.linkage, drive)

@@ -7,12 +7,17 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from burmester.dyads.selection import FoundDyad
 from burmester.errors import Finding
+from burmester.fourbar.bodies import bodies_of_four_bar, places_of_bodies, scaled_linkage
 from burmester.fourbar.defects import Driven, Verdict
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
+from burmester.verdicts.four_bar_motion import four_bar_motion
 from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.motion import Motion
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.requirement_check import four_bar_figures
 from burmester.verdicts.tolerances import Spread
@@ -158,3 +163,16 @@ class FoundLinkage(JudgedLinkage):
     def driver_first(self) -> Linkage:
         """The linkage with the preferred driver first."""
         return with_driver_first(self.linkage, self.preferred_driver)
+
+    @property
+    def bodies(self) -> Bodies:
+        """Its bodies and joints, the preferred driver driving; raises E163 for PP dyads."""
+        return bodies_of_four_bar(scaled_linkage(self.driver_first, 1.0))
+
+    def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
+        """Where its bodies are when the driver is at (*,) and M at places (*,)."""
+        return places_of_bodies(self.driver_first, body)
+
+    def travel(self, share: FloatArray, whole: bool = False) -> Motion:
+        """Its motion at shares (n,) of the way; see `Motion.of`."""
+        return four_bar_motion(self, share, whole)

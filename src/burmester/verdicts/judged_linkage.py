@@ -7,9 +7,12 @@ from dataclasses import dataclass
 
 from burmester.errors import Finding
 from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.motion import Motion
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -61,3 +64,16 @@ class JudgedLinkage:
     def unit(self) -> str | None:
         """The unit of lengths."""
         return self.task.length_unit
+
+    @property
+    @abstractmethod
+    def bodies(self) -> Bodies:
+        """Its bodies and joints, in the task's unit, as it is driven."""
+
+    @abstractmethod
+    def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
+        """Where its bodies are when the driver is at (*,) and M at places (*,)."""
+
+    @abstractmethod
+    def travel(self, share: FloatArray, whole: bool = False) -> Motion:
+        """Its motion at shares (n,) of the way; see `Motion.of`."""

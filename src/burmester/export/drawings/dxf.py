@@ -26,7 +26,8 @@ from burmester.export.numbers import error_within
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import stock_for
-from burmester.export.reference import GROUND, fault, require_equal
+from burmester.export.reference import fault, require_equal
+from burmester.mechanisms.bodies import GROUND
 from burmester.synthesis.result import Candidate
 
 ezdxf: Any = import_module("ezdxf")

@@ -14,13 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
-from burmester.export.motion import Motion
 from burmester.export.options import Options
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.style import with_unit
 from burmester.scene.linkage_scene import Scene, scene_of
 from burmester.synthesis.result import Candidate
 from burmester.tasks.motion_task import Task
+from burmester.verdicts.motion import Motion
 
 Picture = NDArray[np.uint8]
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.plates import Assembly
-from burmester.export.reference import GROUND
+from burmester.mechanisms.bodies import GROUND
 from burmester.numerics.arrays import FloatArray
 
 METRES = 1e-3  # metres in a millimetre

@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.reference import GROUND, ORIGIN, Limb
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import GROUND, ORIGIN, Limb
 from burmester.numerics.arrays import FloatArray
 
 

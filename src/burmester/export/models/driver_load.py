@@ -13,7 +13,8 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.export.models.mass_properties import MassProperties
-from burmester.export.reference import GROUND, Reference
+from burmester.export.reference import Reference
+from burmester.mechanisms.bodies import GROUND
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
 
 STANDARD_GRAVITY: Final = 9.80665  # m/s²

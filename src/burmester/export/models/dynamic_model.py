@@ -20,7 +20,8 @@ from burmester.export.models.mass_properties import MassProperties, require_dens
 from burmester.export.options import Options
 from burmester.export.parts.plate import SLOT_RUN_OUT
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import ORIGIN, PRECISION, Reference, require_equal
+from burmester.export.reference import PRECISION, Reference, require_equal
+from burmester.mechanisms.bodies import ORIGIN
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 

@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
-from burmester.export.motion import Motion
-from burmester.export.reference import LinkPlaces, Reference
+from burmester.export.reference import Reference
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
+from burmester.verdicts.motion import Motion
 
 LOOKS: Final = 721  # places along the motion at which the joints' range is found
 TURN: Final = 2 * np.pi

@@ -27,7 +27,8 @@ from burmester.export.models.read_back import Link, require_pose
 from burmester.export.models.servo import Servo
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import GROUND, PRECISION, require_equal
+from burmester.export.reference import PRECISION, require_equal
+from burmester.mechanisms.bodies import GROUND
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 

@@ -11,7 +11,8 @@ from typing import Literal, NamedTuple
 
 from burmester.export.models.body_tree import tree_of
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.reference import GROUND, PRECISION, require_equal
+from burmester.export.reference import PRECISION, require_equal
+from burmester.mechanisms.bodies import GROUND
 
 
 class Link(NamedTuple):

@@ -26,8 +26,9 @@ from burmester.export.models.dynamic_model import DynamicModel
 from burmester.export.models.read_back import Link, require_pose
 from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
-from burmester.export.reference import ORIGIN, PRECISION, require_equal
+from burmester.export.reference import PRECISION, require_equal
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import ORIGIN
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 from burmester.wording import listed

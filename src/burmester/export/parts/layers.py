@@ -21,8 +21,8 @@ from burmester.export.parts.dimensions import WALL, Dimensions
 from burmester.export.parts.links import Arrangement, Links
 from burmester.export.parts.outlines import distances
 from burmester.export.parts.plate import Pin, Plate, plate_of
-from burmester.export.reference import GROUND, LinkPlaces
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 
 CLEARANCE = 0.05  # of the width: least distance between plates of one layer

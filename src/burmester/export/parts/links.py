@@ -14,9 +14,10 @@ from typing import NamedTuple, Self
 
 import numpy as np
 
-from burmester.export.motion import all_places
+from burmester.export.all_places import all_places
 from burmester.export.parts.outlines import distances
-from burmester.export.reference import GROUND, LinkPlaces, Reference
+from burmester.export.reference import Reference
+from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 

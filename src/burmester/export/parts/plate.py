@@ -15,8 +15,8 @@ from burmester.export.parts.outlines import (
     points_on,
     rounded_hull,
 )
-from burmester.export.reference import LinkPlaces
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import LinkPlaces
 from burmester.numerics.arrays import FloatArray
 
 ARMS_APART = 2.5  # radii: least distance of an arm's end from the other arm of an angle

@@ -17,7 +17,8 @@ from burmester.export.parts.layers import arranged
 from burmester.export.parts.links import Links
 from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.stock import stock_for
-from burmester.export.reference import LinkPlaces, Reference
+from burmester.export.reference import Reference
+from burmester.mechanisms.bodies import LinkPlaces
 from burmester.synthesis.result import Candidate
 
 

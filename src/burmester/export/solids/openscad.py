@@ -22,15 +22,9 @@ from burmester.export.escaping import one_line
 from burmester.export.numbers import number
 from burmester.export.options import Options
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import (
-    GROUND,
-    PRECISION,
-    LinkPlaces,
-    Reference,
-    as_rows,
-    require_equal,
-)
+from burmester.export.reference import PRECISION, Reference, as_rows, require_equal
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 

@@ -15,8 +15,8 @@ import numpy as np
 from burmester.export.parts.outlines import outline_moments, rounded_hull, slot_outline
 from burmester.export.parts.plate import Plate
 from burmester.export.parts.plates import Assembly
-from burmester.export.reference import GROUND
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import GROUND
 from burmester.numerics.arrays import FloatArray
 
 MIN_EDGE: Final = 1e-4  # of a plate: shorter pieces of its outline are left out

@@ -1,0 +1,59 @@
+"""The motion of a linkage through the poses: of a film, of a table, of loads, of models.
+
+It runs along one circuit, from the first pose that the driver reaches to the last, in the sense in
+which the poses are met; with a driver that turns fully it may be a whole turn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol, final
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from burmester.geometry.displacement import Displacement
+from burmester.numerics.arrays import FloatArray
+
+
+class Travels(Protocol):
+    """A linkage of any kind that was judged."""
+
+    def travel(self, share: FloatArray, whole: bool) -> Motion:
+        """Its motion at shares (n,) of the way; see `Motion.of`."""
+        ...
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Motion:
+    """Places (n,) of the body from the first pose to the last.
+
+    places: (n,), of a four-bar with angles without jumps.
+    drive: (n,), of the driver, without jumps: an angle if `in_turns`, or a length.  That of a
+    four-bar (`DrivenLoop`) begins within the first turn, from 0 to 2 pi.
+    pose_shares: (N,), the share of the motion, 0 to 1, at which each pose is met; nan for poses
+    that the driver does not reach.
+    turns_fully: whether the driver can make full turns; full_turn: whether the motion is one, until
+    all is as it was.
+    """
+
+    places: Displacement
+    drive: FloatArray
+    pose_shares: FloatArray
+    in_turns: bool
+    turns_fully: bool
+    full_turn: bool
+
+    @classmethod
+    def of(cls, chosen: Travels, count: int | ArrayLike, whole: bool = False) -> Motion:
+        """The motion of a linkage in its task's unit.
+
+        count: the number of places, 2 or more, or their shares (n,) of the motion, from 0 to 1.
+        whole: a whole turn that begins at the first pose, if the driver turns fully.
+        Of a four-bar that is not usable, only the poses on the branch with the most poses count.
+        Raises InputError E163 where these are fewer than two, and where the linkage cannot be
+        driven.
+        """
+        share = np.linspace(0.0, 1.0, count) if isinstance(count, int) else np.asarray(count, float)
+        return chosen.travel(share, whole)
