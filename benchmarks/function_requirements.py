@@ -23,10 +23,10 @@ from scipy.optimize import minimize
 from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import generators_of_phases
-from burmester.functions.function_task import FunctionTask, SampledFunction, even_spacing
 from burmester.functions.nearest_generators import FurtherStarts
 from burmester.numerics.bundles import concatenate
 from burmester.synthesis.function_generation import generate_function
+from burmester.tasks.function_task import FunctionTask, SampledFunction, even_spacing
 from burmester.tasks.requirements import Requirements
 
 # Function, range of x, degrees of input and output, and the greatest error with 30 degrees of

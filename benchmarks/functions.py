@@ -18,9 +18,9 @@ from scipy.optimize import least_squares, minimize
 
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import exact_generators
-from burmester.functions.function_task import FunctionTask, SampledFunction, even_spacing
 from burmester.functions.generator import Generator
 from burmester.synthesis.function_generation import generate_function
+from burmester.tasks.function_task import FunctionTask, SampledFunction, even_spacing
 
 
 def pairs(rng, count, noise_deg):

@@ -438,7 +438,7 @@ def test_the_main_job_does_without_what_it_does_not_need(poses, source):
         "burmester.dyads.minima_within_limits",
         "burmester.dyads.limited_block",
         "burmester.refinement.rounding",
-        "burmester.functions.function_task",
+        "burmester.tasks.function_task",
     }
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import minimize
 
 from burmester.functions.critical_generators import critical_generators
-from burmester.functions.function_task import FunctionTask
+from burmester.tasks.function_task import FunctionTask
 from tests.oracles.generators import drawn
 
 

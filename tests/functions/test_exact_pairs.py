@@ -7,10 +7,10 @@ from scipy.optimize import least_squares
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.errors import InputError
 from burmester.functions.exact_pairs import exact_generators
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.phase_family import best_of_phases
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.function_generation import generate_function
+from burmester.tasks.function_task import FunctionTask
 from tests.oracles import function_loops
 from tests.oracles.generators import drawn
 

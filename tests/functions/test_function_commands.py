@@ -18,13 +18,13 @@ from burmester.batch.options import BatchOptions
 from burmester.batch.part_file import Plan, versions, work
 from burmester.batch.task_texts import line_parts
 from burmester.cli import burmester as command
+from burmester.diagnosis.pair_checks import pair_findings, reversals
 from burmester.errors import InputError
-from burmester.functions.function_task import FunctionTask
-from burmester.functions.pair_checks import pair_findings, reversals
 from burmester.functions.placed_links import placed_links
 from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.functions.function_kind import is_function
 from burmester.synthesis.function_generation import generate_function
+from burmester.tasks.function_task import FunctionTask
 from tests.oracles import function_loops
 from tests.oracles.generators import drawn
 from tests.oracles.workbooks import number, packed, parts, sheet_xml, text

@@ -5,10 +5,10 @@ import pytest
 
 from burmester.fourbar.defects import judge
 from burmester.functions.found_generator import found_generators
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.function_generation import coupler_synthesis
+from burmester.tasks.function_task import FunctionTask
 from tests.oracles import function_loops, witness
 from tests.oracles.generators import drawn
 
@@ -79,7 +79,7 @@ def test_the_coupler_passes_its_places_as_the_input_link_drives(seed):
     one, inputs, outputs = drawn(seed)
     task = FunctionTask(inputs, outputs, ground=40.0)
     (found,) = found_generators(one, task, exact=True)
-    judged = coupler_synthesis(task, found)
+    judged = coupler_synthesis(found)
     best = judged.linkages[0]
     assert best.usable
     assert best.driver == "first"

@@ -10,12 +10,12 @@ from benchmarks.function_requirements import TABLE, drawn, task_of, witnessed
 
 from burmester.functions.exact_pairs import exact_generators
 from burmester.functions.found_generator import found_generators
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import KeptRequirements
 from burmester.functions.nearest_generators import FurtherStarts
 from burmester.numerics.bundles import concatenate
 from burmester.synthesis.function_generation import generate_function
+from burmester.tasks.function_task import FunctionTask
 from tests.oracles import function_loops
 from tests.oracles.generators import drawn as drawn_generator
 

@@ -4,15 +4,15 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize
 
-from burmester.functions.function_task import (
+from burmester.functions.kept_requirements import KeptRequirements
+from burmester.functions.refinement import refined
+from burmester.synthesis.function_generation import generate_function
+from burmester.tasks.function_task import (
     FunctionTask,
     SampledFunction,
     chebyshev_spacing,
     even_spacing,
 )
-from burmester.functions.kept_requirements import KeptRequirements
-from burmester.functions.refinement import refined
-from burmester.synthesis.function_generation import generate_function
 from tests.oracles import function_loops
 from tests.oracles.generators import drawn
 

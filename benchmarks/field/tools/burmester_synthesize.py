@@ -31,7 +31,7 @@ def solve(task: FieldTask, seconds: float) -> list[FourBar]:
 
     if task.is_function:
         made = burmester.synthesize_function(task.rows, angle_unit="rad", minimax=True)
-        pairs = [_four_bar(each.linkage(made.synthesis.task)) for each in made.generators]
+        pairs = [_four_bar(each.linkage) for each in made.generators]
         return [four_bar for four_bar in pairs if four_bar is not None]
     count, points = len(task.rows), task.is_path
     traced = TracedPath(task.closed, task.crank) if task.closed or task.crank is not None else None

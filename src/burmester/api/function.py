@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Set
+from collections.abc import Callable, Sequence, Set
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self, final
 
@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 from burmester.api.linkage import as_type
 from burmester.api.result import AnyResult, Result
 from burmester.api.synthesize import require_callable
+from burmester.describe import generator_words
 from burmester.errors import InputError
 from burmester.functions.found_generator import FoundGenerator
 from burmester.io.reading.functions.function_options import (
-    FunctionSettings,
     Spacing,
     task_of_function,
     task_of_pairs,
@@ -32,8 +32,6 @@ from burmester.values import real_numbers
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-MOST_LINES = 8  # generators in the text of a result
 
 
 @final
@@ -58,7 +56,7 @@ class FunctionGenerators(AnyResult[FoundGenerator], FunctionSynthesis):
 
     def coupler_motion(self, which: int | str = 0) -> Result:
         """A generator as a linkage that guides its coupler, to draw, animate and export."""
-        return Result.of(coupler_synthesis(self.task, self[which]))
+        return Result.of(coupler_synthesis(self[which]))
 
     def plot(self) -> Figure:
         """The structural error over the input, by Matplotlib."""
@@ -67,13 +65,11 @@ class FunctionGenerators(AnyResult[FoundGenerator], FunctionSynthesis):
         with plot.house_style():
             return plot.structural_error_figure(self)
 
-    def __repr__(self) -> str:
-        lines = [self.outcome.message]
-        for each in self.leading(MOST_LINES):
-            error = np.degrees(each.max_error)
-            said = "works" if each.usable else each.defects[0].message
-            lines.append(f"{each.id}  {each.type}: {error:.3g} deg at most, {said}")
-        return "\n".join(lines)
+    def _columns(self) -> tuple[Sequence[str], list[tuple[str, ...]], range]:
+        return generator_words.HEADS, list(map(generator_words.row, self)), range(2, 9)
+
+    def _sentences(self) -> list[str]:
+        return generator_words.best_sentences(self)
 
 
 def synthesize_function(
@@ -146,9 +142,16 @@ def synthesize_function(
     2 function generators of the 3 that such pairs have, 1 of them usable
     """
     require_callable(progress)
-    asked = {"transmission_deg": transmission_deg, "link_ratio": link_ratio, "types": types}
-    asked = {name: value for name, value in asked.items() if value is not None}
-    settings = FunctionSettings(input_phase_deg, output_phase_deg, ground, minimax, asked)
+    given = {
+        "input_phase_deg": input_phase_deg,
+        "output_phase_deg": output_phase_deg,
+        "ground": ground,
+        "minimax": minimax,
+        "transmission_deg": transmission_deg,
+        "link_ratio": link_ratio,
+        "types": types,
+    }
+    settings = {name: value for name, value in given.items() if value is not None}
     if isinstance(function, str) or callable(function):
         if x is None or input_deg is None or output_deg is None:
             raise InputError(

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import (
     TYPE_CHECKING,
     Any,
-    Generic,
     Self,
     SupportsIndex,
     TypeVar,
@@ -26,7 +25,7 @@ from burmester.describe import six_bar_words
 from burmester.describe.sentences import best_sentences
 from burmester.io import files
 from burmester.io.result import json_line, synthesis_data
-from burmester.synthesis.result import Kind, Outcome, Synthesis, chosen
+from burmester.synthesis.result import Answer, Kind, Synthesis, chosen
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,7 +37,7 @@ LINES = 12  # of a `repr`, at most
 SENTENCES = 5  # of these, above the table; `outcome` and `warnings` have them all
 
 
-class AnyResult(Generic[Kind]):
+class AnyResult(Answer[Kind]):
     """What every result can do, whatever it is a result of."""
 
     __slots__ = ()
@@ -46,20 +45,15 @@ class AnyResult(Generic[Kind]):
     if TYPE_CHECKING:
 
         @property
-        def outcome(self) -> Outcome: ...
+        def candidates(self) -> tuple[Kind, ...]: ...
 
         @property
-        def candidates(self) -> tuple[Kind, ...]: ...
+        def usable(self) -> tuple[Kind, ...]: ...
 
     @property
     def synthesis(self) -> Self:
         """The same, as a search returns it."""
         return self
-
-    @property
-    def usable(self) -> tuple[Kind, ...]:
-        """Those that work, the best one first."""
-        return tuple(each for each in self.candidates if each.usable)
 
     @property
     def best(self) -> Kind | None:
@@ -87,6 +81,19 @@ class AnyResult(Generic[Kind]):
             return self.candidates[which]
         place = which if isinstance(which, str) else which.__index__()
         return chosen(self.candidates, place, self.outcome)
+
+    def _columns(self) -> tuple[Sequence[str], list[tuple[str, ...]], range]:
+        """All linkages: heads, rows, and which columns are numbers."""
+        raise NotImplementedError
+
+    def _sentences(self) -> list[str]:
+        """What to build, and why it is not another one."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        warnings = [f"{each.code}: {each.message}" for each in self.warnings]
+        lines = [*self._sentences(), self.outcome.message, *warnings][:SENTENCES]
+        return "\n".join([*lines, *as_text(*self._columns(), LINES - len(lines) - 1)])
 
     def to_dict(self) -> dict[str, Any]:
         """The object of `burmester synthesize --json`."""
@@ -192,16 +199,13 @@ class Result(AnyResult[Linkages], Synthesis):  # type: ignore[misc]  # usable: o
         return self[linkage].animate(**how)
 
     def _columns(self) -> tuple[Sequence[str], list[tuple[str, ...]], range]:
-        """All linkages: heads, rows, and which columns are numbers."""
         if self.six_bars is None:
             return HEADS, [cells(each) for each in self.linkages], NUMBERS
         rows = [six_bar_words.row(self, each) for each in self.six_bars.found]
         return six_bar_words.HEADS, rows, range(2, 7)
 
-    def __repr__(self) -> str:
-        warnings = [f"{each.code}: {each.message}" for each in self.warnings]
-        lines = [*best_sentences(self), self.outcome.message, *warnings][:SENTENCES]
-        return "\n".join([*lines, *as_text(*self._columns(), LINES - len(lines) - 1)])
+    def _sentences(self) -> list[str]:
+        return best_sentences(self)
 
     def _repr_html_(self) -> str:
         """In a notebook: what to build, all linkages in a table, and the first one drawn."""

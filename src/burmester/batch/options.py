@@ -19,7 +19,7 @@ from typing import Any, Final, Literal, TypeAlias, final
 
 from burmester.errors import InputError
 from burmester.io.reading.functions.function_file import settings_of
-from burmester.io.reading.functions.function_options import FunctionSettings
+from burmester.io.reading.functions.function_options import NOTHING, Settings
 from burmester.io.reading.pose_table import PoseTable, Source, held_float
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.trees.documents import read_toml
@@ -102,11 +102,10 @@ class BatchOptions:
             raise
 
     @property
-    def functions(self) -> FunctionSettings:
+    def functions(self) -> Settings:
         """What holds for each task of pairs of angles; raises E107 and E191."""
-        if FUNCTION not in self.data:
-            return FunctionSettings()
-        return settings_of(Node(self.document, (), self.data))
+        whole = Node(self.document, (), self.data)
+        return settings_of(whole) if FUNCTION in self.data else NOTHING
 
     @property
     def six_bars(self) -> SixBarOptions | None:

@@ -27,7 +27,6 @@ from burmester.batch.parts import DrawnTasks, Part, TableTasks, TextTasks
 from burmester.batch.sample import DRAWN, drawn_columns, drawn_table
 from burmester.batch.worker import within
 from burmester.errors import BurmesterError, InputError
-from burmester.functions.function_task import FunctionTask
 from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.functions.function_kind import is_function
 from burmester.io.result import synthesis_data
@@ -37,6 +36,7 @@ from burmester.stacked import TaskStack, stacked_answers
 from burmester.synthesis.function_generation import AnySynthesis, generate_function
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.six_bars import synthesize_six_bars
+from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.motion_task import Task
 
 Counts: TypeAlias = NDArray[np.int32]

@@ -21,9 +21,8 @@ from burmester.cli.output import (
 
 if TYPE_CHECKING:
     from burmester.errors import Advice, InputError
-    from burmester.functions.function_task import FunctionTask
-    from burmester.io.reading.functions.function_options import FunctionSettings
     from burmester.synthesis.function_generation import FunctionSynthesis
+    from burmester.tasks.function_task import FunctionTask
 
 TABLES: Final = (".csv", ".tsv", ".txt", ".xlsx", ".parquet", ".toml", ".json")  # no expressions
 OF_EXPRESSIONS: Final = ("x", "input_range", "output", "opposite", "pairs", "spacing")
@@ -231,18 +230,17 @@ def _content(source: str) -> bytes:
         raise
 
 
-def _settings(given: dict[str, Any]) -> FunctionSettings:
-    from burmester.io.reading.functions.function_options import FunctionSettings
+def _settings(given: dict[str, Any]) -> dict[str, Any]:
     from burmester.io.reading.specification_text import requirements_from_options
 
-    ground = _number(given, "ground")
-    return FunctionSettings(
-        _number(given, "input_phase"),
-        _number(given, "output_phase"),
-        1.0 if ground is None else ground,
-        given["minimax"],
-        {each.field: each.value for each in requirements_from_options(**given)},
-    )
+    numbers = {
+        "input_phase_deg": _number(given, "input_phase"),
+        "output_phase_deg": _number(given, "output_phase"),
+        "ground": _number(given, "ground"),
+        "minimax": given["minimax"] or None,
+    }
+    stated = {each.field: each.value for each in requirements_from_options(**given)}
+    return stated | {key: value for key, value in numbers.items() if value is not None}
 
 
 def _number(given: dict[str, Any], name: str) -> float | None:
@@ -295,7 +293,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
 
 def _check(task: FunctionTask, source: str, notes: tuple[Advice, ...], *, as_json: bool) -> int:
     """Show a function task and what stands out in it; returns the exit code."""
-    from burmester.functions.pair_checks import pair_findings
+    from burmester.diagnosis.pair_checks import pair_findings
     from burmester.io.files import quoted
     from burmester.io.function_table import function_check_data, show_function_check
 

@@ -22,10 +22,10 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.functions.function_task import FunctionTask
 from burmester.numerics.arrays import ComplexArray, FloatArray
 from burmester.numerics.linear_algebra import solve_or_shortest
 from burmester.numerics.unique_rows import unique_index
+from burmester.tasks.function_task import FunctionTask
 
 REAL_TOLERANCE = 1e-6  # relative; a point whose w differs less from its mirror image is real
 SAME_POINT = 1e-6  # relative, of w w'; ends nearer than this are one

@@ -21,9 +21,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.tasks.function_task import FunctionTask
 
 SINGULAR = 1e-9  # singular value of unit columns; below, infinitely many ratios fit the pairs
 REAL = 1e-7  # relative; a root of the cubic with less imaginary part is real

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from burmester.errors import Finding
 from burmester.fourbar.linkage import Linkage
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.functions.refinement import at_bounds
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.requirements.figures import Figures
 from burmester.requirements.table import NOT_ASKED, shortcomings, standard
+from burmester.tasks.function_task import FunctionTask
+from burmester.verdicts.judged_linkage import JudgedLinkage
 from burmester.verdicts.requirement_check import figures_of
 from burmester.wording import figure, in_runs
 
@@ -34,48 +35,58 @@ MOST_PAIRS: Final = 6  # pairs or runs of them that a message names
 
 
 @final
-@dataclass(frozen=True, slots=True, eq=False)
-class FoundGenerator:
-    """A function generator of a task.
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class FoundGenerator(JudgedLinkage):
+    """A function generator of a task, with all of `JudgedLinkage`.
 
     generator: one, without leading axes.
     errors: (N,), of the output at the pairs, radians; nan where the linkage is open.
     range_errors: (M,), at the inputs of `FunctionTask.compared`.
-    usable: whether it goes through the whole range of the input on one branch, without a dead
-        point, meets the pairs there and keeps what the task asks; defects: why not, after "it".
-    shortcomings: what keeps it from being one to build, likewise.
     least_transmission: over the range of the input, radians; nan where it does not go through it.
     extent: the diagonal of the box around all four pivots over the range, in ground links.
+    defects: why it does not go through the whole range of the input on one branch, without a dead
+        point, and meet the pairs there.
     """
 
-    id: str
-    rank: int
     generator: Generator
-    type: str
     errors: FloatArray
     range_errors: FloatArray
-    usable: bool
-    defects: tuple[Finding, ...]
-    shortcomings: tuple[str, ...]
     least_transmission: float
     extent: float
+    rank: int = 0
+    defects: tuple[Finding, ...] = ()
+    task: FunctionTask
+
+    @property
+    def usable(self) -> bool:
+        """Whether it goes through range and pairs, and keeps what the task asks."""
+        return not self.faults
+
+    @property
+    def type(self) -> str:
+        """Grashof's type, its input link driving."""
+        return self.generator.linkage().type
+
+    @property
+    def linkage(self) -> Linkage:
+        """The four-bar: its input link is the first dyad, its coupler the body."""
+        return self.generator.linkage(self.task.ground)
+
+    @property
+    def figures(self) -> Figures:
+        """What it measures and does."""
+        return figures_of(self.generator.linkage(), self.least_transmission, True)
+
+    @property
+    def lengths(self) -> dict[str, float]:
+        """The lengths of the links by name, in the unit of the ground link's."""
+        names = "ground link", "input link", "coupler", "output link"
+        return dict(zip(names, (self.task.ground * self.generator.sizes).tolist(), strict=True))
 
     @property
     def is_exact(self) -> bool:
         """Whether the output is nowhere off by more than rounding."""
         return self.max_error < ROUNDING
-
-    def lengths(self, ground: float) -> dict[str, float]:
-        """The lengths of the links by name, in the unit of the ground link's."""
-        one = self.generator
-        links = ground * np.array([1.0, one.input_link, one.coupler, one.output_link])
-        names = "ground link", "input link", "coupler", "output link"
-        return dict(zip(names, links.tolist(), strict=True))
-
-    @property
-    def violations(self) -> tuple[Finding, ...]:
-        """None: what it does not keep of the task stands among its defects."""
-        return ()
 
     @property
     def max_error(self) -> float:
@@ -88,13 +99,9 @@ class FoundGenerator:
         return float(np.sqrt((self.range_errors**2).mean()))
 
     @property
-    def figures(self) -> Figures:
-        """What it measures, by which it is held to what is asked."""
-        return figures_of(self.generator.linkage(), self.least_transmission, True)
-
-    def linkage(self, task: FunctionTask) -> Linkage:
-        """The four-bar: its input link is the first dyad, its coupler the body."""
-        return self.generator.linkage(task.ground)
+    def percent(self) -> float:
+        """The greatest structural error in percent of the outputs' range."""
+        return 100 * self.max_error / self.task.output_span
 
 
 def found_generators(
@@ -182,31 +189,26 @@ def price_list(usable: Sequence[FoundGenerator]) -> tuple[FoundGenerator, ...]:
 
 
 def _found(generator: Generator, task: FunctionTask, *, exact: bool) -> FoundGenerator:
-    errors = generator.error(task.inputs, task.outputs)
     inputs, outputs = task.compared()
     low, high = task.input_ends
-    least = float(generator.least_transmission(low, high))
-    defects = _defects(generator, task, errors, exact=exact)
-    bounds = task.requirements.bounds
-    figures = figures_of(generator.linkage(), least, True)
-    asked = shortcomings(bounds, figures, figure)
-    usual = standard(bounds, 0.0, NOT_ASKED)
-    below = [each.message for each in shortcomings(usual, figures, figure)]
+    errors = generator.error(task.inputs, task.outputs)
+    found = FoundGenerator(
+        generator=generator,
+        errors=errors,
+        range_errors=generator.error(inputs, outputs),
+        least_transmission=float(generator.least_transmission(low, high)),
+        extent=_extent(generator, np.linspace(low, high, len(inputs) if task.function else 181)),
+        defects=_defects(generator, task, errors, exact=exact),
+        id="",
+        task=task,
+    )
+    asked = task.requirements.bounds
+    usual = standard(asked, 0.0, NOT_ASKED)
+    below = [each.message for each in shortcomings(usual, found.figures, figure)]
     if not exact and bool(at_bounds(generator)):
         below.append(f"has a link at the bound of {figure(MOST_SIZE)} ground links, or its inverse")
-    return FoundGenerator(
-        "",
-        0,
-        generator,
-        generator.linkage().type,
-        errors,
-        generator.error(inputs, outputs),
-        not defects and not asked,
-        (*defects, *asked),
-        tuple(below),
-        least,
-        _extent(generator, np.linspace(low, high, len(inputs) if task.function else 181)),
-    )
+    violations = shortcomings(asked, found.figures, figure)
+    return replace(found, violations=violations, shortcomings=tuple(below))
 
 
 def _defects(

@@ -18,7 +18,6 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import MOST_SIZE, KeptRequirements
 from burmester.functions.refinement import different, refined
@@ -26,6 +25,7 @@ from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.numerics.bundles import concatenate
 from burmester.numerics.counted_draws import uniform_draws
 from burmester.requirements.links import LINK_RATIO
+from burmester.tasks.function_task import FunctionTask
 
 DRAWN: Final = 20_000
 SEED: Final = 20_001

@@ -11,9 +11,9 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from burmester.functions.exact_pairs import generators_of_phases, other_phases
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.requirements.table import keeps
+from burmester.tasks.function_task import FunctionTask
 from burmester.verdicts.requirement_check import figures_of
 
 GRID: Final = 72  # phases within half a turn; half a turn more is the same link drawn backwards

@@ -11,9 +11,9 @@ from typing import Final
 
 import numpy as np
 
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.tasks.function_task import FunctionTask
 
 GRID: Final = 1440  # input phases in a turn
 KEPT: Final = 8  # places of the grid that are looked at closer

@@ -15,7 +15,6 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import MOST_SIZE, SPARE, KeptRequirements
 from burmester.numerics.arrays import FloatArray
@@ -24,6 +23,7 @@ from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.quadratic_program import SoftProgram
 from burmester.numerics.unique_rows import unique_index
+from burmester.tasks.function_task import FunctionTask
 
 AT_BOUND = 1e-3  # of the logarithm of the greatest size; a length as near to it is at it
 SAME_GENERATOR = 1e-4  # of a link, and radians; generators that differ less are one

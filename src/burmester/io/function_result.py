@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 
 from burmester.functions.found_generator import FoundGenerator
-from burmester.functions.function_task import FunctionTask, chebyshev_spacing
 from burmester.functions.generator import Generator
 from burmester.io.linkage_data import FUNCTION_SCHEMA, dimensions_data, number
 from burmester.io.reading.specification import requirements_data
 from burmester.synthesis.function_generation import FunctionSynthesis
+from burmester.tasks.function_task import FunctionTask, chebyshev_spacing
 
 LINK_KEYS = ("input", "coupler", "output")
 LONGEST = 1e9  # ground links; no link is longer
@@ -44,7 +44,7 @@ def function_data(synthesis: FunctionSynthesis) -> dict[str, Any]:
             }
             for each in synthesis.prices
         ],
-        "linkages": [_linkage(each, task) for each in synthesis.generators],
+        "linkages": [_linkage(each) for each in synthesis.generators],
         "warnings": [each.to_dict() for each in synthesis.warnings],
     }
 
@@ -95,18 +95,15 @@ def _plain_degrees(angle: float) -> float:
     return round(math.degrees(angle), 12)
 
 
-def _linkage(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
-    one = found.generator
-    links = (one.input_link, one.coupler, one.output_link)
-    dyads = found.linkage(task)
+def _linkage(found: FoundGenerator) -> dict[str, Any]:
+    one, task, dyads = found.generator, found.task, found.linkage
     inputs, _ = task.compared()
     return {
         "id": found.id,
         "rank": found.rank,
         "type": found.type,
         "usable": found.usable,
-        "links": {"ground": task.ground}
-        | {key: float(each) * task.ground for key, each in zip(LINK_KEYS, links, strict=True)},
+        "links": {key.removesuffix(" link"): each for key, each in found.lengths.items()},
         "input_phase_deg": math.degrees(float(one.input_phase)) % 360,
         "output_phase_deg": math.degrees(float(one.output_phase)) % 360,
         "side": int(one.side),
@@ -114,7 +111,7 @@ def _linkage(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
         "structural_error_deg": {
             "max": _degrees(found.max_error),
             "rms": _degrees(found.rms_error),
-            "max_percent": number(100 * found.max_error / task.output_span),
+            "max_percent": number(found.percent),
         },
         "pair_errors_deg": [_degrees(each) for each in found.errors.tolist()],
         "error_curve": {
@@ -124,7 +121,7 @@ def _linkage(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
         "min_transmission_angle_deg": _degrees(found.least_transmission),
         "link_ratio": float(one.link_ratio),
         "extent": found.extent * task.ground,
-        "defects": [{"kind": each.code, "message": each.message} for each in found.defects],
+        "defects": [{"kind": each.code, "message": each.message} for each in found.faults],
         "shortcomings": list(found.shortcomings),
     }
 

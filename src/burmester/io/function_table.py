@@ -8,17 +8,19 @@ from typing import Any, Final
 
 import numpy as np
 from rich.console import Console
+from rich.table import Table
 from rich.text import Text
 
+from burmester.describe import generator_words
+from burmester.diagnosis.pair_checks import reversals
 from burmester.errors import Advice
-from burmester.functions.found_generator import ROUNDING, FoundGenerator
-from burmester.functions.function_task import FunctionTask
-from burmester.functions.pair_checks import reversals
+from burmester.functions.found_generator import FoundGenerator
 from burmester.io.function_result import function_task_data
-from burmester.io.linkage_table import new_table, show_read, show_warnings, table_of
+from burmester.io.linkage_table import show_read, table_of
 from burmester.io.message import draw, message, print_trimmed, show, wrapped
 from burmester.synthesis.function_generation import FunctionSynthesis
-from burmester.wording import count, figure, listed, with_article
+from burmester.tasks.function_task import FunctionTask
+from burmester.wording import count, figure, listed
 
 CHECK_SCHEMA: Final = "burmester.function-check/1"
 
@@ -31,117 +33,54 @@ def show_function(
     synthesis: FunctionSynthesis, console: Console, *, everything: bool = False
 ) -> None:
     """What to build first, then the other linkages, and what has been found in all."""
-    outcome, task = synthesis.outcome, synthesis.task
-    usable = synthesis.usable
-    if usable:
-        judged = synthesis.method == "judged"
-        _best(usable[0], task, console, f"{usable[0].id} is" if judged else "")
-    else:
-        show("result", outcome, console)
-    everything |= synthesis.method == "judged"
+    outcome, usable = synthesis.outcome, synthesis.usable
+    judged = synthesis.method == "judged"
+    everything |= judged
     shown = list(synthesis.generators if everything else synthesis.leading(MOST_ROWS))
     if usable and not everything:
         shown = [each for each in shown if each.usable]
+    if usable:
+        _best(usable[0], console)
+    else:
+        show("result", outcome, console)
     if len(shown) > 1 or (shown and not usable):
-        _table(shown, task, console)
-    if synthesis.price_note:
-        draw(wrapped(synthesis.price_note, console.width), console)
-    if synthesis.method == "judged" and len(task.inputs) <= MOST_PAIRS:
-        _pair_errors(shown[0], task, console)
+        _table(shown, console)
+    for sentence in generator_words.price_note(synthesis):
+        draw(wrapped(sentence, console.width), console)
+    if judged and len(synthesis.task.inputs) <= MOST_PAIRS:
+        rows = generator_words.pair_rows(shown[0])
+        print_trimmed(table_of(generator_words.PAIR_HEADS, rows, "At the pairs", left=0), console)
     if usable:
         console.print()
         draw(message("result", outcome.code, outcome.message, width=console.width), console)
         if (rest := len(synthesis.generators) - len(shown)) and not everything:
             print_trimmed(Text(f"{rest} more: --all."), console)
-    show_warnings(synthesis.warnings, console)
 
 
-def _best(found: FoundGenerator, task: FunctionTask, console: Console, named: str = "") -> None:
-    """The linkage to build, with its dimensions; named: what is said in place of `Build`."""
-    kind = with_article(found.type)
-    where = "over the range" if task.function else "at the pairs"
-    error = (
-        "meets all pairs exactly"
-        if found.is_exact
-        else f"misses by {_degrees(found.max_error)} deg at most {where} "
-        f"({figure(100 * found.max_error / task.output_span)} % of the output's range), "
-        f"{_degrees(found.rms_error)} deg rms"
-    )
-    head = f"{named or f'Build {found.id}:'} {kind} that {error}."
-    print_trimmed(Text(head, style="bold"), console)
-    one = found.generator
-    table = new_table(gap=1)
-    table.show_header = False
-    for _ in range(2):
-        table.add_column(no_wrap=True)
-    table.add_column(justify="right", no_wrap=True)
-    table.add_column()
-    at = {
-        "input link": (one.input_phase, "where the input is 0"),
-        "output link": (one.output_phase, "where the output is 0"),
-    }
-    for name, length in found.lengths(task.ground).items():
-        phase = at.get(name)
-        text = (
-            "" if phase is None else f"at {math.degrees(float(phase[0])) % 360:.4f} deg {phase[1]}"
-        )
-        table.add_row("", name, f"{length:.6g}", text)
-    print_trimmed(table, console)
-    side = "left" if float(one.side) > 0 else "right"
-    notes = [
-        "Angles are from the ground link, counter-clockwise. Seen from the input link's pin to "
-        f"the output's pivot, the coupler's other pin lies on the {side}.",
-        f"Least transmission angle over the range: {math.degrees(found.least_transmission):.1f} "
-        f"deg. The box of all pivots has a diagonal of {figure(found.extent * task.ground)}.",
-    ]
-    if found.shortcomings:
-        notes.append(f"It {listed(found.shortcomings)}.")
-    for text in notes:
+def _best(found: FoundGenerator, console: Console) -> None:
+    """The linkage to build, with its dimensions."""
+    print_trimmed(Text(f"{generator_words.headline(found)}.", style="bold"), console)
+    grid = Table.grid(padding=(0, 2))
+    for row in generator_words.dimension_rows(found):
+        grid.add_row("", *row)
+    print_trimmed(grid, console)
+    for text in generator_words.notes(found):
         print_trimmed(Text(text), console)
 
 
-def _pair_errors(found: FoundGenerator, task: FunctionTask, console: Console) -> None:
-    """Each pair, and what the linkage makes of it."""
-    rows = []
-    for k, (x, y, error) in enumerate(
-        zip(task.inputs, task.outputs, found.errors, strict=True), start=1
-    ):
-        made = "-" if math.isnan(error) else f"{math.degrees(y + error):.4f}"
-        angles = f"{math.degrees(x):.10g}", f"{math.degrees(y):.10g}"
-        rows.append((str(k), *angles, made, _degrees(float(error))))
-    heads = ("pair", "input", "output", "is made", "error")
-    print_trimmed(table_of(heads, rows, "At the pairs, in degrees", left=0), console)
-
-
-def _table(shown: list[FoundGenerator], task: FunctionTask, console: Console) -> None:
+def _table(shown: list[FoundGenerator], console: Console) -> None:
     wide = console.width >= NARROW
-    some = 1 if wide else 3
-    figures = ("max error", "%", "rms", "transm.")[::some]
-    rows = []
-    for each in shown:
-        _, *lengths = each.lengths(task.ground).values()
-        least = math.degrees(each.least_transmission)
-        cells = (
-            f"{_degrees(each.max_error)}°",
-            "0" if each.is_exact else figure(100 * each.max_error / task.output_span),
-            f"{_degrees(each.rms_error)}°",
-            f"{least:.0f}°" if math.isfinite(least) else "-",
-        )
-        rows.append((each.id, each.type, *(f"{each:.4g}" for each in lengths), *cells[::some]))
-    heads = ("", "type", "input", "coupler", "output", *figures)
+    some = [*range(9)] if wide else [0, 1, 2, 3, 4, 5, 8]
+    heads, *rows = (
+        [each[k] for k in some]
+        for each in (generator_words.HEADS, *map(generator_words.row, shown))
+    )
     title = "Function generators, the best first"
     print_trimmed(table_of(heads, rows, title, left=2, gap=1 if wide else 0), console)
     for each in shown:
         if not each.usable:
-            reasons = f"{each.id} {listed([d.message for d in each.defects])}"
+            reasons = f"{each.id} {listed([d.message for d in each.faults])}"
             draw(wrapped(reasons, console.width, hang=4), console)
-
-
-def _degrees(angle: float) -> str:
-    """An error in degrees, "exact" where it is rounding, "open" where there is none."""
-    if not math.isfinite(angle):
-        return "-"
-    return "0" if abs(angle) < ROUNDING else figure(math.degrees(angle))
 
 
 # --- before anything is solved

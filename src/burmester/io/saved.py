@@ -18,7 +18,7 @@ import os
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, cast, get_args
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 import numpy as np
 
@@ -93,10 +93,7 @@ class SavedResult(NamedTuple):
 
     def exported(self, id: str | None = None, option: str = "--linkage") -> Candidate:
         """The same as exports take it: of a function generator the coupler is the body."""
-        found: Candidate = self.choose(id, option)
-        if isinstance(self.synthesis, Synthesis):
-            return found
-        return self.synthesis.coupler_linkage(cast("FoundGenerator", found))
+        return self.synthesis.exported(self.choose(id, option))
 
 
 def read_result(source: str | os.PathLike[str], data: bytes | None = None) -> SavedResult:
@@ -422,7 +419,7 @@ def _changed_verdict(found: Candidate | FoundGenerator, given: dict[str, Any]) -
         return []
     if found.usable:
         return [f"{found.id} is usable, and the file says that it is not"]
-    reason = next(iter((*found.defects, *found.violations))).message
+    reason = found.faults[0].message
     return [f"{found.id} is not usable ({reason}), and the file says that it is"]
 
 

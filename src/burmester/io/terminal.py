@@ -50,6 +50,7 @@ def show_synthesis(
         from burmester.io.function_table import show_function
 
         show_function(synthesis, console, everything=everything)
+        show_warnings(synthesis.warnings, console)
         return
     if synthesis.six_bars is not None:
         _six_bars(synthesis, synthesis.six_bars, console)

@@ -8,7 +8,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from burmester.functions.found_generator import FoundGenerator
-from burmester.functions.function_task import FunctionTask
 from burmester.plot.style import BLACK, BLUE, GREEN, GREY, VERMILION, figure
 from burmester.synthesis.function_generation import FunctionSynthesis
 
@@ -17,10 +16,9 @@ FAR = 5.0  # times the greatest error of the first; worse linkages are left out
 ROUNDING = 1e-9  # radians; an error below is none
 
 
-def structural_error(
-    ax: Axes, found: FoundGenerator, task: FunctionTask, color: str = BLUE
-) -> list[Line2D]:
+def structural_error(ax: Axes, found: FoundGenerator, color: str = BLUE) -> list[Line2D]:
     """The error of the output over the input, in degrees: a curve for a function, else points."""
+    task = found.task
     inputs = np.degrees(task.compared()[0])
     error = np.degrees(found.range_errors)
     name = f"{found.id}, {found.type}"
@@ -43,7 +41,7 @@ def structural_error_figure(synthesis: FunctionSynthesis) -> Figure:
     best = (synthesis.usable or synthesis.generators)[:MOST_CURVES]
     chosen = [c for c in best if not c.max_error > FAR * max(best[0].max_error, ROUNDING)]
     for found, color in zip(chosen, (BLUE, VERMILION, GREEN, GREY), strict=False):
-        structural_error(ax, found, task, color)
+        structural_error(ax, found, color)
     ax.axhline(0.0, color=BLACK, lw=0.6)
     ax.set_xlabel("input (deg)")
     ax.set_ylabel("structural error of the output (deg)")

@@ -21,12 +21,12 @@ from burmester.requirements.figures import Figures
 from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.values import real_numbers
-from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Motion
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FoundSixBar(JudgedLinkage):
+class FoundSixBar(LinkageAtPoses):
     """A six-bar that carries the body through the poses, or one that was given, on one branch.
 
     Attributes
@@ -49,7 +49,7 @@ class FoundSixBar(JudgedLinkage):
     defects : tuple of Finding
         Of one that was given: why it does not go through the poses on one branch and in order.
     id, error, violations, shortcomings, within_tolerance, task
-        As in `JudgedLinkage`.
+        As in `LinkageAtPoses`.
     """
 
     linkage: SixBar
@@ -69,7 +69,7 @@ class FoundSixBar(JudgedLinkage):
     @property
     def usable(self) -> bool:
         """Whether it goes through the poses on one branch and in order, and keeps all limits."""
-        return not (self.defects or self.violations)
+        return not self.faults
 
     @property
     def on_branches(self) -> bool:

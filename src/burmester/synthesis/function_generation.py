@@ -22,7 +22,6 @@ from burmester.errors import Advice, InputError
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import exact_generators, generators_of_phases
 from burmester.functions.found_generator import MET, FoundGenerator, found_generators, price_list
-from burmester.functions.function_task import FunctionTask
 from burmester.functions.generator import Generator
 from burmester.functions.nearest_generators import nearest_generators
 from burmester.functions.phase_family import best_of_phases
@@ -33,7 +32,8 @@ from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread
 from burmester.progress import step
 from burmester.synthesis.judgement import judge_linkage
-from burmester.synthesis.result import Outcome, Synthesis
+from burmester.synthesis.result import Answer, Outcome, Synthesis
+from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
@@ -41,7 +41,6 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import count, figure, listed
 
 LEAST_PAIRS: Final = 3
-LEAST_TIMES, MOST_TIMES = 1.05, 1000.0  # the nearest one's error; prices outside are not told
 SAME_ANGLE: Final = 1e-9  # radians; outputs that turn with the input but for less do so exactly
 _HELP: Final = (
     "change the range of the input or of the output, turn the output the other way (--opposite for "
@@ -52,7 +51,7 @@ FunctionMethod: TypeAlias = Literal["exact", "phases", "least squares", "minimax
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FunctionSynthesis:
+class FunctionSynthesis(Answer[FoundGenerator]):
     """All that came of a function task.
 
     method: how it was solved.  generators: by rank.
@@ -70,38 +69,19 @@ class FunctionSynthesis:
     real: int | None = None
 
     @property
-    def usable(self) -> tuple[FoundGenerator, ...]:
-        """The linkages that work."""
-        return tuple(each for each in self.generators if each.usable)
-
-    @property
     def candidates(self) -> tuple[FoundGenerator, ...]:
         """All linkages by rank."""
         return self.generators
 
-    def coupler_linkage(self, found: FoundGenerator) -> FoundLinkage:
-        """A generator as the linkage that guides its coupler, for pictures and exports."""
-        (judged,) = coupler_synthesis(self.task, found).linkages
+    def exported(self, found: FoundGenerator) -> FoundLinkage:
+        """A generator as the linkage that guides its coupler."""
+        (judged,) = coupler_synthesis(found).linkages
         return replace(judged, id=found.id, usable=found.usable)
 
     @property
     def prices(self) -> tuple[FoundGenerator, ...]:
         """Of those that work: the nearest one, and what each better transmission angle costs."""
         return price_list(self.usable)
-
-    @property
-    def price_note(self) -> str:
-        """What better transmission angles cost, in a sentence; empty where there is no choice."""
-        if len(self.prices) < 2:
-            return ""
-        nearest, *others = self.prices
-        miss = f"misses by {_degrees(nearest)}" if nearest.max_error > MET else "is exact"
-        parts = [f"{nearest.id} {miss} at {_transmission(nearest)}"]
-        for each in others:
-            times = each.max_error / max(nearest.max_error, MET)
-            price = f" ({figure(times)} times)" if LEAST_TIMES < times < MOST_TIMES else ""
-            parts.append(f"{each.id} by {_degrees(each)} at {_transmission(each)}{price}")
-        return f"What better transmission costs: {'; '.join(parts)}."
 
     def leading(self, most: int) -> list[FoundGenerator]:
         """At most so many, by rank: those of the price list, and the first of the others."""
@@ -158,7 +138,7 @@ def judge_generator(
     if one.usable:
         outcome = Outcome("R360", f"the function generator works{placed}")
     else:
-        reasons = listed([each.message for each in one.defects])
+        reasons = listed([each.message for each in one.faults])
         outcome = Outcome(
             "R361", f"the function generator does not work{placed}", _HELP, f"it {reasons}"
         )
@@ -288,40 +268,31 @@ def _outcome(found: tuple[FoundGenerator, ...], task: FunctionTask, head: str) -
         return Outcome("R360", f"{head}, {usable} of them usable")
     if not found:
         return Outcome("R361", head, _HELP, "no real linkage meets the pairs")
-    reasons = [f"{each.id} {each.defects[0].message}" for each in found[:3]]
+    reasons = [f"{each.id} {each.faults[0].message}" for each in found[:3]]
     help = _loosened(found, task) or _HELP
     return Outcome("R361", f"{head}, none of them usable", help, listed(reasons))
-
-
-def _degrees(found: FoundGenerator) -> str:
-    """How far it misses; "exact" where that is rounding."""
-    return f"{figure(math.degrees(found.max_error))}°" if found.max_error > MET else "exact"
-
-
-def _transmission(found: FoundGenerator) -> str:
-    return f"{math.degrees(found.least_transmission):.0f}°"
 
 
 def _loosened(found: tuple[FoundGenerator, ...], task: FunctionTask) -> str:
     """Which one requirement to ask less of, as little as may be, and what comes of it; or empty."""
     ways = []
     for each, bound in task.requirements.bounds.items():
-        some = [one for one in found if [why.code for why in one.defects] == [each.code]]
+        some = [one for one in found if [why.code for why in one.faults] == [each.code]]
         if some:
             best = min(some, key=lambda one: float(each.excess(one.figures, bound)))
-            ways.append(f"{each.cure(bound, best.figures)} ({best.id}, {_degrees(best)})")
+            error = figure(math.degrees(best.max_error)) if best.max_error > MET else 0
+            ways.append(f"{each.cure(bound, best.figures)} ({best.id}, {error}°)")
     return f"ask for less: {listed(ways, 'or')}" if ways else ""
 
 
-def coupler_synthesis(
-    task: FunctionTask, found: FoundGenerator, inputs: FloatArray | None = None
-) -> Synthesis:
+def coupler_synthesis(found: FoundGenerator, inputs: FloatArray | None = None) -> Synthesis:
     """A function generator as a linkage that guides its coupler: the judgement of that motion.
 
     The places of the coupler at the pairs are the poses; of a function, places at even distances
     over the range.  So reports and exports show and write it like every other linkage.
     inputs: (N,), those of the poses, radians, rising; None: as said.
     """
+    task = found.task
     if inputs is None:
         inputs = np.sort(task.inputs)
         if task.function is not None or len(inputs) > COUPLER_PLACES:
@@ -336,4 +307,4 @@ def coupler_synthesis(
         limits=tuple(Limits(fixed_pivot=Point(each)) for each in pivots),
         requirements=Requirements(driver="first"),
     )
-    return judge_linkage(motion, found.linkage(task))
+    return judge_linkage(motion, found.linkage)

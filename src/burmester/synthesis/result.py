@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar, cast
 
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice, InputError
@@ -15,6 +15,7 @@ from burmester.tasks.option_table import Method
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.verdicts.judged_linkage import JudgedLinkage
 from burmester.wording import listed
 
 if TYPE_CHECKING:  # few tasks have any of these, and their rooms take long to load
@@ -41,9 +42,43 @@ Outcome: TypeAlias = Advice
 JUDGED = ("R330", "R331")  # the outcomes of a linkage that was given
 
 
+Kind = TypeVar("Kind", bound=JudgedLinkage)
+
+
+class Answer(Generic[Kind]):
+    """What came of a task of any kind: linkages by rank, an outcome, and warnings."""
+
+    __slots__ = ()
+
+    if TYPE_CHECKING:
+
+        @property
+        def outcome(self) -> Outcome: ...
+
+        @property
+        def warnings(self) -> tuple[Advice, ...]: ...
+
+        @property
+        def candidates(self) -> tuple[Kind, ...]: ...
+
+    @property
+    def usable(self) -> tuple[Kind, ...]:
+        """The linkages that work, the best one first."""
+        return tuple(each for each in self.candidates if each.usable)
+
+    @property
+    def works(self) -> bool:
+        """Whether any linkage works."""
+        return any(each.usable for each in self.candidates)
+
+    def exported(self, found: Any) -> Candidate:
+        """A linkage of it as pictures and files for other programs take it."""
+        return cast("Candidate", found)
+
+
 @dataclass(frozen=True, slots=True, eq=False)
-class Synthesis:
-    """All that came of a task, nothing thrown away.
+class Synthesis(Answer[Any]):
+    """All that came of a task of poses, nothing thrown away.
 
     problem: the task, the class of its motion, its characteristic length, and the options, with
         the method that was chosen.
@@ -116,27 +151,9 @@ class Synthesis:
         return self.linkages if self.six_bars is None else self.six_bars.found
 
     @property
-    def works(self) -> bool:
-        """Whether any linkage works, of four bars or of six."""
-        return any(each.usable for each in self.candidates)
-
-    @property
     def determined(self) -> bool:
         """Whether a linkage works whose pivots the poses determine."""
         return any(each.usable and each.determined for each in self.linkages)
-
-
-class Ranked(Protocol):
-    """What every result has some of, by rank."""
-
-    @property
-    def id(self) -> str: ...
-
-    @property
-    def usable(self) -> bool: ...
-
-
-Kind = TypeVar("Kind", bound=Ranked)
 
 
 def chosen(

@@ -16,7 +16,7 @@ from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.wording import figure
 
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
@@ -24,7 +24,7 @@ MOST_TURN = math.pi / 2  # radians; a crank that is off by more is no crank at t
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
 
 
-def meets_exactly(found: JudgedLinkage, size: float) -> bool:
+def meets_exactly(found: LinkageAtPoses, size: float) -> bool:
     """Whether a linkage meets all poses within rounding; size: the task's characteristic length."""
     worst = float(np.nan_to_num(found.error.angle, nan=np.inf).max())
     return found.error.worst < ROUNDING * size and worst < 10 * ROUNDING
@@ -37,7 +37,7 @@ def asked_for(task: Task) -> str:
     return "pose and point" if task.free_angles.any() else "pose"
 
 
-def nearness(found: JudgedLinkage, task: Task, size: float) -> str:
+def nearness(found: LinkageAtPoses, task: Task, size: float) -> str:
     """How near a linkage comes: "passes every pose exactly", "misses by 0.15 mm and 2.1°"."""
     if not math.isfinite(found.error.worst):
         return f"cannot be assembled near every {asked_for(task)}"
@@ -46,7 +46,7 @@ def nearness(found: JudgedLinkage, task: Task, size: float) -> str:
     return f"misses by {worst_miss(found, task)}"
 
 
-def worst_miss(found: JudgedLinkage, task: Task) -> str:
+def worst_miss(found: LinkageAtPoses, task: Task) -> str:
     """The greatest misses at a pose: "0.15 mm and 2.1°", or "0.15 mm" where angles are free."""
     away = length_of(found.error.worst, task)
     if task.angles_are_free:
@@ -63,7 +63,7 @@ def by_nearness(linkages: Iterable[FoundLinkage], size: float) -> list[FoundLink
     return sorted(linkages, key=error)
 
 
-def reasons(found: JudgedLinkage, task: Task) -> list[str]:
+def reasons(found: LinkageAtPoses, task: Task) -> list[str]:
     """Why a linkage is not usable: its defects, missed poses first; then violated requirements."""
     defects = [_too_far(found, task, each) or each.message for each in found.defects]
     # At a dead point there is no transmission angle anyway.
@@ -73,7 +73,7 @@ def reasons(found: JudgedLinkage, task: Task) -> list[str]:
     ]
 
 
-def in_short(found: JudgedLinkage, task: Task, size: float) -> str:
+def in_short(found: LinkageAtPoses, task: Task, size: float) -> str:
     """Nearness and reasons in one phrase: "misses by 0.15 mm but locks between ..."."""
     far = any(each.kind == "assembly" for each in found.defects)
     near = f"{nearness(found, task, size)}{':' if far else ' but'}"
@@ -82,7 +82,7 @@ def in_short(found: JudgedLinkage, task: Task, size: float) -> str:
     return f"{near} {'; '.join(reasons(found, task))}"
 
 
-def _too_far(found: JudgedLinkage, task: Task, defect: Finding) -> str | None:
+def _too_far(found: LinkageAtPoses, task: Task, defect: Finding) -> str | None:
     """An assembly defect in terms of the distance, if the linkage has places near those poses."""
     poses = list(defect.poses)
     if task.tolerances is not None:
@@ -158,7 +158,7 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
     return "; or ".join(texts) or "move a pose"
 
 
-def options_for(found: JudgedLinkage, problem: SynthesisProblem) -> tuple[str, ...]:
+def options_for(found: LinkageAtPoses, problem: SynthesisProblem) -> tuple[str, ...]:
     """The options that would make a linkage usable; none where no option helps."""
     asked, options, share = problem.given.requirements, [], found.within_tolerance
     # Nothing but a greatest error keeps it from its poses then, and no tolerance of one.
@@ -188,7 +188,7 @@ def options_for(found: JudgedLinkage, problem: SynthesisProblem) -> tuple[str, .
     return tuple(sorted(set(options), reverse=True))  # --within first
 
 
-def _error_bounds(found: JudgedLinkage, problem: SynthesisProblem) -> list[str]:
+def _error_bounds(found: LinkageAtPoses, problem: SynthesisProblem) -> list[str]:
     """The options that bound both errors of a linkage from above."""
     asked = problem.given.requirements
     within = above(max(found.error.worst, ROUNDING * problem.length))

@@ -16,7 +16,7 @@ from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
 from burmester.verdicts.four_bar_motion import four_bar_motion
-from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Motion
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.requirement_check import four_bar_figures
@@ -44,7 +44,7 @@ def with_driver_first(linkage: Linkage, driver: Side) -> Linkage:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FoundLinkage(JudgedLinkage):
+class FoundLinkage(LinkageAtPoses):
     """A linkage made of two dyads, refined as a whole, with all that is known of it.
 
     Attributes
@@ -88,7 +88,7 @@ class FoundLinkage(JudgedLinkage):
         How far the driver is from the stated crank angles at the poses, signed, in radians, where
         the task has some; nan at poses that are not timed.
     id, error, violations, shortcomings, within_tolerance, task
-        As in `JudgedLinkage`.
+        As in `LinkageAtPoses`.
 
     Examples
     --------

@@ -1,9 +1,10 @@
-"""What is said of a linkage of any kind that was judged at the poses of a task."""
+"""What is said of a linkage of any kind that was judged by a task."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from burmester.errors import Finding
 from burmester.fourbar.pose_error import PoseError
@@ -11,49 +12,74 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
+from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.motion import Motion
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class JudgedLinkage:
-    """A linkage with its errors, what is wrong with it, and where it falls short.
+    """A linkage with what is wrong with it, and where it falls short.
 
     Attributes
     ----------
     id : str
         "L1", "L2", ... by rank; of six-bars "S1", "S2", ...
-    error : PoseError
-        Of the body's places nearest to the poses: of a four-bar on one circuit, unless there is a
-        circuit defect, of a six-bar on one branch.
     violations : tuple of Finding
         The limits and requirements of the task that it does not keep, with its driver.
     shortcomings : tuple of str
         Where it falls short of what a linkage to build is to be, where the task asks for nothing
         (`requirements.table`), in words that follow "it"; () is good.
-    within_tolerance : (N, 3) array, optional
-        How much of its tolerance each component of each pose uses, where the task has tolerances:
-        at most 1 inside, 0 for free components.
-    task : Task
+    task : Task or FunctionTask
         The task of the answer that it belongs to, as it was given.
     """
 
     id: str
-    error: PoseError
     violations: tuple[Finding, ...] = ()
     shortcomings: tuple[str, ...] = ()
-    within_tolerance: FloatArray | None = None
-    task: Task
+    task: Task | FunctionTask
+
+    if TYPE_CHECKING:
+
+        @property
+        def usable(self) -> bool:
+            """Whether it does what the task asks, and keeps what is required."""
 
     @property
     @abstractmethod
     def defects(self) -> tuple[Finding, ...]:
-        """Why it does not lead through the poses."""
+        """Why it does not do what the task asks, whatever else is required."""
 
     @property
     @abstractmethod
     def figures(self) -> Figures:
         """What it measures and does with its driver, but for the footprint."""
+
+    @property
+    def faults(self) -> tuple[Finding, ...]:
+        """All that keeps it from being usable: its defects, then its violations."""
+        return self.defects + self.violations
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class LinkageAtPoses(JudgedLinkage):
+    """A linkage that guides a body, with its errors at the poses.
+
+    Attributes
+    ----------
+    error : PoseError
+        Of the body's places nearest to the poses: of a four-bar on one circuit, unless there is a
+        circuit defect, of a six-bar on one branch.
+    within_tolerance : (N, 3) array, optional
+        How much of its tolerance each component of each pose uses, where the task has tolerances:
+        at most 1 inside, 0 for free components.
+    id, violations, shortcomings, task
+        As in `JudgedLinkage`.
+    """
+
+    error: PoseError
+    within_tolerance: FloatArray | None = None
+    task: Task
 
     @property
     def on_branches(self) -> bool:

@@ -12,25 +12,22 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.functions.found_generator import ROUNDING, FoundGenerator
-from burmester.functions.function_task import FunctionTask
+from burmester.describe import generator_words as words
+from burmester.functions.found_generator import FoundGenerator
 from burmester.io.linkage_data import numbers
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.function_generation import FunctionSynthesis, coupler_synthesis
+from burmester.tasks.function_task import FunctionTask
 from burmester.web.data import linkage_report, scene_of, transmission_limit
 from burmester.web.image_space import chart_of
-from burmester.wording import figure, with_article
+from burmester.wording import figure
 
 SCHEMA: Final = "burmester.function-report/2"
 MOST: Final = 8  # generators that are shown
 FRAMES: Final = 361  # along the way of each
 MOST_DOTS: Final = 40  # pairs whose dots stand on a curve
 MOST_ROWS: Final = 30  # pairs; more of them are there to unfold
-HEADS: Final = (
-    *("", "verdict", "type", "ground link", "input link", "coupler link", "output link"),
-    *("greatest error", "of the range", "rms error", "least transm.", "why not"),
-)
 MOST_STOPS: Final = 13  # pairs that the player stops at; of more, even places
 
 
@@ -40,11 +37,11 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     shown = synthesis.leading(MOST)
     rest = len(synthesis.generators) - len(shown)
     more = f" {len(shown)} of {len(synthesis.generators)} are shown." if rest else ""
-    linkages = [_generator(each, task) for each in shown]
+    linkages = [_generator(each) for each in shown]
     return {
         "schema": SCHEMA,
         "outcome": synthesis.outcome.to_dict(),
-        "best": _best(synthesis),
+        "best": [*words.best_sentences(synthesis), words.wanted(synthesis)],
         "warnings": [each.to_dict() for each in synthesis.warnings],
         "kind": "function report",
         "whole": True,
@@ -54,9 +51,9 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
         "linkages": linkages,
         "table": {
             "caption": "All linkages, best first",
-            "heads": HEADS,
-            "words": [1, 2, len(HEADS) - 1],
-            "rows": [each.pop("row") for each in linkages],
+            "heads": words.HEADS,
+            "words": [1, len(words.HEADS) - 1],
+            "rows": list(map(words.row, shown)),
         },
         "footnotes": "Angles are from the ground link, counter-clockwise, and counted from where "
         "input and output are 0. The structural error is the output that the linkage makes, less "
@@ -64,62 +61,19 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     }
 
 
-def _best(synthesis: FunctionSynthesis) -> list[str]:
-    """What to build, in a sentence, and what is asked, in another."""
-    task = synthesis.task
-    wanted = [_asked(task)]
-    if not synthesis.usable:
-        return wanted
-    found = synthesis.usable[0]
-    price = [synthesis.price_note] if synthesis.price_note else []
-    return [f"{found.id}, {with_article(found.type)}, {_miss(found, task)}.", *price, *wanted]
-
-
-def _asked(task: FunctionTask) -> str:
-    low, high = task.input_ends
-    turn, made = figure(math.degrees(high - low)), figure(math.degrees(task.output_span))
-    if (function := task.function) is not None:
-        x = f"x from {function.x[0]:g} to {function.x[1]:g}"
-        way = ", against it" if function.output_range < 0 else ""
-        text = f"y = {function.text}, {x}"
-        return f"Wanted: {text}; the input link turns by {turn}°, the output link by {made}°{way}."
-    pairs = len(task.inputs)
-    return f"Wanted: {pairs} pairs of angles; the input turns by {turn}°, the output by {made}°."
-
-
-def _miss(found: FoundGenerator, task: FunctionTask) -> str:
-    where = "over the range" if task.function else "at the pairs"
-    if not math.isfinite(found.max_error):
-        return "cannot be assembled everywhere"
-    if found.is_exact:
-        return "meets all pairs exactly"
-    share = figure(100 * found.max_error / task.output_span)
-    return f"misses by {_angle(found.max_error)} at most {where}, {share} % of the output's range"
-
-
-def _generator(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
+def _generator(found: FoundGenerator) -> dict[str, Any]:
     """A generator as a linkage that guides its coupler, with its own words and curves."""
-    one, lengths = found.generator, found.lengths(task.ground)
-    lacks = [each.message for each in found.defects]
-    shortcomings = [*lacks, *found.shortcomings]
-    verdict = "✓ usable" if found.usable else "✕ not usable"
-    least, percent = found.least_transmission, 100 * found.max_error / task.output_span
-    transmission = f"{math.degrees(least):.0f}°" if math.isfinite(least) else "–"
-    transmits = {"–": "–", "0°": "down to 0°"}.get(transmission, f"{transmission} or more")
-    share = f"{figure(percent)} %" if math.isfinite(percent) else "–"
-    errors = {
-        "greatest error": _angle(found.max_error),
-        "of the output's range": "0 %" if found.is_exact else share,
-        "rms error": _angle(found.rms_error),
-        "least transmission angle": transmission,
-    }
-    links = [f"{length:.6g}" for length in lengths.values()]
-    report, picture = _motion(found, task)
-    inputs, outputs, misses = _pair_degrees(found, task)
-    pairs = list(zip(inputs, outputs, misses, strict=True))
-    dots = [(x, y) for x, y, _ in pairs] if len(pairs) <= MOST_DOTS else []
+    task, transmission = found.task, words.transmission(found)
+    lacks = "; ".join(each.message for each in found.faults)
+    report, picture = _motion(found)
+    pairs = words.pair_rows(found)
     way = report["ways"][0] if report["ways"] else {"drive": [], "output": []}
+    dots = np.degrees(np.stack([task.inputs, task.outputs], axis=1)).tolist()
+    dots = dots if len(dots) <= MOST_DOTS else []
     title = "output (°)" + (", wanted as dots" if dots else "")
+    transmits = {"–": "–", "0°": "down to 0°"}.get(transmission, f"{transmission} or more")
+    links = [f"{length:.6g}" for length in found.lengths.values()]
+    reasons = "; ".join(filter(None, (lacks, *found.shortcomings)))
     return {
         **report,
         "id": found.id,
@@ -128,55 +82,40 @@ def _generator(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
         "picture": picture,
         "panels": [
             {"title": title, "x": way["drive"], "y": way["output"], "dots": dots},
-            _error_panel(found, task),
+            _error_panel(found),
         ],
         "card": {
-            "verdict": verdict,
+            "verdict": "✓ usable" if found.usable else "✕ not usable",
             "facts": [
-                ["greatest error", errors["greatest error"]],
+                ["greatest error", words.angle(found.max_error)],
                 ["transmission", transmits],
                 ["links", links, "bm-detail bm-links"],
             ],
-            "reason": f"It {'; '.join(shortcomings)}" if shortcomings else None,
+            "reason": f"It {reasons}" if reasons else None,
         },
-        "row": [
-            *(found.id, verdict, found.type, *links, *errors.values()),
-            "; ".join(lacks) or "–",
-        ],
         "said": {
-            "story": f"Usable: it {_miss(found, task)}."
-            if found.usable
-            else f"It {'; '.join(lacks)}.",
+            "story": f"Usable: it {words.miss(found)}." if found.usable else f"It {lacks}.",
             "facts": [
-                *zip(lengths, links, strict=True),
-                ("input link, at input 0", f"{math.degrees(float(one.input_phase)) % 360:.4f}°"),
-                ("output link, at output 0", f"{math.degrees(float(one.output_phase)) % 360:.4f}°"),
-                ("output pin, from input pin to output pivot", "left" if one.side > 0 else "right"),
-                *errors.items(),
-                ("longest link / shortest", figure(float(one.link_ratio))),
-                ("diagonal of the box of all pivots", figure(found.extent * task.ground)),
+                *words.dimension_rows(found),
+                ("least transmission angle", transmission),
+                ("longest link / shortest", figure(float(found.generator.link_ratio))),
             ],
-            "notes": [],
+            "notes": words.notes(found),
         },
         "tables": [],
         "stops": {
             "caption": f"Pairs of angles, and what {found.id} makes of them",
-            "heads": ["pair", "input", "output wanted", "output made", "error"],
-            "rows": [[str(k), *_pair_texts(*pair)] for k, pair in enumerate(pairs, start=1)],
+            "heads": words.PAIR_HEADS,
+            "rows": pairs,
             "class": "bm-pair-table",
             "folded": f"{len(pairs)} pairs" if len(pairs) > MOST_ROWS else None,
         },
     }
 
 
-def _pair_texts(x: float, y: float, error: float) -> list[str]:
-    """Input, output wanted, output made and error of a pair, given in degrees."""
-    made = f"{round(y + error, 4) + 0.0:.4f}°" if math.isfinite(error) else "–"
-    return [f"{x:.6g}°", f"{y:.6g}°", made, _angle(math.radians(error))]
-
-
-def _error_panel(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
+def _error_panel(found: FoundGenerator) -> dict[str, Any]:
     """The structural error: of a function along the range, else at the pairs."""
+    task = found.task
     inputs, errors = np.degrees(task.inputs).tolist(), numbers(np.degrees(found.errors))
     pairs = zip(inputs, errors, strict=True) if len(inputs) <= MOST_DOTS else ()
     whole = task.function is not None
@@ -189,28 +128,18 @@ def _error_panel(found: FoundGenerator, task: FunctionTask) -> dict[str, Any]:
     }
 
 
-def _pair_degrees(found: FoundGenerator, task: FunctionTask) -> tuple[list[float], ...]:
-    return tuple(np.degrees(v).tolist() for v in (task.inputs, task.outputs, found.errors))
-
-
-def _angle(angle: float) -> str:
-    """An angle in degrees, to two digits."""
-    if not math.isfinite(angle):
-        return "–"
-    return "exact" if abs(angle) < ROUNDING else f"{figure(math.degrees(angle))}°"
-
-
-def _motion(found: FoundGenerator, task: FunctionTask) -> tuple[dict[str, Any], dict[str, Any]]:
+def _motion(found: FoundGenerator) -> tuple[dict[str, Any], dict[str, Any]]:
     """The linkage whose body is the coupler, on the way that it takes, and the scene around it."""
+    task = found.task
     stops, names = _stops(task)
     known = np.isfinite(found.generator.outputs(stops))
-    judged = coupler_synthesis(task, found, stops[known])
+    judged = coupler_synthesis(found, stops[known])
     (linkage,) = judged.linkages
     report = linkage_report(judged, linkage, FRAMES)
     del report["space"]
     _keep_one_way(report)
     for way in report["ways"]:
-        _count_inputs(way, found, task)
+        _count_inputs(way, found)
     numbered = {name: k for k, name in enumerate(map(str, range(1, len(task.inputs) + 1)))}
     poses: list[dict[str, Any]] = [dict(each) for each in poses_data(judged.task.poses)]
     for pose, name in zip(poses, (names[k] for k in np.flatnonzero(known)), strict=True):
@@ -222,8 +151,9 @@ def _motion(found: FoundGenerator, task: FunctionTask) -> tuple[dict[str, Any], 
     return report, {"poses": poses, "scene": scene, "chart": chart}
 
 
-def _count_inputs(way: dict[str, Any], found: FoundGenerator, task: FunctionTask) -> None:
+def _count_inputs(way: dict[str, Any], found: FoundGenerator) -> None:
     """Let the drive of a way be the input, in degrees, and put the output beside it."""
+    task = found.task
     drive = np.array(way["drive"]) - math.degrees(float(found.generator.input_phase))
     middle = math.degrees(sum(task.input_ends) / 2)
     at = int(np.abs((drive - middle + 180) % 360 - 180).argmin())

@@ -13,17 +13,17 @@ import os
 from collections.abc import Sequence
 from functools import partial
 from pathlib import PurePath
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.functions.function_task import FunctionTask
 from burmester.io.reading.file_content import require_moderate
 from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, head_of
 from burmester.io.reading.functions.function_options import (
     KEPT,
-    FunctionSettings,
+    NOTHING,
+    Settings,
     task_of_function,
     task_of_pairs,
 )
@@ -35,6 +35,7 @@ from burmester.io.reading.trees.documents import json_tree, toml_tree
 from burmester.io.reading.trees.node import Field, Fields, Node
 from burmester.io.reading.trees.specification_tree import REQUIREMENT_FIELDS
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.function_task import FunctionTask
 
 WEIGHT: Final = "weight"
 
@@ -74,7 +75,7 @@ def _columns(names: Sequence[str], where: str | None) -> dict[str, tuple[int, st
     return columns
 
 
-def read_pairs(source: Source, settings: FunctionSettings) -> FunctionTask:
+def read_pairs(source: Source, settings: Settings) -> FunctionTask:
     """The task in a header and a pair a line."""
     _, separator = head_of(source.text)
     rows = list(rows_of(source, separator, len(SHEET_HEAD) if source.sheet else 0))
@@ -134,12 +135,12 @@ _PAIRS_HELP = (
 def read_function(
     data: bytes,
     path: str,
-    settings: FunctionSettings = FunctionSettings(),  # noqa: B008  frozen
+    settings: Settings = NOTHING,
     sheet: str | None = None,
 ) -> FunctionTask:
     """The function task in the bytes of a file.
 
-    settings: of options; what the file states as well is refused (E194).
+    settings: of options, in place of what the file states.
     sheet: of a workbook, by its name or number.
     """
     label = "<stdin>" if path == "-" else os.fspath(path)
@@ -161,24 +162,21 @@ def read_function(
         raise
 
 
-def settings_of(whole: Node) -> FunctionSettings:
+def settings_of(whole: Node) -> Settings:
     """The settings in a table [function] without pairs; raises E105, E107 and E191."""
-    return _settings(_stated(whole, _SETTINGS))
+    return _stated(whole, _SETTINGS)
 
 
-def task_of(whole: Node, settings: FunctionSettings = FunctionSettings()) -> FunctionTask:  # noqa: B008
+def task_of(whole: Node, settings: Settings = NOTHING) -> FunctionTask:
     """The task of the table [function], with settings of options beside it."""
-    stated = _stated(whole, _FIELDS)
-    node, merged = whole.at("function"), _settings(stated)
-    given = {n: v for n, v in settings._asdict().items() if v != FunctionSettings()._asdict()[n]}
-    merged = merged._replace(**{**given, "asked": {**merged.asked, **settings.asked}})
-    pairs = stated.get("pairs")
+    stated = {**_stated(whole, _FIELDS), **settings}
+    node, pairs = whole.at("function"), stated.get("pairs")
     if "expression" not in stated:
         if not isinstance(pairs, list) or not pairs:
             raise node.fault("E191", "has no pairs", _PAIRS_HELP)
         inputs, outputs, weights = np.array(pairs).T
         require_weights(weights, None)
-        return task_of_pairs(inputs, outputs, None if (weights == 1).all() else weights, merged)
+        return task_of_pairs(inputs, outputs, None if (weights == 1).all() else weights, stated)
     if isinstance(pairs, list):
         raise node.at("pairs").fault("E191", "is a list beside an expression", _PAIRS_HELP)
     for key in ("x", "input_deg", "output_deg"):
@@ -192,28 +190,23 @@ def task_of(whole: Node, settings: FunctionSettings = FunctionSettings()) -> Fun
         pairs=pairs,
         spacing=stated.get("spacing"),
         opposite=stated.get("opposite", False),
-        settings=merged,
+        settings=stated,
         source=Source("expression", stated["expression"]),
     )
 
 
-def _stated(whole: Node, fields: Fields) -> dict[str, Any]:
+def _stated(whole: Node, fields: Fields) -> Settings:
     """What the table [function] states; raises E105, E107, and E191 for what does not fit."""
     if not isinstance(whole.value, dict) or not isinstance(whole.value.get("function"), dict):
         help = "`burmester new log-generator` writes a file that has one"
         raise InputError("E105", "there is no table [function]", help=help)
     try:
-        return whole.at("function", f"the keys are {', '.join(fields)}").table(fields)
+        stated = whole.at("function", f"the keys are {', '.join(fields)}").table(fields)
+        return {key: getattr(each, "value", each) for key, each in stated.items()}
     except InputError as error:
         if error.code in ("E103", "E104", "E105", "E106"):
             error.code = "E191"
         raise
-
-
-def _settings(stated: dict[str, Any]) -> FunctionSettings:
-    asked = {each.name: stated[each.name].value for each in KEPT if each.name in stated}
-    names = [name for name in _SETTINGS if name in stated and name not in asked]
-    return FunctionSettings(**{name: stated[name] for name in names}, asked=asked)
 
 
 def _pairs(node: Node) -> list[list[float]] | int:

@@ -8,25 +8,25 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Any, Final, Literal, NamedTuple, TypeAlias
+from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 
 from burmester.errors import InputError
 from burmester.fourbar.linkage import TYPE_OF_SIGNS
-from burmester.functions.function_task import (
-    FUNCTION_SAMPLES,
-    FunctionTask,
-    SampledFunction,
-    chebyshev_spacing,
-    even_spacing,
-)
 from burmester.io.reading.functions.expression import read_expression
 from burmester.io.reading.pose_table import Source, shown
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.links import LINK_RATIO
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.requirements.types import TYPE, TYPES
+from burmester.tasks.function_task import (
+    FUNCTION_SAMPLES,
+    FunctionTask,
+    SampledFunction,
+    chebyshev_spacing,
+    even_spacing,
+)
 from burmester.tasks.requirements import Requirements
 from burmester.wording import listed
 
@@ -39,31 +39,10 @@ MOST_EXACT: Final = 5  # pairs; from more the spacing is even where none is give
 LEAST_STEP: Final = 1e-9  # radians; inputs that differ less are one
 
 
-class FunctionSettings(NamedTuple):
-    """What is asked of a function generator beside its pairs, by the keys of a file.
-
-    asked: requirements, by their names in `Requirements`.
-    """
-
-    input_phase_deg: float | None = None
-    output_phase_deg: float | None = None
-    ground: float = 1.0
-    minimax: bool = False
-    asked: Mapping[str, Any] = MappingProxyType({})
-
-    @property
-    def requirements(self) -> Requirements:
-        """What a linkage has to keep; raises E134 and E194."""
-        asked = Requirements(**self.asked)
-        of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
-        if not any(map(asked.allows, of_generators)):
-            allowed = sorted(asked.allowed_types or ())
-            raise InputError(
-                "E194",
-                f"no function generator that is made is a {listed(allowed, 'or')}",
-                help=f"give one or more of {listed(of_generators)}",
-            )
-        return asked
+Settings: TypeAlias = Mapping[
+    str, Any
+]  # beside the pairs, by the keys of a file; others are passed
+NOTHING: Final[Settings] = MappingProxyType({})
 
 
 def task_of_function(
@@ -75,7 +54,7 @@ def task_of_function(
     pairs: int | None = None,
     spacing: Spacing | None = None,
     opposite: bool = False,
-    settings: FunctionSettings = FunctionSettings(),  # noqa: B008  frozen
+    settings: Settings = NOTHING,
     source: Source | None = None,
 ) -> FunctionTask:
     """The task of a function over a range of x, by angles in degrees.
@@ -145,7 +124,7 @@ def task_of_pairs(
     inputs: FloatArray,
     outputs: FloatArray,
     weights: FloatArray | None = None,
-    settings: FunctionSettings = FunctionSettings(),  # noqa: B008  frozen
+    settings: Settings = NOTHING,
     where: Callable[[int], str] | None = None,
 ) -> FunctionTask:
     """The task of pairs of angles in degrees; raises E134, E191 and E194.
@@ -182,32 +161,43 @@ def task_of_pairs(
 def _task(
     inputs: FloatArray,
     outputs: FloatArray,
-    settings: FunctionSettings,
+    settings: Settings,
     function: SampledFunction | None,
     weights: FloatArray | None,
 ) -> FunctionTask:
-    if not 0 < settings.ground < 1e9:
+    ground = settings.get("ground", 1.0)
+    if not 0 < ground < 1e9:
         raise InputError(
             "E194",
-            f"the length of the ground link is {settings.ground:g}",
+            f"the length of the ground link is {ground:g}",
             help="give a number above 0 and below 1e+09",
         )
-    one, two = settings.input_phase_deg, settings.output_phase_deg
+    one, two = (settings.get(f"{name}_phase_deg") for name in ("input", "output"))
     for name, value in (("input", one), ("output", two)):
         if value is not None and not math.isfinite(value):
             raise InputError(
                 "E194", f"the {name} phase is {shown(value)}", help="give an angle in degrees"
             )
+    known = {each.name for each in KEPT}
+    asked = Requirements(**{name: value for name, value in settings.items() if name in known})
+    of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
+    if not any(map(asked.allows, of_generators)):
+        allowed = sorted(asked.allowed_types or ())
+        raise InputError(
+            "E194",
+            f"no function generator that is made is a {listed(allowed, 'or')}",
+            help=f"give one or more of {listed(of_generators)}",
+        )
     return FunctionTask(
         inputs,
         outputs,
         one and math.radians(one),
         two and math.radians(two),
         weights,
-        settings.ground,
+        ground,
         function,
-        settings.minimax,
-        settings.requirements,
+        settings.get("minimax", False),
+        asked,
     )
 
 

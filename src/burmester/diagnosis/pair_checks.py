@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import Advice
-from burmester.functions.function_task import FunctionTask
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.function_task import FunctionTask
 from burmester.wording import count, figure
 
 MOST_REVERSALS: Final = 2  # of the output of a four-bar over a turn of its input
