@@ -47,8 +47,10 @@ class AnyResult(Answer[Kind]):
         @property
         def candidates(self) -> tuple[Kind, ...]: ...
 
-        @property
-        def usable(self) -> tuple[Kind, ...]: ...
+    @property
+    def usable(self) -> tuple[Kind, ...]:
+        """Those that work, the best one first."""
+        return tuple(each for each in self.candidates if each.usable)
 
     @property
     def synthesis(self) -> Self:
