@@ -121,6 +121,36 @@ def test_forms_of_a_table_are_one_task():
         assert np.allclose(other.outputs, task.outputs)
 
 
+def test_a_table_of_pairs_is_read_as_one_of_poses_is():
+    """Titles, names, units, decimal commas and columns that are passed over."""
+    text = "Scale 7\nInput [°];Abtrieb (rad);t\n0;0;1\n15,5;0,25;2\n30;0,5;3\n"
+    task = read_function(text.encode(), "a.csv")
+    assert np.degrees(task.inputs).tolist() == pytest.approx([0, 15.5, 30])
+    assert task.outputs.tolist() == pytest.approx([0, 0.25, 0.5])
+    assert [each.code for each in task.notes] == ["W213", "W213"]
+    assert generate_function(read_function(text.encode(), "a.csv")).warnings[:2] == task.notes
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("input_deg\n1\n", "E105"),
+        ("output_deg\n1\n", "E105"),
+        ("input_deg,output_deg,exact\n1,2,yes\n", "E107"),
+        ("input,output_deg\n1,2\n", "E107"),
+        ("input_deg,input_rad,output_deg\n1,2,3\n", "E108"),
+        ("input_deg,output_deg\n1,2,3\n", "E106"),
+        ("input_deg,output_deg\n1,\n", "E104"),
+        ("# nothing\n", "E102"),
+    ],
+)
+def test_a_table_of_pairs_that_is_wrong_is_refused(text, code):
+    with pytest.raises(InputError) as caught:
+        read_function(text.encode(), "a.csv")
+    assert caught.value.code == code
+    assert caught.value.where.startswith("a.csv")
+
+
 def test_weights_count():
     weighted = PAIRS.replace("deg\n", "deg,weight\n", 1)
     head, *rows = weighted.split("\n")[0], *PAIRS.split("\n")[1:-1], "75,99"

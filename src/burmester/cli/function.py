@@ -20,7 +20,7 @@ from burmester.cli.output import (
 )
 
 if TYPE_CHECKING:
-    from burmester.errors import Advice, InputError
+    from burmester.errors import InputError
     from burmester.synthesis.function_generation import FunctionSynthesis
     from burmester.tasks.function_task import FunctionTask
 
@@ -138,12 +138,12 @@ def function(
     from burmester.synthesis.function_generation import generate_function
 
     task = _task(source, given)
-    notes = click.get_current_context().meta.get(NOTES, ())
+    task = replace(task, notes=(*click.get_current_context().meta.get(NOTES, ()), *task.notes))
     if check:
         for name, value in {**given, "plot": plot, "report": report, "file": file}.items():
             if name in NOT_CHECKED and value is not None:
                 raise contradiction(f"--check and {_option(name)} are given", "give one of the two")
-        return _check(task, source, notes, as_json=as_json)
+        return _check(task, source, as_json=as_json)
     for each in (file, plot, report):
         if each is not None:
             files.require_writable(each, force=force, source="" if task.function else source)
@@ -151,7 +151,6 @@ def function(
     name = os.path.basename(source) if os.path.exists(source) else source
     with working("looking for function generators"):
         synthesis = _judged(task, given) or generate_function(task)
-    synthesis = replace(synthesis, warnings=(*notes, *synthesis.warnings))
     hand_over(
         synthesis,
         file,
@@ -291,7 +290,7 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
     return judge_generator(task, result.choose(given["id"]).generator)
 
 
-def _check(task: FunctionTask, source: str, notes: tuple[Advice, ...], *, as_json: bool) -> int:
+def _check(task: FunctionTask, source: str, *, as_json: bool) -> int:
     """Show a function task and what stands out in it; returns the exit code."""
     from burmester.diagnosis.pair_checks import pair_findings
     from burmester.io.files import quoted
@@ -299,9 +298,9 @@ def _check(task: FunctionTask, source: str, notes: tuple[Advice, ...], *, as_jso
 
     findings = pair_findings(task)
     if as_json:
-        print_json(function_check_data(task, (*notes, *findings)))
+        print_json(function_check_data(task, (*task.notes, *findings)))
     else:
-        show_function_check(task, (*notes, *findings), console())
+        show_function_check(task, (*task.notes, *findings), console())
         if not findings:
             again = f"burmester function {quoted(source)}"
             more = " with the same options" if task.function else ""

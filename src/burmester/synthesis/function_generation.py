@@ -105,11 +105,9 @@ def generate_function(task: FunctionTask) -> FunctionSynthesis:
                 help=f"give {LEAST_PAIRS} pairs or more",
             )
         _require_no_parallelogram(task)
-        if pairs < task.exact_count:
-            return _by_phases(task)
-        if pairs == task.exact_count:
-            return _exactly(task)
-        return _nearly(task)
+        more = pairs - task.exact_count
+        found = _by_phases(task) if more < 0 else _nearly(task) if more else _exactly(task)
+        return replace(found, warnings=(*task.notes, *found.warnings))
 
 
 def judge_links(
@@ -142,7 +140,7 @@ def judge_generator(
         outcome = Outcome(
             "R361", f"the function generator does not work{placed}", _HELP, f"it {reasons}"
         )
-    return FunctionSynthesis(task, "judged", outcome, found)
+    return FunctionSynthesis(task, "judged", outcome, found, task.notes)
 
 
 def _require_no_parallelogram(task: FunctionTask) -> None:

@@ -13,6 +13,7 @@ from typing import Final, TypeAlias, final
 
 import numpy as np
 
+from burmester.errors import Advice
 from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.requirements import Requirements
@@ -65,6 +66,7 @@ class FunctionTask:
     function: what the pairs are taken from, if anything.
     minimax: whether the greatest error is to be least, instead of the sum of squares.
     requirements: what a linkage has to keep over the range: transmission, link ratio, types.
+    notes: what was assumed or passed over when the pairs were read.
     """
 
     inputs: FloatArray
@@ -76,6 +78,7 @@ class FunctionTask:
     function: SampledFunction | None = None
     minimax: bool = False
     requirements: Requirements = field(default=Requirements())
+    notes: tuple[Advice, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("inputs", "outputs"):

@@ -24,6 +24,7 @@ UNITS = {"deg": "degrees", "rad": "radians"}
 NUMERIC = ("x", "y", "angle", "weight")
 POINTS = ("px", "py", "qx", "qy")  # in place of x, y and angle
 DIRECTION = ("cos", "sin")  # of the angle, in its place
+PAIR = ("crank", "output")  # the input and the output angle of a function
 MARKS = {"yes": True, "true": True, "1": True, "x": True}  # of an exact pose, in small letters
 MARKS |= {"no": False, "false": False, "0": False, "": False}
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import PurePath
 from typing import Final
@@ -19,7 +19,6 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.io.reading.file_content import require_moderate
-from burmester.io.reading.functions.function_kind import ANGLE_COLUMNS, head_of
 from burmester.io.reading.functions.function_options import (
     KEPT,
     NOTHING,
@@ -27,9 +26,10 @@ from burmester.io.reading.functions.function_options import (
     task_of_function,
     task_of_pairs,
 )
-from burmester.io.reading.pose_table import SHEET_HEAD, Source, no_poses, shown
+from burmester.io.reading.pose_table import PAIR, Source, shown
 from burmester.io.reading.tables.cell_numbers import CellNumbers
-from burmester.io.reading.tables.grid import rows_of
+from burmester.io.reading.tables.header import read_header
+from burmester.io.reading.tables.pose_rows import require_width
 from burmester.io.reading.tables.text_source import text_source
 from burmester.io.reading.trees.documents import json_tree, toml_tree
 from burmester.io.reading.trees.node import Field, Fields, Node
@@ -40,71 +40,34 @@ from burmester.tasks.function_task import FunctionTask
 WEIGHT: Final = "weight"
 
 
-def _columns(names: Sequence[str], where: str | None) -> dict[str, tuple[int, str | None]]:
-    """The columns by role, input, output and perhaps weight, and their units.
-
-    Raises E105, E107 and E108.
-    """
-    columns: dict[str, tuple[int, str | None]] = {}
-    for index, name in enumerate(names):
-        if name.startswith("#") or not name:
-            continue
-        found = ANGLE_COLUMNS.fullmatch(name)
-        if found is None and name != WEIGHT:
-            raise InputError(
-                "E107",
-                f"the column {shown(name)} is not known here",
-                where=where,
-                help="the columns of a function are input_deg, output_deg and, if wanted, weight; "
-                f"name it `#{name}` to have it ignored",
-            )
-        role = found[1] if found else name
-        if role in columns:
-            raise InputError(
-                "E108", f"two columns for {role}", where=where, help="delete one of the two columns"
-            )
-        columns[role] = index, found and found[2]
-    for needed in ("input", "output"):
-        if needed not in columns:
-            raise InputError(
-                "E105",
-                f"the column of the {needed} is missing",
-                where=where,
-                help=f"add a column {needed}_deg with the angles of the {needed} link",
-            )
-    return columns
-
-
 def read_pairs(source: Source, settings: Settings) -> FunctionTask:
     """The task in a header and a pair a line."""
-    _, separator = head_of(source.text)
-    rows = list(rows_of(source, separator, len(SHEET_HEAD) if source.sheet else 0))
-    if not rows:
-        raise no_poses("the file has only comments")
-    head = rows.pop(0)
-    names = [name.lower() for name in map(head.value, range(len(head.cells)))]
-    columns = _columns(names, head.where())
-    own = CellNumbers(separator, stored=source.sheet is not None)
-    numbers: dict[str, list[float]] = {role: [] for role in columns}
-    for number, row in enumerate(rows, start=1):
-        if len(row.cells) != len(names):
+    grid = read_header(source, None)
+    indices, units = grid.columns.indices, grid.columns.units
+    for role, index in indices.items():
+        if role not in (*PAIR, WEIGHT) or (role in PAIR and units[role] is None):
             raise InputError(
-                "E106",
-                f"{len(row.cells)} cells where the header has {len(names)}",
-                where=row.where(),
-                help=f"give {len(names)} cells in every row",
+                "E107",
+                f"the column {shown(grid.names[index])} is not known here",
+                where=grid.where,
+                help="the columns of a function are input_deg, output_deg and, if wanted, weight; "
+                f"name it `#{grid.names[index]}` to have it ignored",
             )
-        for role, (column, unit) in columns.items():
-            where = partial(row.where, column, role)
-            quoted = '"' in row.cells[column]
-            text = own.read(row.value(column), number, where, unit=unit, quoted=quoted)
-            numbers[role].append(math.degrees(float(text)) if unit == "rad" else float(text))
-    own.require_one_mark()
-    arrays = {role: np.array(values) for role, values in numbers.items()}
-    weights = arrays.get(WEIGHT)
-    require_weights(weights, head.where())
-    inputs, outputs = arrays["input"], arrays["output"]
-    return task_of_pairs(inputs, outputs, weights, settings, where=lambda k: rows[k].where())
+    numbers = CellNumbers(grid.separator, stored=source.sheet is not None)
+    values: dict[str, list[float]] = {role: [] for role in indices}
+    rows = list(grid.rows())
+    for number, row in enumerate(rows, start=1):
+        require_width(row, grid, number)
+        for role, index in indices.items():
+            where, quoted = partial(row.where, index, role), '"' in row.cells[index]
+            text = numbers.read(row.value(index), number, where, unit=units[role], quoted=quoted)
+            values[role].append(math.degrees(float(text)) if units[role] == "rad" else float(text))
+    numbers.require_one_mark()
+    inputs, outputs = (np.array(values[role]) for role in PAIR)
+    weights = np.array(values[WEIGHT]) if WEIGHT in values else None
+    require_weights(weights, grid.where)
+    task = task_of_pairs(inputs, outputs, weights, settings, where=lambda k: rows[k].where())
+    return replace(task, notes=(*source.notes, *grid.notes, *grid.columns.notes()))
 
 
 def require_weights(weights: FloatArray | None, where: str | None) -> None:

@@ -11,7 +11,7 @@ import re
 import unicodedata
 from typing import NamedTuple
 
-from burmester.io.reading.pose_table import POINTS
+from burmester.io.reading.pose_table import PAIR, POINTS
 
 IGNORED = ""  # the role of a column that is left alone
 MAX_NAME_CHARACTERS = 60  # characters of a name; a longer one is not compared with known ones
@@ -41,6 +41,7 @@ WORDS: dict[str, str] = {
     "crank": "crank, crank angle, drive, drive angle, driver angle, input, input angle, Kurbel, "
     "Kurbelwinkel, Antriebswinkel, manivelle, angle de manivelle, manivela, ángulo de manivela, "
     "manovella, angolo di manovella, 曲柄, 曲柄角, クランク, クランク角",
+    "output": "output, output angle, Abtrieb, Abtriebswinkel, sortie, salida, uscita",
     "time": "time, t, Zeit, temps, tiempo, tempo, 时间, 時間, 時刻",
     "frame": "frame, index, __index_level_0__, Bild, image, fotograma, 帧, フレーム",
     "remark": "remark, remarks, comment, comments, Bemerkung, Bemerkungen, Kommentar, Anmerkung, "
@@ -132,7 +133,8 @@ def _words() -> dict[str, str]:
 @functools.cache
 def _units(role: str) -> dict[str, tuple[str, ...]]:
     """The plain words of each unit that a role may have."""
-    tables = {"angle": _ANGLES, "tol_angle": _ANGLES, "crank": _ANGLES, "time": _TIMES}
+    tables = {"angle": _ANGLES, "tol_angle": _ANGLES, "time": _TIMES}
+    tables |= dict.fromkeys(PAIR, _ANGLES)
     tables |= dict.fromkeys(("x", "y", "z", "tol_x", "tol_y", *POINTS), _LENGTHS)
     return {
         unit: tuple(map(_plain, text.split(", "))) for unit, text in tables.get(role, {}).items()

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from burmester.errors import Advice, InputError
-from burmester.io.reading.pose_table import DIRECTION, NUMERIC, POINTS, brief, shown
+from burmester.io.reading.pose_table import DIRECTION, NUMERIC, PAIR, POINTS, brief, shown
 from burmester.io.reading.stated_tolerances import TOLERANCE_ROLES
 from burmester.io.reading.tables.column_words import (
     IGNORED,
@@ -94,14 +94,19 @@ class Columns(NamedTuple):
 
 
 def is_header(names: Sequence[str]) -> bool:
-    """Whether all these are names of columns, and of enough of them for a pose or a point."""
+    """Whether all these are names of columns, and of enough for a pose, a point or a pair."""
     words = list(map(_known, names))
-    return None not in words and _have(words, NUMERIC[:2], POINTS)
+    return None not in words and _have(words, NUMERIC[:2], POINTS, PAIR)
 
 
 def has_poses(names: Sequence[str]) -> bool:
     """Whether enough of these are names of columns for a pose, whatever the others are."""
     return _have(map(_known, names[:1000]), NUMERIC[:3], _WITH_DIRECTION, POINTS)
+
+
+def has_pairs(names: Sequence[str]) -> bool:
+    """Whether these are the columns of a function's pairs, whatever is wrong with them."""
+    return _have(map(_known, names[:1000]), PAIR[1:]) and not has_poses(names)
 
 
 def _have(words: Iterable[Word | None], *some: tuple[str, ...]) -> bool:
@@ -192,6 +197,14 @@ def _require_poses(
         help = "keep x, y and the angle, or px, py, qx and qy, and delete the other columns"
         where_point = where(indices[points[0]])
         raise InputError("E108", message, where=where_point, help=help)
+    absent = [role for role in PAIR if role not in indices]
+    if not (points or body or unknown) and len(absent) < len(PAIR):
+        if absent:
+            end = "input" if absent == ["crank"] else "output"
+            message = f"the column of the {end} is missing"
+            help = f"add a column {end}_deg with the angles of the {end} link"
+            raise InputError("E105", message, where=where(None), help=help)
+        return ()
     needed = POINTS if points else _WITH_DIRECTION if direction else NUMERIC[:3]
     missing = [role for role in needed if role not in indices]
     if missing == ["angle"] and not unknown:

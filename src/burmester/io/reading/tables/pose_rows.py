@@ -187,7 +187,7 @@ def _checked_rows(
     for count, row in enumerate(lines, 1):
         number = first + count - 1
         if len(row.cells) != len(grid.names) or grid.unnamed:
-            _require_width(row, grid, number)
+            require_width(row, grid, number)
         for role, index in indices.items():
             if role == "free":
                 continue
@@ -287,7 +287,7 @@ def _texts(grid: Grid, numbers: CellNumbers, index: int, role: str) -> list[str]
     return [numbers.text(row.value(index), role) for row in grid.rows()]
 
 
-def _require_width(row: Row, grid: Grid, number: int) -> None:
+def require_width(row: Row, grid: Grid, number: int) -> None:
     """Refuse a row with more or fewer cells than the header (E106), or one below no name (E107)."""
     cells, given, needed, separator = row.cells, len(row.cells), len(grid.names), grid.separator
     width = needed + grid.spare
