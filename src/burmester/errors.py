@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, final
 
+from burmester.cures import Face, for_command, said
+
 
 class BurmesterError(Exception):
     """An error that a user can act on.
@@ -58,9 +60,9 @@ class BurmesterError(Exception):
         self.why = why
         self.help = help
 
-    def to_dict(self) -> dict[str, str | None]:
-        """The five fields, as JSON and pages have them."""
-        return {name: getattr(self, name) for name in ("code", "message", "where", "why", "help")}
+    def to_dict(self, face: Face = for_command) -> dict[str, str | None]:
+        """The five fields as JSON has them, or as another face says what helps."""
+        return _fields(self, ("code", "message", "where", "why", "help"), face)
 
     def __str__(self) -> str:
         lines = [f"error[{self.code}]: {self.message}"]
@@ -103,9 +105,9 @@ class Advice:
     help: str | None = None
     why: str | None = None
 
-    def to_dict(self) -> dict[str, str | None]:
-        """The four fields, as JSON and pages have them."""
-        return {name: getattr(self, name) for name in ("code", "message", "why", "help")}
+    def to_dict(self, face: Face = for_command) -> dict[str, str | None]:
+        """The four fields as JSON has them, or as another face says what helps."""
+        return _fields(self, ("code", "message", "why", "help"), face)
 
 
 @final
@@ -132,6 +134,11 @@ class Finding:
     def code(self) -> str:
         """Its kind as a code."""
         return self.kind.replace(" ", "-")
+
+
+def _fields(of: object, names: tuple[str, ...], face: Face) -> dict[str, str | None]:
+    values = {name: getattr(of, name) for name in names}
+    return {name: value and said(value, face) for name, value in values.items()}
 
 
 def library(name: str, purpose: str, extra: str) -> Any:

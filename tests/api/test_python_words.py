@@ -27,7 +27,7 @@ def test_a_file_that_is_there(result, tmp_path):
         path = tmp_path / name
         call(path)
         help = helped(call, path)
-        assert help == "give another name, or give force=True to replace it"
+        assert help == "give another name, or add force=True to replace it"
         call(path, force=True)
 
 

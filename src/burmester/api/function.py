@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.api.linkage import as_type
+from burmester.api.python_words import in_python_words
 from burmester.api.result import AnyResult, Result
 from burmester.api.synthesize import require_callable
 from burmester.describe import generator_words
@@ -180,5 +181,5 @@ def synthesize_function(
         rows = real_numbers(function, (None, 2), "the pairs")
         rows = rows if angle_unit == "deg" else np.degrees(rows)
         task = task_of_pairs(rows[:, 0], rows[:, 1], None, settings)
-    with shown(progress):
+    with in_python_words(), shown(progress):
         return FunctionGenerators.of(generate_function(task))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from numpy.typing import ArrayLike
 
 from burmester.api.linkage import ResultSixBar
+from burmester.api.python_words import in_python_words
 from burmester.api.result import Result
 from burmester.api.synthesize import require_callable, task_of
 from burmester.geometry.displacement import Displacement
@@ -86,6 +87,6 @@ def synthesize_six_bars(
     require_callable(progress)
     task = task_of(poses, angle_unit, length_unit)
     options = SixBarOptions(chains, seed, most, kind)
-    with shown(progress):
+    with in_python_words(), shown(progress):
         how = SynthesisOptions(time_limit=time_limit)
         return Result.of(road.synthesize_six_bars(task, options, how))

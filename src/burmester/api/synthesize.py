@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
+from burmester.api.python_words import in_python_words
 from burmester.api.result import Result
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
@@ -127,7 +128,7 @@ def synthesize(
     task = task_of(poses, angle_unit, length_unit)
     if crank is not None:
         task = replace(task, timing=_timing(crank, task, angle_unit))
-    with shown(progress):
+    with in_python_words(), shown(progress):
         return Result.of(motion_generation.synthesize(task, options))
 
 

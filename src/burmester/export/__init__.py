@@ -17,6 +17,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Final, final
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.options import Options
 from burmester.io.files import atomic_file
@@ -141,7 +142,7 @@ def require_format(path: str | os.PathLike[str], to: str | None = None) -> str:
         if to is None
         else f"there is no format {to!r}",
         why=f"the formats are {', '.join(FORMATS)}",
-        help="give --to dxf, or another of these",
+        help=Help.of("give {}, or another of these", Cure("to", "dxf")),
     )
 
 
@@ -198,7 +199,7 @@ def export(
             "E198",
             f"a six-bar cannot be written as {name}: {form.what}",
             why=f"the formats of six-bars are {listed(SIX_BAR_FORMATS)}",
-            help="give --to csv, or another of these",
+            help=Help.of("give {}, or another of these", Cure("to", "csv")),
         )
     try:
         for library in form.libraries:

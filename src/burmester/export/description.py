@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
+from burmester.cures import Help
 from burmester.describe import six_bar_words
 from burmester.describe.decimals import Decimals, decimals_of_linkage, figures_of
 from burmester.describe.dimensions import dimensions_of
-from burmester.export.options import Options, stated_unit, unit_of
+from burmester.export.options import Options, stated_unit, unit_cure, unit_of
 from burmester.export.reference import Reference
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import ROUNDING
@@ -43,14 +44,10 @@ def description(chosen: Candidate, options: Options, unit: str | None) -> list[s
         sentences.append(f"Lengths are{in_unit(unit)}; the task's are{in_unit(own)}.")
     if chosen.unit != own:
         of = "names no unit of length" if chosen.unit is None else f"is{in_unit(chosen.unit)}"
-        sentences.append(
-            f"The task {of}: one of its units is taken for 1 {own}"
-            + (
-                f", as --length-unit {own} states."
-                if options.unit
-                else "; --length-unit states another."
-            )
-        )
+        says = (", as ", unit_cure(own), " states.")
+        if not options.unit:
+            says = ("; ", unit_cure(), " states another.")
+        sentences.append(Help(f"The task {of}: one of its units is taken for 1 {own}", *says))
     return sentences
 
 

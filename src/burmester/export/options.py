@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.synthesis.result import Candidate
 from burmester.wording import in_unit
@@ -59,6 +60,12 @@ class Options:
     width_px: int = 800
 
 
+def unit_cure(unit: str | None = None) -> Cure:
+    """What states a unit of lengths."""
+    named = f"the option unit {unit}" if unit else "the option unit"
+    return Cure("unit", unit, "--length-unit", words=named)
+
+
 def unit_of(chosen: Candidate, options: Options) -> str:
     """The unit of the linkage's lengths, a key of `MILLIMETRES`; raises E162.
 
@@ -72,21 +79,21 @@ def unit_of(chosen: Candidate, options: Options) -> str:
             "E162",
             f"there is no unit {stated!r}",
             why=f"the units are {known}",
-            help="give --length-unit mm",
+            help=Help.of("give {}", unit_cure("mm")),
         )
     if own in MILLIMETRES and stated is not None and own != stated:
         raise InputError(
             "E162",
             f"the lengths of this linkage are{in_unit(own)}, not{in_unit(stated)}",
             why="the poses state that unit",
-            help="leave --length-unit out",
+            help=Help.of("leave {} out", unit_cure()),
         )
     if stated is None and own is not None and own not in MILLIMETRES:
         raise InputError(
             "E162",
             f"how long one {own} is has to be known for this format",
             why=f"the lengths of this linkage are{in_unit(own)}, and the units are {known}",
-            help=f"say what one {own} counts as: --length-unit mm",
+            help=Help(f"say what one {own} counts as: ", unit_cure("mm")),
         )
     return own if own in MILLIMETRES else stated or "mm"
 

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.description import description
 from burmester.export.escaping import python_docstring
@@ -133,7 +134,9 @@ def _reference(chosen: FoundLinkage, options: Options) -> tuple[Reference, list[
             why="it has no slot on a moving body (RP)"
             if slot
             else "it has no body that only translates (PP)",
-            help="choose a linkage of RR and PR dyads, or --to mjcf, which has slots"
+            help=Help.of(
+                "choose a linkage of RR and PR dyads, or {}, which has slots", Cure("to", "mjcf")
+            )
             if slot
             else "choose another linkage",
         )

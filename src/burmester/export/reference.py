@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Self, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from burmester.cures import Cure, Help
 from burmester.errors import BurmesterError, InputError
 from burmester.export.options import MILLIMETRES, Options, unit_of
 from burmester.fourbar.bodies import bodies_of_four_bar, places_of_bodies, scaled_linkage
@@ -134,7 +135,7 @@ def require_places(chosen: FoundLinkage) -> None:
             "E163",
             f"linkage {chosen.id} has no place for pose {missing.argmax() + 1}",
             why="its links cannot be put together near that pose",
-            help="choose another linkage, one that is usable, with --linkage",
+            help=Help.of("choose another linkage, one that is usable, with {}", Cure("linkage")),
         )
 
 

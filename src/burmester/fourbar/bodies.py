@@ -6,6 +6,7 @@ from typing import Final
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
@@ -100,5 +101,5 @@ def scaled(dyad: Dyad, scale: float) -> RR | PR | RP:
         "E163",
         "this linkage cannot be made of links with pins and slots",
         why="its body only translates, on two sliders of which one carries the other",
-        help="choose another linkage, or write this one as JSON: --to json",
+        help=Help.of("choose another linkage, or write this one as JSON: {}", Cure("to", "json")),
     )

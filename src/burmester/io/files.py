@@ -22,6 +22,7 @@ from contextlib import contextmanager, suppress
 from io import FileIO
 from pathlib import Path
 
+from burmester.cures import Cure, Help
 from burmester.errors import BurmesterError, InputError
 from burmester.printable import printable
 from burmester.signals import unfinished
@@ -243,7 +244,8 @@ def _name_target(error: Exception, temporary: Path, given: str) -> None:
 
     error.args = tuple(named(each) if isinstance(each, str) else each for each in error.args)
     for field in ("message", "where", "why", "help"):
-        if isinstance(error, BurmesterError) and (text := getattr(error, field)):
+        text = getattr(error, field, None) if isinstance(error, BurmesterError) else None
+        if text and named(text) != text:  # else what it knows beside its words is kept
             setattr(error, field, named(text))
 
 
@@ -314,8 +316,9 @@ def _sweep(target: Path) -> None:
 
 
 def _exists(given: str) -> InputError:
-    help = "give another name, or add --force to replace it"
-    link = "it is a symbolic link; --force replaces the link, and what it leads to stays"
+    force = Cure("force", True)
+    help = Help.of("give another name, or add {} to replace it", force)
+    link = Help.of("it is a symbolic link; {} replaces the link, and what it leads to stays", force)
     why = link if os.path.islink(given) else None
     return InputError("E140", f"{_plain(given)} exists already", why=why, help=help)
 

@@ -30,6 +30,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from burmester.api.result import Result
+from burmester.cures import for_page
 from burmester.errors import InputError
 from burmester.live.answers import LiveAnswers
 from burmester.live.document import TaskReader
@@ -261,7 +262,7 @@ class Pages:
 
 
 def _report_of(result: Result) -> dict[str, Any]:
-    return {**report_data(result), **dict.fromkeys(NOT_DRAWN)}
+    return {**report_data(result, for_page), **dict.fromkeys(NOT_DRAWN)}
 
 
 @contextmanager

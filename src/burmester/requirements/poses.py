@@ -26,6 +26,7 @@ WITHIN: Final = Requirement(
     metavar="LENGTH",
     help="Largest position error allowed at a pose.",
     subject="the greatest acceptable error is",
+    words="a position error of at most {:g}".format,
     such="within is one length in the unit of the poses, such as 0.5",
     checked=checked_number(
         "the greatest acceptable error",
@@ -43,6 +44,7 @@ WITHIN_ANGLE: Final = Requirement(
     help="Largest angle error allowed at a pose; by default the angle that counts as much as "
     "the position error of --within.",
     subject="the greatest acceptable angle error is",
+    words="an angle error of at most {:g}°".format,
     such="within_deg is one angle in degrees, such as 2",
     checked=checked_number(
         "the greatest acceptable angle error",
@@ -58,6 +60,7 @@ ANY_ORDER: Final = Requirement(
     default=False,
     option="--any-order",
     help="The poses may be met in any order.",
+    words=lambda _any: "any order of the poses",
     subject="the order of the poses is",
     such="write true or false",
     checked=_flag,

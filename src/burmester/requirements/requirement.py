@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 
+from burmester.cures import Cure
 from burmester.errors import InputError
 
 if TYPE_CHECKING:  # options are told without NumPy
@@ -42,7 +43,7 @@ class Requirement:
         standard is in spans of the motion.
     short: how a linkage falls short of the standard, after "it"; takes lengths with their unit.
     assumed: bounds of a family where nothing is asked, at first and where nothing keeps them;
-    words: such a bound in words.  useful: what is kept even where the bound is dropped.
+    words: a bound that is asked for.  useful: what is kept even where the bound is dropped.
     form: how it is written; None where nobody asks for it.  default: what asks for nothing.
     option, metavar, help: on the command line; `subject` "is given twice".
     such: what stands in a file.
@@ -61,7 +62,7 @@ class Requirement:
     scaled: bool = False
     short: Callable[[Figures, Callable[[float], str]], str] = lambda _figures, _length: ""
     assumed: tuple[float, ...] = ()
-    words: Callable[[float], str] = str
+    words: Callable[[Any], str] = lambda _bound: ""
     useful: float | None = None
     form: Form | None = None
     default: Any = None
@@ -86,10 +87,16 @@ class Requirement:
         """The name of the option's value in a command."""
         return self.name if self.form == "names" else self.option[2:].replace("-", "_")
 
-    def cure(self, bound: Any, figures: Figures) -> str | None:
-        """The option with which the linkage of some figures keeps it; None where none helps."""
+    def given(self, bound: Any = None) -> Cure:
+        """What asks for a bound; None: for one that is left open."""
+        if bound is None:
+            return Cure(self.name, None, self.option, words=self.subject.rpartition(" ")[0])
+        return Cure(self.name, bound, self.option, self.written(bound), self.words(bound))
+
+    def cure(self, bound: Any, figures: Figures) -> Cure | None:
+        """With what the linkage of some figures keeps it; None where nothing helps."""
         looser = self.looser(bound, figures, 1.0)
-        return None if looser is None else f"{self.option} {self.written(looser.bound)}"
+        return None if looser is None else self.given(looser.bound)
 
 
 Bounds: TypeAlias = Mapping[Requirement, Any]

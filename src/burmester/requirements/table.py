@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from burmester.cures import Cure
     from burmester.numerics.arrays import FloatArray
     from burmester.requirements.figures import Figures
 
@@ -85,8 +86,8 @@ def violations(bounds: Bounds, figures: Figures, unit: str | None) -> tuple[Find
     )
 
 
-def cured(violated: Sequence[Finding], asked: Bounds, figures: Figures) -> list[str] | None:
-    """The options with which one linkage keeps what it violates; None where no option helps."""
+def cured(violated: Sequence[Finding], asked: Bounds, figures: Figures) -> list[Cure] | None:
+    """With what one linkage keeps what it violates; None where nothing helps."""
     of_kind = {each.kind: each for each in asked}
     cures = [
         each.kind in of_kind and of_kind[each.kind].cure(asked[of_kind[each.kind]], figures)

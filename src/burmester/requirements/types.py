@@ -107,6 +107,7 @@ TYPE: Final = Requirement(
     metavar="NAME[,NAME]",
     help="Types of linkage allowed; see NAME below.",
     subject="the types are",
+    words=lambda types: f"the type {types_in_words(types)}",
     such='types is a list of names, such as ["crank-rocker", "double-crank"]',
     checked=lambda given: frozenset(_type_names(given)),
     looser=_looser,
@@ -137,4 +138,5 @@ DRIVER: Final = Requirement(
     checked=_driver,
     looser=lambda _bound, _figures, _share: Looser("any", "any driver", 1.0),
     written=str,
+    words="{} driver".format,
 )

@@ -8,6 +8,7 @@ from typing import Final, final
 
 import numpy as np
 
+from burmester.cures import Help
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box_around
@@ -19,6 +20,7 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.assumptions import FIXED_PIVOT, MOVING_PIVOT
 from burmester.wording import listed
 
 POSES: Final = 5  # that a 3R chain with two added dyads meets
@@ -64,9 +66,10 @@ class SearchSpace:
         far = length_of(REACH * size, task)
         if around in fixed:
             words = f"fixed pivots within {far} of the body's origin at the poses"
-            assumed.append((words, "--fixed-pivot"))
+            assumed.append((words, Help(FIXED_PIVOT)))
         if own in moving:
-            assumed.append((f"moving pivots within {far} of the origin of M", "--moving-pivot"))
+            words = f"moving pivots within {far} of the origin of M"
+            assumed.append((words, Help(MOVING_PIVOT)))
         conditions = Conditions(
             crank=asked.driver == "crank",
             any_order=asked.any_order,

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from burmester.cures import for_page
 from burmester.dyads.pivot_map import fixed_pivot_map, moving_pivot_map
 from burmester.dyads.selection import FoundDyad
 from burmester.dyads.three_poses import dyad_with_fixed_pivot, dyad_with_moving_pivot
@@ -47,14 +48,14 @@ def placed(task: Task, pivots: Any, options: SynthesisOptions, frames: int) -> d
     try:
         judged = judge_linkage(task, Linkage(*dyads), options)
     except InputError as error:
-        return {**answer, "messages": [error.to_dict()]}
+        return {**answer, "messages": [error.to_dict(for_page)]}
     (one, two), first = judged.linkages[0].dyads, judged.linkages[0]
     first = replace(first, dyads=(replace(one, id="P1"), replace(two, id="P2")))
     return {
         **answer,
         "linkage": linkage_report(judged, first, frames),
         "cost": {"rms": number(first.error.rms), "worst": number(first.error.worst)},
-        "messages": [judged.outcome.to_dict()],
+        "messages": [judged.outcome.to_dict(for_page)],
     }
 
 

@@ -12,6 +12,7 @@ import json
 from collections.abc import Callable
 from typing import Any, Final, Protocol, TypeAlias
 
+from burmester.cures import for_page
 from burmester.errors import BurmesterError, InputError
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.result import json_line, synthesis_data
@@ -94,7 +95,7 @@ class SessionWorker:
             columns=columns if isinstance(columns, str) else None,
             closed=given.get("closed") is True,
         )
-        notes = [each.to_dict() for each in task.notes]
+        notes = [each.to_dict(for_page) for each in task.notes]
         return _json({"document": document_of(task), "notes": notes})
 
     def check(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
@@ -131,7 +132,7 @@ class SessionWorker:
         """The page of the result, as a file."""
         name = plain_name(given.get("name"))
         known = given.get(KNOWN)
-        data = known[1] if known else as_json(report_data(self._solved(head, given)))
+        data = known[1] if known else as_json(report_data(self._solved(head, given), for_page))
         return {"kind": "file", "name": f"{name}.html"}, report_page(data, name)
 
     def _result(self, head: dict[str, Any], given: Any) -> bytes:
@@ -160,7 +161,9 @@ class SessionWorker:
         assert isinstance(chosen, FoundLinkage)  # the page has no others
         options = options_of(given.get("options"), head.get("time_limit"))
         task = task_of(given.get("document"))
-        return _json(report_data(judge_linkage(task, chosen.driver_first, options, improve=True)))
+        return _json(
+            report_data(judge_linkage(task, chosen.driver_first, options, improve=True), for_page)
+        )
 
     def solve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The whole search: the result as a file holds it first, then what the page draws."""
@@ -171,7 +174,7 @@ class SessionWorker:
             synthesis = synthesize(task, options)
         self._live.begin_at(synthesis)
         job.send({"kind": "result"}, json_line(synthesis_data(synthesis)).encode())
-        return {"kind": "solved"}, as_json(report_data(synthesis))
+        return {"kind": "solved"}, as_json(report_data(synthesis, for_page))
 
     def again(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Back to the last synthesis, wherever its answers have been followed to."""

@@ -9,6 +9,7 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.cures import Cure, Help
 from burmester.dyads.five_poses import FivePoseDyads, dyads_of_five
 from burmester.dyads.local_minima import (
     BestDyads,
@@ -185,7 +186,11 @@ def with_method(problem: SynthesisProblem) -> SynthesisProblem:
         raise InputError(
             "E123",
             f"only the pencil can be fitted raw, not the {method} method",
-            help="leave --raw out, or use --method pencil",
+            help=Help.of(
+                "leave {} out, or use {}",
+                Cure("normalise", option="--raw"),
+                Cure("method", "pencil"),
+            ),
         )
     conditions = {
         "limits": bool(task.limits),
@@ -198,7 +203,7 @@ def with_method(problem: SynthesisProblem) -> SynthesisProblem:
             "E123",
             f"the pencil knows nothing of {first}",
             why="it fits one pencil of quadrics to all poses alike",
-            help="use --method complete",
+            help=Help.of("use {}", Cure("method", "complete")),
         )
     if options.certify and (first is not None or method == "pencil"):
         raise InputError(
@@ -207,7 +212,9 @@ def with_method(problem: SynthesisProblem) -> SynthesisProblem:
             why="the pencil's dyads are not the best ones"
             if first is None
             else f"this task has {first}",
-            help="leave --certify out" + ("" if first is None else ", or what it has"),
+            help=Help(
+                "leave ", Cure("certify"), " out" if first is None else " out, or what it has"
+            ),
         )
     _require_poses(problem, method)
     return replace(problem, options=replace(options, method=method))
@@ -253,5 +260,5 @@ def _require_poses(problem: SynthesisProblem, method: Method) -> None:
             "E121",
             f"the {method} method takes {needs[method]}, not {number}",
             why="up to five poses are met exactly, six or more only by chance",
-            help="leave --method out, and the number of poses decides",
+            help=Help.of("leave {} out, and the number of poses decides", Cure("method")),
         )

@@ -18,6 +18,7 @@ from typing import Final, Literal, TypeAlias
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import Advice, InputError
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import exact_generators, generators_of_phases
@@ -42,9 +43,10 @@ from burmester.wording import count, figure, listed
 
 LEAST_PAIRS: Final = 3
 SAME_ANGLE: Final = 1e-9  # radians; outputs that turn with the input but for less do so exactly
-_HELP: Final = (
-    "change the range of the input or of the output, turn the output the other way (--opposite for "
-    "a function), or leave the phases open"
+_HELP: Final = Help.of(
+    "change the range of the input or of the output, turn the output the other way ({} for a "
+    "function), or leave the phases open",
+    Cure("opposite", True),
 )
 COUPLER_PLACES: Final = 13  # of the coupler over the range of a function, for export and report
 FunctionMethod: TypeAlias = Literal["exact", "phases", "least squares", "minimax", "judged"]
@@ -199,7 +201,11 @@ def _by_phases(task: FunctionTask) -> FunctionSynthesis:
     note = Advice(
         "W231",
         f"phases were chosen from a grid, where {best}",
-        f"give {count(needed, 'pair')} more, or phases with --input-phase and --output-phase",
+        Help.of(
+            f"give {count(needed, 'pair')} more, or phases with {{}} and {{}}",
+            Cure("input_phase_deg", option="--input-phase"),
+            Cure("output_phase_deg", option="--output-phase"),
+        ),
         f"{count(len(task.inputs), 'pair')} and {count(task.free_phases, 'open phase')} leave "
         f"infinitely many linkages; {family.tried} were tried, and {family.working} work",
     )
@@ -220,8 +226,11 @@ def _nearly(task: FunctionTask) -> FunctionSynthesis:
                 Advice(
                     "W230",
                     f"{reached} of {solutions} critical points of the residual were reached",
-                    "change a range a little and compare, or ask for five pairs (--pairs 5), of "
-                    "which no solution is missing",
+                    Help.of(
+                        "change a range a little and compare, or ask for five pairs ({}), of "
+                        "which no solution is missing",
+                        Cure("pairs", 5),
+                    ),
                     "the others lie at infinity, or too close together to be told apart",
                 )
             )
@@ -279,8 +288,9 @@ def _loosened(found: tuple[FoundGenerator, ...], task: FunctionTask) -> str:
         if some:
             best = min(some, key=lambda one: float(each.excess(one.figures, bound)))
             error = figure(math.degrees(best.max_error)) if best.max_error > MET else 0
-            ways.append(f"{each.cure(bound, best.figures)} ({best.id}, {error}°)")
-    return f"ask for less: {listed(ways, 'or')}" if ways else ""
+            cure = each.cure(bound, best.figures) or each.option
+            ways.append(Help.of(f"{{}} ({best.id}, {error}°)", cure))
+    return Help.of("ask for less: {}", Help.listed(ways, "or")) if ways else ""
 
 
 def coupler_synthesis(found: FoundGenerator, inputs: FloatArray | None = None) -> Synthesis:

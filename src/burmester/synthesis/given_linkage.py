@@ -15,6 +15,7 @@ from typing import TypeAlias, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from burmester.cures import Cure, Help
 from burmester.errors import Advice, InputError
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
@@ -72,7 +73,7 @@ class OpenLink:
                 "E158",
                 "the length of a link is not given, and points do not determine it",
                 why="they say where the body's origin is, and not where its other points are",
-                help="give the length of the link of each dyad with --length",
+                help=Help.of("give the length of the link of each dyad with {}", Cure("length")),
             )
         share = weights_or_ones(task.weights, turned.shape)[turned]
         if task.exact is not None and task.exact.any():
@@ -107,8 +108,11 @@ def _spread_advice(name: str, link: OpenLink, task: Task) -> Advice | None:
         "W219",
         f"the poses put the pivots of {name} from {ends} apart, and a link has one length: "
         f"{length_of(taken, task)} is taken",
-        "check both pivots (the fixed one is in the frame of the ground, the moving one in that of "
-        "the body), or give the length with --length",
+        Help.of(
+            "check both pivots (the fixed one is in the frame of the ground, the moving one in "
+            "that of the body), or give the length with {}",
+            Cure("length"),
+        ),
         "the length with the least sum of squares over the poses is taken, or over the exact ones",
     )
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.cures import Cure, Help
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import Advice, InputError
 from burmester.families.family import best_of_family
@@ -69,7 +70,9 @@ def judge_linkage(
             "E159",
             "better linkages are not looked for where the crank times the points",
             why="the search near a linkage keeps to points, and not to the angles of its crank",
-            help="leave --improve out, and compare with what `burmester synthesize` finds",
+            help=Help.of(
+                "leave {} out, and compare with what `burmester synthesize` finds", Cure("improve")
+            ),
         )
     with limited(options.time_limit) as watch:
         return with_time_limit(_judgement(task, linkage, options, improve), watch)
@@ -227,7 +230,8 @@ def _exact_note(error: PoseError, task: Task, size: float) -> str | None:
 def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improve: bool) -> Outcome:
     """R330 or R331 of the first linkage, the given one, and what to do."""
     found, *near = linkages
-    outcome, options = judged_outcome(found, problem), []
+    outcome = judged_outcome(found, problem)
+    ways: list[str] = []
     message = outcome.message
     if improve and found.usable:
         message += f"; {count(len(near), 'better one')} near it"
@@ -238,13 +242,11 @@ def _outcome(linkages: Sequence[FoundLinkage], problem: SynthesisProblem, improv
             else ("; none was found near it that does")
         )
     elif (not found.usable or found.shortcomings) and not _is_timed(problem.given):
-        options.append(
-            f"look for {'better ones near it' if found.usable else 'one near it that works'} "
-            "with --improve"
-        )
+        better = "better ones near it" if found.usable else "one near it that works"
+        ways.append(Help.of(f"look for {better} with {{}}", Cure("improve", True)))
     if not found.usable:
-        options.append(hints([found], problem))
-    return replace(outcome, message=message, help="; or ".join(options) or None)
+        ways.append(hints([found], problem))
+    return replace(outcome, message=message, help=Help.joined("; or ", ways) or None)
 
 
 def judged_outcome(found: Candidate, problem: SynthesisProblem) -> Outcome:

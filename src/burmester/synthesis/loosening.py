@@ -13,8 +13,10 @@ from typing import final
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.regions import Polygon
+from burmester.requirements.footprint import FOOTPRINT
 from burmester.synthesis.cleared_region import cleared
 from burmester.synthesis.wider_region import DIGITS, plain, region_text, wider, wider_all_around
 from burmester.tasks.limits import KINDS
@@ -31,7 +33,7 @@ from burmester.wording import figure, listed
 class Loosening:
     """One limit of a task loosened, the others as they are.
 
-    message: what is looser, and by how much; option: what to type, or to write in the file.
+    message: what is looser, and by how much; option: what to state instead.
     size: how much, in motion sizes, radians or as the logarithm of a ratio; 1 for what is allowed
         or not.
     task: with the looser limit.  found: a linkage that keeps all but that limit of the task as
@@ -96,7 +98,8 @@ def _footprint(
         return None
     assert isinstance(told.region, Polygon)
     changed = replace(task, requirements=replace(task.requirements, footprint=told.region))
-    option, words = f"--footprint {region_text(told.region)}", f"a footprint {told.words}"
+    words = f"a footprint {told.words}"
+    option = Help(replace(FOOTPRINT.given(told.region), text=region_text(told.region)))
     return Loosening(limit, words, option, told.by / size, changed, found)
 
 
@@ -120,8 +123,8 @@ def _pivots(
     if told is None:
         return None
     changed = with_limits(task, limit.number, **{name: told.region})
-    texts = [region_text(getattr(each, name)) for each in changed.limits]
-    option = " ".join(f"--{name.replace('_', '-')} {text}" for text in texts)
+    regions = [getattr(each, name) for each in changed.limits]
+    option = Help([Cure(name, each or "any", text=region_text(each)) for each in regions])
     x, y = (figure(float(value)) for value in told.near)
     what = f"{limit.kind}s" if len(dyads) > 1 else f"the {limit.kind}{_whose(task, limit.number)}"
     words = f"{what} {told.words}, near ({x}, {y})"
@@ -170,11 +173,10 @@ def _length(
         range_[1] = high
         words.append(f"a link of up to {_exact_length(high, task)} instead of {plain(most)}")
     changed = with_limits(task, limit.number, length=tuple(range_))
-    texts = [_range_text(*each.length) for each in changed.limits]
+    cures = [Cure("length", e.length, text=_range_text(*e.length)) for e in changed.limits]
     by = abs(range_[0] - least) + (range_[1] - most if math.isfinite(most) else 0.0)
-    option = " ".join(f"--length {text}" for text in texts)
     whose = _whose(task, limit.number)
-    return Loosening(limit, listed(words) + whose, option, by / size, changed, found)
+    return Loosening(limit, listed(words) + whose, Help(cures), by / size, changed, found)
 
 
 def _kinds(
@@ -196,8 +198,8 @@ def _kinds(
     )
     if not new:
         return None
-    texts = [",".join(kind for kind in KINDS if kind in each.kinds) for each in limits]
-    option = " ".join(f"--kinds {text}" for text in texts)
+    kinds = [",".join(kind for kind in KINDS if kind in each.kinds) for each in limits]
+    option = Help([Cure("kinds", e.kinds, text=t) for e, t in zip(limits, kinds, strict=True)])
     words = f"a dyad of kind {listed(new, 'or')} as well"
     return Loosening(limit, words, option, 1.0, replace(task, limits=tuple(limits)), found)
 
@@ -211,7 +213,7 @@ def _requirement(
     looser = requirement.looser(asked.bounds[requirement], found.figures, share)
     if looser is None:
         return None
-    option = f"{requirement.option} {requirement.written(looser.bound)}"
+    option = Help(requirement.given(looser.bound))
     new = replace(task, requirements=replace(asked, **{requirement.name: looser.bound}))
     return Loosening(limit, looser.words, option, looser.size, new, found)
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final, Self, TypeAlias, final
 
 import numpy as np
 
+from burmester.cures import Help
 from burmester.errors import InputError
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.regions import Polygon
@@ -322,9 +323,9 @@ def _with_causes(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bo
     if synthesis.outcome.code == "R301" and synthesis.outcome.why:
         why = f"{synthesis.outcome.why}; {why}"
     glue = "; or " if alone else " and "
-    help = f"use {glue.join(each.option for each in causes)}"
+    help = Help.of("use {}", Help.joined(glue, [each.option for each in causes]))
     if synthesis.outcome.code == "R301" and synthesis.outcome.help:  # what else would do
-        help = f"{synthesis.outcome.help}; or {help}"
+        help = Help.of("{}; or {}", synthesis.outcome.help, help)
     if synthesis.works:
         warnings = tuple(
             replace(each, why=why, help=help) if each.code == "W216" else each

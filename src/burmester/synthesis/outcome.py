@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from burmester.cures import Cure, Help
 from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.critical_search import COUNT
 from burmester.dyads.five_poses import FivePoseDyads
@@ -88,7 +89,10 @@ def _nearly_sliders(
             "W204",
             f"{name} has a link of {dyad.radius / size:.0f} times the span of the "
             f"poses, and it swings by {figure(math.degrees(swing(dyad, poses)))}°: nearly a slider",
-            "if a link that long cannot be built, say how long it may be with --length :MAX",
+            Help.of(
+                "if a link that long cannot be built, say how long it may be with {}",
+                Cure("length", option="--length :MAX"),
+            ),
         )
         for name, dyad in known.values()
         if isinstance(dyad, RR) and nearly_sliders(dyad, poses, size)
@@ -113,8 +117,10 @@ def _unaccounted(
     problem: SynthesisProblem, found: DyadSearch, fit: BestDyads, search: CriticalDyads
 ) -> Iterator[Advice]:
     """What is not accounted for of a task without limits, if anything."""
-    help = "compare with --method pencil; poses that turn little, or of a special motion, are the "
-    help += "usual reason"
+    help = Help.of(
+        "compare with {}; poses that turn little, or of a special motion, are the usual reason",
+        Cure("method", "pencil"),
+    )
     known, nullity = _accounted(search), 0 if problem.motion is None else problem.motion.nullity
     exact = int(exact_dyads(nullity, problem.task.poses.shape[0]))
     # Where all points are accounted for, no dyad is missing for a rank that is near its border.
@@ -226,7 +232,8 @@ def offering_six_bars(problem: SynthesisProblem, outcome: Outcome) -> Outcome:
     five = task.poses.shape[0] == problem.task.poses.shape[0] == CONDITIONS
     if outcome.code not in ("R301", "R302", "R306") or not (five and keeps):
         return outcome
-    return replace(outcome, help=f"{outcome.help}; or look for six bars that do it: --six-bars")
+    also = "; or look for six bars that do it: --six-bars"
+    return replace(outcome, help=Help(outcome.help or "", also))
 
 
 def _dyads(problem: SynthesisProblem, search: DyadSearch) -> tuple[str, str]:
@@ -406,7 +413,8 @@ def linkage_advice(task: Task, linkages: Sequence[FoundLinkage], code: str) -> I
                 near = nearness(other, task, characteristic_length(task))
                 help = f"take {other.id}, which has {least_angle(reached)} or more and {near}"
             if math.degrees(reached) >= USUAL_TRANSMISSION:  # so there is one for sure
-                help += f"; or ask for more with --min-transmission {USUAL_TRANSMISSION:.0f}"
+                more = TRANSMISSION.given(USUAL_TRANSMISSION)
+                help = Help.of("{}; or ask for more with {}", help, more)
             yield Advice(
                 "W210",
                 f"{best.id} transmits badly: its transmission angle falls to "

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.cures import Help
 from burmester.errors import Advice
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -22,6 +23,7 @@ from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.progress import step
+from burmester.requirements.poses import ANY_ORDER, WITHIN
 from burmester.requirements.requirement import above
 from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.path_linkages import PathLinkages, is_timed_exactly, linkages_near
@@ -37,7 +39,7 @@ from burmester.tasks.motion_task import MOST_POINTS, Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_sample import PoseSample
-from burmester.tasks.pose_tolerances import PoseTolerances
+from burmester.tasks.pose_tolerances import PoseTolerances, tolerance_cure
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
@@ -257,7 +259,7 @@ def _assumed(given: Task, judged: Sequence[FoundLinkage], base: FoundLinkage | N
     if base is None:
         help += ", once a linkage keeps what is asked"
     else:
-        help += f": --pose-tolerance {assumed:g},{assumed:g},free"
+        help = Help.of("{}: {}", help, tolerance_cure(assumed, assumed, math.inf))
     what = f"a tolerance of {length_of(assumed, given)} was assumed for x and y of every point"
     return Advice("W226", what, help, why)
 
@@ -422,13 +424,13 @@ def _outcome(
 
 def _what_would_do(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
     """What to change where no linkage of a path works."""
-    texts = [text] if "--" in (text := hints(linkages, problem)) else []
+    texts = [text] if (text := hints(linkages, problem)).cures else []
     if (far := _nearest_too_far(linkages)) is not None:
-        room = above(far.error.worst)
+        room = float(above(far.error.worst))
         within = problem.given.requirements.within is not None
-        option = f"--within {room}" if within else f"--pose-tolerance {room},{room},free"
-        texts.append(f"with {option} {far.id} would do")
-    return "; or ".join(texts) or (
+        cure = WITHIN.given(room) if within else tolerance_cure(room, room, math.inf)
+        texts.append(Help.of(f"with {{}} {far.id} would do", cure))
+    return Help.joined("; or ", texts) or (
         "give the limits more room, ask for less, or state a wider --pose-tolerance; of noisy "
         "points that lie closer than their noise, take fewer with --every, or --any-order"
     )
@@ -449,8 +451,11 @@ def _all_stray(task: Task, linkages: Sequence[FoundLinkage]) -> Outcome:
         "R352",
         f"no usable linkage: each of {count(len(linkages), 'four-bar')} near {points} leaves the "
         "path between some of them",
-        "round the corners of the path, or trace a part of it; if the curve may go anywhere "
-        "between the points, say so with --any-order",
+        Help.of(
+            "round the corners of the path, or trace a part of it; if the curve may go anywhere "
+            "between the points, say so with {}",
+            ANY_ORDER.given(True),
+        ),
         f"the nearest both ways, {nearest.id}, misses the points by {away}{left} at most",
     )
 

@@ -15,6 +15,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.cures import Help
 from burmester.errors import Advice
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -32,7 +33,7 @@ from burmester.synthesis.point_conditions import given_pivots
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.options import SynthesisOptions
-from burmester.tasks.pose_tolerances import PoseTolerances
+from burmester.tasks.pose_tolerances import PoseTolerances, tolerance_cure
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.explanation import worst_miss
 from burmester.verdicts.found_linkage import FoundLinkage
@@ -217,7 +218,9 @@ def _with_tolerance(
             "W226",
             f"a tolerance of {length_of(position, task)} was assumed for x and y of every pose and "
             f"point, and {angle:g}° for the angles",
-            f"say how far they may be missed: --pose-tolerance {position:g},{position:g},{angle:g}",
+            Help.of(
+                "say how far they may be missed: {}", tolerance_cure(position, position, angle)
+            ),
             f"the nearest {sound}linkage misses them by {worst_miss(nearest, out)} at most, and "
             + how,
         )

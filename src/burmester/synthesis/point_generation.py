@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import Advice
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
@@ -154,9 +155,10 @@ def none_on_curve(special: PointSet, task: Task) -> Outcome:
     x, y = (length_of(float(each) + 0.0, task) for each in centre)
     crank = f"a crank about ({x}, {y}) with the length {length_of(special.radius, task)}"
     turned = "whatever else the linkage is"
-    help = (
-        "use a crank alone; where its pivot may not be there, say where pivots may lie "
-        "(--fixed-pivot), and linkages near the points are looked for"
+    help: str = Help.of(
+        "use a crank alone; where its pivot may not be there, say where pivots may lie ({}), and "
+        "linkages near the points are looked for",
+        Cure("fixed_pivot"),
     )
     if not task.angles_are_free:
         turned = "and any second dyad through the poses turns the body"

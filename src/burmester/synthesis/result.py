@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Generic, TypeAlias, TypeVar, cast
 
+from burmester.cures import Cure, Help
 from burmester.dyads.selection import Fit, FoundDyad
 from burmester.errors import Advice, InputError
 from burmester.progress import Watch
@@ -192,7 +193,7 @@ def with_time_limit(synthesis: Synthesis, watch: Watch) -> Synthesis:
     advice = Advice(
         "W221",
         f"the time limit of {limit:g} s came before the end: {'; '.join(parts)}",
-        f"give more time, such as --time-limit {longer:g}, or leave it out",
+        Help.of("give more time, such as {}, or leave it out", Cure("time_limit", longer)),
         "what was found until then is the answer, and may not be the best",
     )
     return replace(synthesis, warnings=(*synthesis.warnings, advice))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from burmester.cures import Help
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import InputError
 from burmester.progress import limited, step
@@ -19,7 +20,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of, span
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.explanation import options_for
+from burmester.verdicts.explanation import cures_of
 from burmester.wording import figure
 
 __all__ = ["KINDS", "SixBar", "judge_six_bar", "judged_at_poses"]
@@ -104,10 +105,10 @@ def _require_links(linkage: SixBar, problem: SynthesisProblem) -> None:
 
 def _help(found: FoundSixBar, problem: SynthesisProblem) -> str:
     """What would make it work: options where they do, else another six-bar."""
-    options = options_for(found, problem)
-    texts = [f"with {' '.join(options)} it would do"] if options else []
+    cures = cures_of(found, problem)
+    texts: list[str] = [Help.of("with {} it would do", cures)] if cures else []
     if FEWEST <= problem.given.poses.shape[0] <= POSES:
         texts.append("look for six-bars that work with `burmester synthesize --six-bars`")
     elif not texts:
         texts.append("move a pose, or leave one out")
-    return "; or ".join(texts)
+    return Help.joined("; or ", texts)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from burmester.cures import Cure, Help
 from burmester.diagnosis.checks import diagnose
 from burmester.errors import Advice
 from burmester.progress import limited, step
@@ -54,8 +55,11 @@ def _outcome(task: Task, result: SixBars) -> Outcome:
     return Outcome(
         "R371",
         f"no six-bar that works: none of {looked}",
-        f"look at more chains, such as --chains {chains}"
-        + (", or ask for less" if narrow else ", or move a pose"),
+        Help(
+            "look at more chains, such as ",
+            Cure("chains", chains),
+            ", or ask for less" if narrow else ", or move a pose",
+        ),
         "the chains were drawn at random, so that this proves nothing",
     )
 
@@ -78,8 +82,10 @@ def _advice(result: SixBars) -> Iterator[Advice]:
             "W236",
             f"no six-bar was found that meets the standard of linkages to build; {first.id} "
             f"{listed(first.shortcomings)}",
-            f"look at more chains, such as --chains {MORE * result.options.chains}, give the "
-            "pivots more room, or move a pose",
+            Help.of(
+                "look at more chains, such as {}, give the pivots more room, or move a pose",
+                Cure("chains", MORE * result.options.chains),
+            ),
             f"the standard is a transmission angle of {TRANSMISSION.standard:g}° or more and "
             "links of like lengths, within some sizes of the motion",
         )

@@ -14,6 +14,7 @@ from itertools import product
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.dyads.local_minima import best_dyads
 from burmester.dyads.selection import Fit, Found, FoundDyad, found_dyads, same_dyads
@@ -73,14 +74,14 @@ def near_timed_poses(problem: SynthesisProblem, findings: Sequence[Advice]) -> S
 def _require_method(options: SynthesisOptions) -> None:
     """Refuse methods and proofs that know nothing of crank angles: E123."""
     if options.method not in ("auto", "complete") or options.certify or not options.normalise:
-        option = (
-            "--certify" if options.certify else "--raw" if not options.normalise else "--method"
-        )
+        option = Cure("certify") if options.certify else Cure("method")
+        if not options.normalise and not options.certify:
+            option = Cure("normalise", option="--raw")
         raise InputError(
             "E123",
-            f"{option} knows nothing of the angles of the crank",
+            f"{Help(option)} knows nothing of the angles of the crank",
             why="poses that are timed more than fully are met as nearly as possible, by a search",
-            help=f"leave {option} out, or the crank angles",
+            help=Help.of("leave {} out, or the crank angles", option),
         )
 
 

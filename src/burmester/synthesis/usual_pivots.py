@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from burmester.cures import Help
 from burmester.errors import Advice
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.linkages.by_all_poses import judged_at_all
@@ -22,7 +23,14 @@ from burmester.progress import time_for
 from burmester.refinement.kept_limits import DyadLimitsConstraint
 from burmester.tasks.limits import Limits
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.assumptions import REACH, WIDE, Assumptions, assumed_advice
+from burmester.verdicts.assumptions import (
+    FIXED_PIVOT,
+    MOVING_PIVOT,
+    REACH,
+    WIDE,
+    Assumptions,
+    assumed_advice,
+)
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside
 from burmester.verdicts.ranking import closest_usable, digits_leave_open, ranked, states_tolerance
@@ -146,9 +154,9 @@ def _advice(
     linkages: Sequence[FoundLinkage], farther: FoundLinkage, assumed: Assumptions
 ) -> Advice:
     """W215: what was assumed of the pivots, and which linkage is nearer without it."""
-    options = "--fixed-pivot", "--moving-pivot"
+    options = Help(FIXED_PIVOT), Help(MOVING_PIVOT)
     advice = assumed_advice("W215", [each for each in assumed.bounds if each.option in options])
     id = next(each.id for each in linkages if each.linkage is farther.linkage)
     ratio = farther.combined_error / linkages[0].combined_error
     nearer = f"or take {id}, whose error is {figure(ratio)} times that of L1"
-    return replace(advice, help=f"{advice.help}; {nearer}")
+    return replace(advice, help=Help.of("{}; {}", advice.help or "", nearer))

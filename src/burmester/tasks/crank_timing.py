@@ -9,6 +9,7 @@ from typing import Final, final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, median, wrapped_angle
@@ -67,15 +68,17 @@ class CrankTiming:
                 help="give the angle of the crank at each pose, or leave the crank angles out",
             )
         if (known := int(np.isfinite(angles).sum())) < self._least:
+            few = "give the crank angle at two poses or more, or leave the crank angles out"
             raise InputError(
                 "E186",
                 f"{known} crank angle{'' if known == 1 else 's'}: too few to say anything",
                 why=None if self.absolute else "the angles count from the first of them",
-                help="give the crank angle at two poses or more, or leave the crank angles out"
-                + (
-                    ""
-                    if self.absolute or not known
-                    else "; or say that it is a direction on the ground, with --absolute-crank"
+                help=few
+                if self.absolute or not known
+                else Help.of(
+                    "{}; or say that it is a direction on the ground, with {}",
+                    few,
+                    Cure("absolute", True, "--absolute-crank"),
                 ),
             )
         if self.within is not None and not 0 < self.within < math.inf:

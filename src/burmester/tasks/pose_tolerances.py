@@ -14,6 +14,7 @@ from typing import Any, Final, Literal, Self, TypeAlias, final, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from burmester.cures import Cure
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, wrapped_angle
@@ -267,6 +268,12 @@ def _require_meaning(bounds: FloatArray, axes: Sequence[ToleranceAxes]) -> None:
                 help='give the tolerances of this pose along x and y of F (axes = "fixed"), or '
                 "give its angle a tolerance",
             )
+
+
+def tolerance_cure(x: float, y: float, degrees: float) -> Cure:
+    """What says how far every pose may be missed; infinity: however far."""
+    text = ",".join(f"{each:g}" if each < math.inf else "free" for each in (x, y, degrees))
+    return Cure("tolerances", (x, y, degrees), "--pose-tolerance", text)
 
 
 def _axes(value: object, count: int) -> tuple[ToleranceAxes, ...]:

@@ -13,6 +13,7 @@ from typing import Final, NamedTuple, Self, final
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import Advice
 from burmester.geometry.regions import Polygon, box_around
 from burmester.requirements.requirement import Bounds
@@ -27,6 +28,8 @@ REACH: Final = 1.0  # motion sizes; how far pivots may lie from the body's place
 WIDE: Final = 3.0  # the same, where nothing works within that
 FAR: Final = 12.0  # the same, where nothing works at all; poses that hardly turn need it
 OUTLINE_SHARE: Final = 0.1  # of an outline's diagonal; how far beside the body its pivots may lie
+FIXED_PIVOT: Final = Cure("fixed_pivot", words="the region of fixed pivots")
+MOVING_PIVOT: Final = Cure("moving_pivot", words="the region of moving pivots")
 
 
 class Bound(NamedTuple):
@@ -40,7 +43,7 @@ def assumed_advice(code: str, assumed: Sequence[tuple[str, str]]) -> Advice:
     """What was assumed where the task says nothing, and the options that change it."""
     words, options = zip(*assumed, strict=True)
     message = f"assumed: {listed(words)}"
-    return Advice(code, message, f"set {listed(options, 'or')}")
+    return Advice(code, message, Help.of("set {}", Help.listed(options, "or")))
 
 
 @final
@@ -85,7 +88,7 @@ class Assumptions:
         bounds = []
         if not span(task) > 0 and task.body is None:
             words = f"a body of the size {length_of(size, task)}, as its origin stays where it is"
-            bounds.append(Bound(words, "--body"))
+            bounds.append(Bound(words, Help(Cure("body", words="the outline of the body"))))
         if task.body is None:
             body = np.zeros((1, 2))
             moving, near = reach * size, "the origin of M"
@@ -97,14 +100,14 @@ class Assumptions:
         limits = task.limits or (Limits(),)
         if any(each.fixed_pivot is None and each.rail is None for each in limits):
             beside = f"fixed pivots within {length_of(reach * size, task)} of the body's places"
-            bounds.append(Bound(beside, "--fixed-pivot"))
+            bounds.append(Bound(beside, Help(FIXED_PIVOT)))
         if any(each.moving_pivot is None and each.slot is None for each in limits):
             away = f"moving pivots within {length_of(moving, task)} of {near}"
-            bounds.append(Bound(away, "--moving-pivot"))
+            bounds.append(Bound(away, Help(MOVING_PIVOT)))
         for each in ASKED:
             if each.assumed and each not in asked:
                 asked[each] = each.assumed[0 if strict else 1]
-                bounds.append(Bound(each.words(asked[each]), each.option))
+                bounds.append(Bound(each.words(asked[each]), Help(each.given())))
         asked |= standard(asked, size, not_asked(task))
         fixed, own = box_around(around, reach * size), box_around(body, moving)
         return cls(fixed, own, size, asked, tuple(bounds))

@@ -7,11 +7,14 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
+from burmester.cures import Cure, Help, for_command
 from burmester.errors import Finding
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import ROUNDING
+from burmester.requirements.poses import ANY_ORDER, WITHIN, WITHIN_ANGLE
 from burmester.requirements.requirement import above
 from burmester.requirements.table import cured
+from burmester.requirements.transmission import TRANSMISSION
 from burmester.tasks.motion_task import CONDITIONS, Task
 from burmester.tasks.notation import length_of, poses_in_words
 from burmester.tasks.problem import SynthesisProblem
@@ -109,17 +112,23 @@ def too_far_from(poses: Sequence[int], error: PoseError, task: Task) -> str:
     return f"too far from {which} ({'' if len(poses) == 1 else 'up to '}{away})"
 
 
-def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
-    """What to change where none of the linkages is usable, so that one becomes usable."""
-    task, near = problem.given, by_nearness(linkages, problem.length)
-    # For each set of options the nearest linkage that they make usable.
-    nearest_with: dict[frozenset[str], tuple[FoundLinkage, tuple[str, ...]]] = {}
+def hints(
+    linkages: Sequence[FoundLinkage], problem: SynthesisProblem, *, own: bool = False
+) -> Help:
+    """What to change where none of the linkages is usable, so that one becomes usable.
+
+    own: whether it is said beside the one linkage that there is.
+    """
+    task, size = problem.given, problem.length
+    near = by_nearness(linkages, size)
+    # For each set of arguments the nearest linkage that they make usable.
+    nearest_with: dict[frozenset[str], tuple[FoundLinkage, tuple[Cure, ...]]] = {}
     for each in near:
-        if options := options_for(each, problem):
-            names = frozenset(option.split()[0] for option in options)
-            nearest_with.setdefault(names, (each, options))
+        if cures := cures_of(each, problem):
+            names = frozenset(cure.argument for cure in cures)
+            nearest_with.setdefault(names, (each, cures))
     ways = sorted(nearest_with.items(), key=lambda way: len(way[1][1]))
-    # More options for a greater error are no help.
+    # To change more for a greater error is no help.
     told = [
         way
         for k, (names, way) in enumerate(ways)
@@ -128,7 +137,7 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
             for fewer, (other, _) in ways[:k]
         )
     ]
-    softer = nearest_with.get(frozenset({"--min-transmission"}))
+    softer = nearest_with.get(frozenset({TRANSMISSION.name}))
     if softer is not None:  # beside the nearest one, the one with the best transmission angle
         alike = [
             each
@@ -137,10 +146,13 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
         ]
         best = max(alike, key=lambda each: each.driven.least_over_range)
         if best is not softer[0]:
-            told.insert(1, (best, options_for(best, problem)))
-    texts = [
-        f"with {' '.join(options)} {each.id} would do (it {nearness(each, task, problem.length)})"
-        for each, options in told[:MAX_HINTS]
+            told.insert(1, (best, cures_of(best, problem)))
+    texts: list[str] = [
+        Help(
+            *(("it would do with ", cures) if own else ("with ", cures, f" {each.id} would do")),
+            f" (it {nearness(each, task, size)})",
+        )
+        for each, cures in told[:MAX_HINTS]
     ]
     if near[0].error_before_rounding is not None:
         texts.insert(0, "round less")
@@ -155,19 +167,20 @@ def hints(linkages: Sequence[FoundLinkage], problem: SynthesisProblem) -> str:
         texts.append("give the limits more room")
     if any(why.kind == "clearance" for why in near[0].violations):
         texts.append("make room where it touches")
-    return "; or ".join(texts) or "move a pose"
+    return Help.joined("; or ", texts or ["move a pose"])
 
 
-def options_for(found: LinkageAtPoses, problem: SynthesisProblem) -> tuple[str, ...]:
-    """The options that would make a linkage usable; none where no option helps."""
-    asked, options, share = problem.given.requirements, [], found.within_tolerance
+def cures_of(found: LinkageAtPoses, problem: SynthesisProblem) -> tuple[Cure, ...]:
+    """What would make a linkage usable; nothing where no argument helps."""
+    asked, share = problem.given.requirements, found.within_tolerance
+    out: list[Cure] = []
     # Nothing but a greatest error keeps it from its poses then, and no tolerance of one.
     bounded = math.isfinite(found.error.worst) and (share is None or bool((share <= 1).all()))
     for defect in found.defects:
         if defect.kind == "order" and not asked.any_order:
-            options.append("--any-order")
+            out.append(ANY_ORDER.given(True))
         elif defect.kind == "assembly" and bounded:
-            options += _error_bounds(found, problem)
+            out += _error_bounds(found, problem)
         else:
             return ()
     for each in found.violations:
@@ -179,23 +192,22 @@ def options_for(found: LinkageAtPoses, problem: SynthesisProblem) -> tuple[str, 
             away = float(np.nanmax(np.abs(found.timing_error), initial=0.0))
             if not 0 < away < MOST_TURN:
                 return ()
-            options.append(f"--within-crank {above(math.degrees(away))}")
+            out.append(Cure("within_crank_deg", above(math.degrees(away)), "--within-crank"))
     others = [each for each in found.violations if each.kind != "timing"]
     cures = cured(others, asked.bounds, found.figures)
     if cures is None:
         return ()
-    options += cures
-    return tuple(sorted(set(options), reverse=True))  # --within first
+    return tuple(sorted({*out, *cures}, key=lambda each: for_command([each]), reverse=True))
 
 
-def _error_bounds(found: LinkageAtPoses, problem: SynthesisProblem) -> list[str]:
-    """The options that bound both errors of a linkage from above."""
+def _error_bounds(found: LinkageAtPoses, problem: SynthesisProblem) -> list[Cure]:
+    """What bounds both errors of a linkage from above."""
     asked = problem.given.requirements
     within = above(max(found.error.worst, ROUNDING * problem.length))
     turned = math.degrees(float(found.error.angle.max()))
     bound = asked.within_deg or math.degrees(float(within) / problem.length_per_radian)
-    options = [f"--within {within}"]
-    return options if turned <= bound else [*options, f"--within-angle {above(turned)}"]
+    cures = [WITHIN.given(float(within))]
+    return cures if turned <= bound else [*cures, WITHIN_ANGLE.given(float(above(turned)))]
 
 
 def below(value: float) -> str:

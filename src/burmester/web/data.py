@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from burmester.cures import Face, for_command, for_page
 from burmester.describe import digits, quality_words, sentences
 from burmester.describe.dimensions import decimals_of, dimensions, dyad_in_words
 from burmester.describe.moved_pivots import improvements
@@ -51,8 +52,8 @@ FAR = 100.0  # scenes: pivots that may be moved farther are called open
 WAYS = 3  # ways of a linkage, when frames are shared out; most have no more
 
 
-def report_data(synthesis: Synthesis) -> dict[str, Any]:
-    """The whole report as an object ready for JSON."""
+def report_data(synthesis: Synthesis, face: Face = for_command) -> dict[str, Any]:
+    """The whole report as an object ready for JSON; face: in whose words it says what helps."""
     task, outcome = synthesis.task, synthesis.outcome
     scene = scene_of(synthesis)
     poses = _poses_taken(task, next(iter(synthesis.linkages), None))
@@ -62,10 +63,10 @@ def report_data(synthesis: Synthesis) -> dict[str, Any]:
     linkages = [_linkage(synthesis, each, scene, frames, chart) for each in synthesis.linkages]
     return {
         "schema": SCHEMA,
-        "outcome": outcome.to_dict(),
+        "outcome": outcome.to_dict(face),
         "best": list(sentences.best_sentences(synthesis)),
         "better": improvements(synthesis),
-        "warnings": [each.to_dict() for each in synthesis.warnings],
+        "warnings": [each.to_dict(face) for each in synthesis.warnings],
         "method": synthesis.method,
         "unit": task.length_unit,
         "poses": poses_report(task),
@@ -200,7 +201,9 @@ def _linkage(
         "facts": [[name, "–" if text == "-" else text] for name, text in facts],
         "met": explanation.nearness(found, task, synthesis.length),
         "reasons": reasons,
-        "help": None if found.usable else explanation.hints([found], synthesis.problem),
+        "help": None
+        if found.usable
+        else explanation.hints([found], synthesis.problem, own=True).said(for_page),
         "worst": worst,
         "angle": angle,
         "rms": rms,

@@ -116,24 +116,6 @@ def test_a_pivot_on_a_burmester_curve_meets_all_four_poses(plane):
     assert np.nanmax(best(poses, between).rms_error) > 1e-5 * data["scene"]
 
 
-def test_what_would_help_is_said_without_options_of_the_command():
-    said = {
-        "with --min-transmission 8.3 L4 would do (it misses by 4 mm); or move pose 2": (
-            "it would do with a least transmission angle of 8.3° (it misses by 4 mm); "
-            "or move pose 2"
-        ),
-        "with --within 0.1 --within-angle 2 L1 would do (it fits)": (
-            "it would do with a permitted miss of 0.1 and a permitted turn of 2° (it fits)"
-        ),
-        'with --type "slider-crank" --any-order L12 would do (x)': (
-            "it would do with the type slider-crank and any order of the poses (x)"
-        ),
-        "move a pose": "move a pose",
-    }
-    found = value("help_words.mjs", "return all.map(m.helpInWords);", all=list(said))
-    assert found == list(said.values())
-
-
 def test_a_smooth_path_goes_through_its_points_and_closes_smoothly():
     turn = np.linspace(0, 2 * math.pi, 25)
     x, y = (100 * np.cos(turn)).tolist(), (100 * np.sin(turn)).tolist()

@@ -15,6 +15,7 @@ from typing import Final, final
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.drawings.sheet import Laid, laid_lengthwise
 from burmester.export.parts.outlines import distances
@@ -90,7 +91,7 @@ def pages_of(assembly: Assembly, decimals: int, dimensions: bool) -> Pages:
             f"at 1:1 the plates take more than {MOST_PAGES} pages of {name}",
             why="the longest is "
             f"{max(float(each.high[0] - each.low[0]) for each in laid) / 1000:.3g} m long",
-            help="write a drawing instead: --to dxf",
+            help=Help.of("write a drawing instead: {}", Cure("to", "dxf")),
         )
     return best
 

@@ -6,13 +6,14 @@ E162 a film that cannot be drawn, or not in the memory there is
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.options import Options
 from burmester.numerics.arrays import FloatArray
@@ -45,17 +46,22 @@ def require_film(options: Options, rate: float, *, kept: bool) -> int:
 
     kept: whether all of them are in memory at once.
     """
-    for name, value, (least, most), noun in (
-        ("--seconds", options.seconds, SECONDS, "a duration of {:g} s"),
-        ("--fps", options.frames_per_second, RATES, "{:g} pictures a second"),
-        ("--pixels", options.width_px, WIDTHS, "a width of {:g} pixels"),
+    for cure, value, (least, most), noun in (
+        (Cure("seconds"), options.seconds, SECONDS, "a duration of {:g} s"),
+        (
+            Cure("frames_per_second", option="--fps"),
+            options.frames_per_second,
+            RATES,
+            "{:g} pictures a second",
+        ),
+        (Cure("width_px", option="--pixels"), options.width_px, WIDTHS, "a width of {:g} pixels"),
     ):
         if not least <= value <= most:
             raise InputError(
                 "E162",
                 f"{noun.format(value)} cannot be drawn",
                 why=f"it is at least {least:g} and at most {most:g}",
-                help=f"give {name} {most if value > most else least:g}",
+                help=Help.of("give {}", replace(cure, value=most if value > most else least)),
             )
     count = max(2, round(options.seconds * rate))
     if count > MAX_PICTURES:
@@ -63,7 +69,10 @@ def require_film(options: Options, rate: float, *, kept: bool) -> int:
             "E162",
             f"{count} pictures are too many",
             why=f"they would take hours to draw; {MAX_PICTURES} are the most",
-            help=f"give --seconds {MAX_PICTURES / rate:.3g}, or fewer pictures a second",
+            help=Help.of(
+                "give {}, or fewer pictures a second",
+                Cure("seconds", float(f"{MAX_PICTURES / rate:.3g}")),
+            ),
         )
     size = count * PIXEL_BYTES * TALLEST * options.width_px**2
     if kept and size > MAX_BYTES:
@@ -72,7 +81,11 @@ def require_film(options: Options, rate: float, *, kept: bool) -> int:
             "E162",
             f"{count} pictures of {options.width_px} pixels are too many for a GIF",
             why=f"they would need {size / 1e9:.2g} GB, and {MAX_BYTES / 1e9:g} GB are allowed",
-            help=f"give --pixels {max(width, WIDTHS[0])}, or fewer --seconds; or write an MP4",
+            help=Help.of(
+                "give {}, or fewer {}; or write an MP4",
+                Cure("width_px", max(width, WIDTHS[0]), "--pixels"),
+                Cure("seconds"),
+            ),
         )
     return count
 

@@ -11,6 +11,7 @@ from typing import Final, NamedTuple, Self, final
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.models.mass_properties import MassProperties
 from burmester.export.reference import Reference
@@ -98,5 +99,5 @@ def require_up(up: str) -> FloatArray:
         "E162",
         f"there is no direction {up!r}",
         why=f"up is {', '.join(DIRECTIONS)}: an axis of the plane of the poses, or z, across it",
-        help="give --up y",
+        help=Help.of("give {}", Cure("up", "y")),
     )

@@ -9,6 +9,7 @@ from typing import Self, final
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.models.bodies import METRES, BodyParts, heights_of
 from burmester.export.parts.outlines import outline_moments, rounded_hull, slot_outline
@@ -96,5 +97,5 @@ def require_density(density: float) -> float:
         f"there is no material of {density:g} kg/m³",
         why=f"densities from {LIGHTEST:g} to {HEAVIEST:g} kg/m³ are taken: aluminium has 2700, "
         "steel 7850",
-        help="give --density 2700, for aluminium; 1 g/cm³ is 1000 kg/m³",
+        help=Help.of("give {}, for aluminium; 1 g/cm³ is 1000 kg/m³", Cure("density", 2700)),
     )

@@ -17,6 +17,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from burmester.cures import for_page, said
 from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.models.bodies import Shape
@@ -49,10 +50,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
     gravity = " ".join(number(each) for each in model.gravity())
     stiff = f"{number(2 * servo.time_step)} 1"
     bound = f' boundmass="{LEAST}" boundinertia="{LEAST}"' if _small(model) else ""
-    head = [
-        each.replace("--length-unit", "the option unit")
-        for each in description(chosen, options, "m")
-    ]
+    head = [said(each, for_page) for each in description(chosen, options, "m")]
     lines = [
         f"<mujoco model={xml_attribute(chosen.id)}>",
         f"  <!-- {' '.join(map(xml_comment, head))} -->",

@@ -19,6 +19,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from burmester.cures import for_page, said
 from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
 from burmester.export.models.body_tree import Body, Site, Tree, tree_of
@@ -55,10 +56,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
     """Write the description; raises E162 and E163."""
     model = DynamicModel.of(chosen, options)
     tree = tree_of(model, options.pose - 1)
-    head = [
-        each.replace("--length-unit", "the option unit")
-        for each in description(chosen, options, "m")
-    ]
+    head = [said(each, for_page) for each in description(chosen, options, "m")]
     tilt = " ".join(map(number, TILT[options.up]))
     lines = [
         '<?xml version="1.0"?>',

@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 from typing import final
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.options import Options
 from burmester.export.parts.links import Links, Spacing
@@ -83,7 +84,7 @@ def _least(links: Links) -> Spacing:
             "E163",
             "this linkage cannot be made of plates with pins and slots",
             why=f"{least.holes} are at one point",
-            help="choose another linkage, or a table of its places: --to csv",
+            help=Help.of("choose another linkage, or a table of its places: {}", Cure("to", "csv")),
         )
     return least
 
@@ -101,7 +102,7 @@ def _given(options: Options, scale: float, unit: str) -> dict[str, float | None]
                 "E162",
                 f"a {name} of {value:g} {unit} cannot be made",
                 why="the value has to be above 0",
-                help=f"leave --{name} out, and it is chosen from the linkage's size",
+                help=Help.of("leave {} out, and it is chosen from the linkage's size", Cure(name)),
             )
     return given
 
@@ -117,7 +118,11 @@ def _require_room(made: Dimensions, least: Spacing, scale: float, unit: str) -> 
             f"{width / scale:.6g} {unit}",
             why=f"on each side {WALL:.0%} of the hole has to be left of the link, so the hole can "
             f"be {most_hole / scale:.6g} {unit} at most",
-            help=f"give --hole {_down(most_hole / scale)}, or --width {_up(hole * 1.2 / scale)}",
+            help=Help.of(
+                "give {}, or {}",
+                Cure("hole", _down(most_hole / scale)),
+                Cure("width", _up(hole * 1.2 / scale)),
+            ),
         )
     most_hole = least.apart / (1 + WALL)
     if not hole <= most_hole:
@@ -125,7 +130,7 @@ def _require_room(made: Dimensions, least: Spacing, scale: float, unit: str) -> 
             "E162",
             f"holes of {hole / scale:.6g} {unit} would overlap",
             why=f"{least.holes} are {least.apart / scale:.6g} {unit} apart",
-            help=f"give --hole {_down(most_hole / scale)}",
+            help=Help.of("give {}", Cure("hole", _down(most_hole / scale))),
         )
     if not made.pin <= hole:
         raise InputError(
@@ -133,7 +138,7 @@ def _require_room(made: Dimensions, least: Spacing, scale: float, unit: str) -> 
             f"a pin of {made.pin / scale:.6g} {unit} does not go into a hole of "
             f"{hole / scale:.6g} {unit}",
             why="the pin is the thicker one of the two",
-            help=f"give --pin {_down(hole / scale)}, or leave --pin out",
+            help=Help.of("give {}, or leave {} out", Cure("pin", _down(hole / scale)), Cure("pin")),
         )
 
 
@@ -145,13 +150,13 @@ def _rounded(value: float) -> float:
     return float(_down(value, digits))
 
 
-def _down(value: float, digits: int | None = None) -> str:
+def _down(value: float, digits: int | None = None) -> float:
     digits = 1 - math.floor(math.log10(value)) if digits is None else digits
     step = 10.0**-digits
-    return f"{round(math.floor(value / step + 1e-9) * step, max(digits, 0)):g}"
+    return float(f"{round(math.floor(value / step + 1e-9) * step, max(digits, 0)):g}")
 
 
-def _up(value: float) -> str:
+def _up(value: float) -> float:
     digits = 1 - math.floor(math.log10(value))
     step = 10.0**-digits
-    return f"{round(math.ceil(value / step - 1e-9) * step, max(digits, 0)):g}"
+    return float(f"{round(math.ceil(value / step - 1e-9) * step, max(digits, 0)):g}")

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.parts.dimensions import WALL, Dimensions
 from burmester.export.parts.links import Arrangement, Links
@@ -52,7 +53,11 @@ def arranged(links: Links, made: Dimensions) -> tuple[tuple[Plate, ...], tuple[P
         "E163",
         "this linkage cannot be made of flat plates in layers",
         why="in whatever layers they lie, two links, or a link and a pin, meet along the motion",
-        help="choose another linkage with --linkage, or narrower links with --width",
+        help=Help.of(
+            "choose another linkage with {}, or narrower links with {}",
+            Cure("linkage"),
+            Cure("width"),
+        ),
     )
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import final
 
+from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.options import Options, unit_of
 from burmester.export.parts.dimensions import Dimensions, dimensions_of
@@ -71,7 +72,7 @@ def assembly_of(chosen: Candidate, options: Options) -> Assembly:
             "E162",
             f"there is no pose {options.pose} to draw",
             why=f"the task has {number} poses",
-            help=f"give --pose 1, or another up to {number}",
+            help=Help.of(f"give {{}}, or another up to {number}", Cure("pose", 1)),
         )
     links = Links.of(chosen, reference)
     assumed = chosen.unit is None and options.unit is None

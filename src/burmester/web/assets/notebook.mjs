@@ -1126,10 +1126,7 @@ angle",of:linkage=>-(linkage.least??-1)},size:{name:"size",of:linkage=>linkage.q
 sensitivity??Infinity}};var FILTERS={all:{name:"all",holds:()=>true},usable:{name:"usable",holds:linkage=>linkage.usable},pinned:{name:"pinned",holds:(linkage,pinned)=>pinned.
 has(linkage.id)}};function arranged(linkages,{order,filter,type,pinned}){const{of}=ORDERS[order],{holds}=FILTERS[filter];return linkages.filter(each=>holds(each,
 pinned)&&(!type||each.type===type)).map((each,k)=>({each,k,key:of(each)})).sort((a,b)=>Number(pinned.has(b.each.id))-Number(pinned.has(a.each.id))||(a.key===b.key?
-0:a.key-b.key)||a.k-b.k).map(({each})=>each)}var OPTIONS=[[/--min-transmission ([\d.e+-]+)/g,"a least transmission angle of $1°"],[/--within-angle ([\d.e+-]+)/g,"a permitted turn of $1°"],[/--within ([\d.e+-]+)/g,
-"a permitted miss of $1"],[/--link-ratio ([\d.e+-]+)/g,"a link ratio of $1"],[/--type "([^"]+)"/g,"the type $1"],[/--type (\S+)/g,"the type $1"],[/--driver any/g,
-"either driver"],[/--any-order/g,"any order of the poses"]];function helpInWords(text){const marked=OPTIONS.reduce((said,[option,words])=>said.replace(option,`${words}\
-`),text);const plain=marked.replaceAll(" "," and ").replaceAll(/[\u0001\u0002]/g,"");return plain.replace(/with (.+?) (L\d+) would do/g,"it would do with $1")}var FIGURES=[["worst","worst miss"],["least","transmission"],["size","size"],["sensitivity","sensitivity"]];var ResultCard=class{constructor(does){this.name=h("\
+0:a.key-b.key)||a.k-b.k).map(({each})=>each)}var FIGURES=[["worst","worst miss"],["least","transmission"],["size","size"],["sensitivity","sensitivity"]];var ResultCard=class{constructor(does){this.name=h("\
 b",{});this.type=h("span",{class:"bm-type"});this.was=h("span",{class:"bs-was"});this.verdict=h("span",{class:"bm-verdict"});this.figures=new Map(FIGURES.map(([
 key])=>[key,h("dd",{"data-figure":key})]));this.worst=h("dt",{});this.note=h("span",{class:"bs-card-note"});this.reason=h("span",{class:"bm-reason"});this.help=
 h("span",{class:"bs-help"});this.main=h("button",{type:"button",class:"bs-card-main","aria-pressed":"false",onclick:()=>does.choose(this.id)},h("span",{class:"b\
@@ -1145,15 +1142,15 @@ this.name,isPlaced?linkage.called:linkage.id);say(this.type,linkage.type);say(th
 linkage,data));say(this.figures.get("least"),least(linkage));say(this.figures.get("size"),said.quality.extent??"–");say(this.figures.get("sensitivity"),said.quality.
 sensitivity??"–");say(this.note,linkage.gone??(linkage.usable&&linkage.change||(linkage.usable&&!linkage.followed&&linkage.shortcomings?.length?`Falls short: ${linkage.
 shortcomings.join("; ")}`:"")));const reason=linkage.usable||linkage.gone?"":linkage.followed?linkage.reason??"":said.reasons.join("; ");say(this.reason,reason);
-say(this.help,reason&&said.help&&!linkage.followed?`What would help: ${helpInWords(said.help)}.`:"");classList.toggle("bm-good",linkage.usable&&!linkage.gone);classList.
-toggle("bm-bad",!linkage.usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));classList.toggle("bs-old",old||Boolean(linkage.followed));
-classList.toggle("bs-chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(this.compare,compared);say(this.pin,pinned?"Pinned":"Pi\
-n");give(this.pin,"hidden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidden",isPlaced||linkage.usable||old||Boolean(linkage.gone));
-give(this.letGo,"hidden",!isPlaced);say(this.letGo,linkage.called==="By hand"?"Let go of the pivots":"Put it away");for(const button2 of[this.pin,this.compare,this.
-improve])labelled(button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,
-shift,isNew,followed}){if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).
-join(", ")}function least(linkage){const angle=leastOf(linkage);return angle==="–"?angle:angle==="0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){
-put(button2,"aria-pressed",Boolean(on))}function labelled(button2,id){put(button2,"aria-label",`${button2.textContent}: ${id}`)}var MOST2=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
+say(this.help,reason&&said.help&&!linkage.followed?`What would help: ${said.help}.`:"");classList.toggle("bm-good",linkage.usable&&!linkage.gone);classList.toggle(
+"bm-bad",!linkage.usable||Boolean(linkage.gone));classList.toggle("bs-gone",Boolean(linkage.gone));classList.toggle("bs-old",old||Boolean(linkage.followed));classList.
+toggle("bs-chosen",chosen);setPressed(this.main,chosen);setPressed(this.pin,pinned);setPressed(this.compare,compared);say(this.pin,pinned?"Pinned":"Pin");give(this.
+pin,"hidden",isPlaced);give(this.compare,"hidden",isPlaced||chosen);give(this.improve,"hidden",isPlaced||linkage.usable||old||Boolean(linkage.gone));give(this.letGo,
+"hidden",!isPlaced);say(this.letGo,linkage.called==="By hand"?"Let go of the pivots":"Put it away");for(const button2 of[this.pin,this.compare,this.improve])labelled(
+button2,linkage.id)}tellBetter(sentences){this.better.replaceChildren(...sentences.map(sentence2=>h("li",{},sentence2)))}};function pastOf({was,shift,isNew,followed}){
+if(isNew&&!was)return"new";const moved=shift&&!followed?`moved ${(100*shift).toFixed(1)} %`:"";return[was?`was ${was}`:"",moved].filter(Boolean).join(", ")}function least(linkage){
+const angle=leastOf(linkage);return angle==="–"?angle:angle==="0°"?"down to 0°":`${angle} or more`}function setPressed(button2,on){put(button2,"aria-pressed",
+Boolean(on))}function labelled(button2,id){put(button2,"aria-label",`${button2.textContent}: ${id}`)}var MOST2=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
 gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST2)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
 this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
 if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>

@@ -2,7 +2,6 @@
 
 import { give, h, put, say } from "../widget/dom.mjs";
 import { PLACED, leastOf, pathErrorOf, worstOf } from "./answers.mjs";
-import { helpInWords } from "./help_words.mjs";
 
 const FIGURES = [
   ["worst", "worst miss"],
@@ -60,7 +59,7 @@ export class ResultCard {
     say(this.note, linkage.gone ?? ((linkage.usable && linkage.change) || (linkage.usable && !linkage.followed && linkage.shortcomings?.length ? `Falls short: ${linkage.shortcomings.join("; ")}` : "")));
     const reason = linkage.usable || linkage.gone ? "" : linkage.followed ? linkage.reason ?? "" : said.reasons.join("; ");
     say(this.reason, reason);
-    say(this.help, reason && said.help && !linkage.followed ? `What would help: ${helpInWords(said.help)}.` : "");
+    say(this.help, reason && said.help && !linkage.followed ? `What would help: ${said.help}.` : "");
     classList.toggle("bm-good", linkage.usable && !linkage.gone);
     classList.toggle("bm-bad", !linkage.usable || Boolean(linkage.gone));
     classList.toggle("bs-gone", Boolean(linkage.gone));
