@@ -1,9 +1,10 @@
 """Paths to trace, and how near a linkage comes to them, by the witness's own kinematics."""
 
 import numpy as np
-from scipy.optimize import least_squares, minimize_scalar
+from scipy.optimize import least_squares
 
 from burmester.fourbar.dyad import RR
+from tests.oracles.least import least
 from tests.oracles.witness import places
 
 # Eighteen points of J. A. Cabrera, A. Simon and M. Prado, Optimal synthesis of mechanisms with
@@ -44,24 +45,18 @@ def random_crank(rng):
 def distances(dyads, points):
     """The distances (n,) of points from the curve that a crank going round traces, either side."""
     t = np.linspace(0, 2 * np.pi, 1441)
-    both = places(*dyads, t)[0]
-    out = []
-    for p in points[:, 0] + 1j * points[:, 1]:
-        best = np.inf
-        for side in (0, 1):
-            away = np.abs(both[side] - p)
-            if not np.isfinite(away).any():
-                continue
-            k = int(np.nanargmin(away))
+    both, p = places(*dyads, t)[0], points[:, 0] + 1j * points[:, 1]
+    best = np.full(len(p), np.inf)
+    for side in (0, 1):
 
-            def gap(u, side=side, p=p):
-                return float(np.nan_to_num(abs(traced(dyads, side, [u])[0] - p), nan=1e9))
+        def gap(u, side=side):
+            return np.nan_to_num(abs(traced(dyads, side, u) - p), nan=1e9)
 
-            fine = minimize_scalar(gap, bounds=(t[k] - 0.006, t[k] + 0.006), method="bounded",
-                                   options={"xatol": 1e-10})  # fmt: skip
-            best = min(best, away[k], fine.fun)
-        out.append(best)
-    return np.array(out)
+        away = np.array([np.nan_to_num(abs(both[side] - each), nan=1e9) for each in p])
+        near = t[away.argmin(axis=1)]
+        _, fine = least(gap, near - 0.006, near + 0.006)
+        best = np.min([best, away.min(axis=1), fine], axis=0)
+    return best
 
 
 def refined_from(z, side, t, points):

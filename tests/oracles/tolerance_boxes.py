@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from burmester.fourbar.dyad import RR
+from tests.oracles.least import least
 from tests.oracles.witness import places
 
 SWEEP = 4001  # places of a crank
@@ -17,16 +15,13 @@ NEAREST = 6  # samples around which the least share is looked for
 
 
 def share(where, phi, pose, bounds, axes):
-    """The greatest share of x, y and angle that places (x + iy, phi) use of one pose's box."""
-    gap = np.asarray(where) - complex(pose[0], pose[1])
-    if axes == "body":
-        gap = gap * np.exp(-1j * pose[2])
-    turn = np.angle(np.exp(1j * (np.asarray(phi) - pose[2])))
-    parts = [gap.real, gap.imag, turn]
-    used = [
-        abs(part) / bound for part, bound in zip(parts, bounds, strict=True) if math.isfinite(bound)
-    ]
-    return np.max(used, axis=0)
+    """The greatest share of x, y and angle that places (x + iy, phi) use of poses' boxes."""
+    x, y, angle = np.moveaxis(np.asarray(pose, float), -1, 0)
+    gap = np.asarray(where) - (x + 1j * y)
+    gap = gap * np.where(np.asarray(axes) == "body", np.exp(-1j * angle), 1.0)
+    turn = np.angle(np.exp(1j * (np.asarray(phi) - angle)))
+    parts = np.stack(np.broadcast_arrays(gap.real, gap.imag, turn), axis=-1)
+    return (np.abs(parts) / np.asarray(bounds, float)).max(axis=-1)  # nothing of what is free
 
 
 def least_shares(linkage, poses, bounds, axes, size):
@@ -35,45 +30,39 @@ def least_shares(linkage, poses, bounds, axes, size):
     bounds: (N, 3), above zero; inf is free.  size: of the motion, for sliders.
     """
     out = np.full(len(poses), np.inf)
-    for first, second in (
-        (linkage.first, linkage.second),
-        (linkage.second, linkage.first),
-    ):
-        turns = isinstance(first, RR)
+    poses, bounds, axes = np.asarray(poses), np.asarray(bounds), np.asarray(axes)
+    for dyads in ((linkage.first, linkage.second), (linkage.second, linkage.first)):
         sweep = np.linspace(-np.pi, np.pi, SWEEP)
-        if not turns:
+        if not isinstance(dyads[0], RR):
             sweep = 50 * size * np.linspace(-1, 1, ALONG) ** 3
-        found = places(first, second, sweep)
-        for k, pose in enumerate(poses):
-            for side in (0, 1):
-                box = pose, bounds[k], axes[k]
-                out[k] = min(out[k], _least((first, second), sweep, side, found, box))
+        found = places(*dyads, sweep)
+        for side in (0, 1):
+            pose, at, used = _lowest(found[0][side], found[1][side], poses, bounds, axes)
+            np.minimum.at(out, pose, used)
+
+            def along(drive, side=side, pose=pose):
+                w, p = places(*dyads, drive)  # noqa: B023  it is used at once
+                value = share(w[side], p[side], poses[pose], bounds[pose], axes[pose])
+                return np.nan_to_num(value, nan=1e9, posinf=1e9)
+
+            low, high = sweep[np.maximum(at - 1, 0)], sweep[np.minimum(at + 1, len(sweep) - 1)]
+            where, fine = least(along, low, high)
+            np.minimum.at(out, pose, fine)
+            # What is left of the bounds may be more than a minimum that is a corner is wide.
+            _, fine = least(along, where - CLOSE, where + CLOSE)
+            np.minimum.at(out, pose, fine)
     return out
 
 
-def _least(dyads, sweep, side, found, box):
-    """The least share on one assembly, from the best samples of a sweep."""
-    used = share(found[0][side], found[1][side], *box)
-    used = np.where(np.isfinite(used), used, np.inf)
-    best = float(used.min())
-
-    def along(drive):
-        w, p = places(*dyads, np.array([drive]))
-        value = share(w[side], p[side], *box)[0]
-        return float(value) if np.isfinite(value) else 1e9
-
-    lowest = np.flatnonzero((used <= np.roll(used, 1)) & (used <= np.roll(used, -1)))
-    for at in lowest[np.argsort(used[lowest])][:NEAREST]:
-        if not np.isfinite(used[at]):
-            continue
-        ends = sweep[max(at - 1, 0)], sweep[min(at + 1, len(sweep) - 1)]
-        found = minimize_scalar(along, bounds=ends, method="bounded", options={"xatol": 1e-12})
-        # It stops at the root of rounding, relative to where it is: once more, from there.
-        near = minimize_scalar(
-            lambda away, middle=found.x: along(middle + away),
-            bounds=(-CLOSE, CLOSE),
-            method="bounded",
-            options={"xatol": 1e-15},
-        )
-        best = min(best, float(found.fun), float(near.fun))
-    return best
+def _lowest(where, phi, poses, bounds, axes):
+    """Poses and samples (n,) of the least shares on one assembly, and the shares."""
+    every = []
+    for k in range(len(poses)):
+        used = share(where, phi, poses[k], bounds[k], axes[k])
+        used = np.where(np.isfinite(used), used, np.inf)
+        low = (used <= np.roll(used, 1)) & (used <= np.roll(used, -1)) & np.isfinite(used)
+        lowest = np.flatnonzero(low)
+        lowest = lowest[np.argsort(used[lowest])][:NEAREST]
+        every += [(k, at, used[at]) for at in lowest]
+    pose, at, used = np.array(every).reshape(-1, 3).T
+    return pose.astype(int), at.astype(int), used

@@ -10,9 +10,9 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from scipy.optimize import minimize_scalar
 
 from burmester.fourbar.dyad import PR, RP, RR
+from tests.oracles.least import least
 
 
 def _c(pair):
@@ -123,27 +123,21 @@ def _driven(first, second, poses, length):
         on = d + _c(first.moving_pivot) * turn if fixed else (_c(first.fixed_pivot) - d) / turn
         asked = (on * np.exp(-1j * float(first.normal_angle))).imag
 
-    result = []
-    for k in range(len(d)):
-        best = np.inf
-        for side in (0, 1):
+    each = np.arange(len(d))
+    best = np.full(len(d), np.inf)
+    for side in (0, 1):
 
-            def along(t, side=side, k=k):
-                w, p = places(first, second, np.array([t]))
-                value = gap(w[side], p[side], k)[0]
-                return value if np.isfinite(value) else 1e9
+        def along(t, side=side):
+            w, p = places(first, second, t)
+            return np.nan_to_num(gap(w[side], p[side], each), nan=1e9)
 
-            best = min(best, along(asked[k]))
-            distance = gap(where[side], phi[side], k)
-            if np.isnan(distance).all():
-                continue
-            at = int(np.nanargmin(distance))
-            bounds = sweep[max(at - 1, 0)], sweep[min(at + 1, len(sweep) - 1)]
-            sharp = {"xatol": 1e-10}
-            fine = minimize_scalar(along, bounds=bounds, method="bounded", options=sharp)
-            best = min(best, distance[at], fine.fun)
-        result.append(best)
-    return np.array(result)
+        distance = np.array([gap(where[side], phi[side], k) for k in each])
+        distance[np.isnan(distance)] = 1e9
+        at = distance.argmin(axis=1)
+        low, high = sweep[np.maximum(at - 1, 0)], sweep[np.minimum(at + 1, len(sweep) - 1)]
+        _, fine = least(along, low, high)
+        best = np.min([best, along(asked), distance.min(axis=1), fine], axis=0)
+    return best
 
 
 def random_four_bar(rng, second=RR):
