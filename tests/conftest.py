@@ -2,9 +2,10 @@
 
 Every test is in one of three layers, and has its name as a marker.  `campaign` is a search of many
 cases, each much like the next: they differ by a `seed` or `number`, or tests/layers.toml names the
-test.  By default a fixed sample of them is run, and all of them with `scripts/test --all`.  The
-others are `unit` where they are light, and else `cross`: whole runs and comparisons with oracles.
-What is light is measured: `--weigh` keeps the seconds of each test in tests/weights.json.
+test.  By default a fixed sample of them is run, and all of them with `scripts/test --all`.  Where
+the sample is no fifth, layers.toml says what it is.  The others are `unit` where they are light,
+and else `cross`: whole runs and comparisons with oracles.  What is light is measured: `--weigh`
+keeps the seconds of each test in tests/weights.json.
 
 A worker takes whole files, so that what is set up for a file is set up once: first those that need
 a browser, then the heaviest, so that all workers end together.
@@ -23,7 +24,7 @@ from hypothesis import settings
 
 from tests import solved
 from tests.oracles import browser as browsers
-from tests.samples import share
+from tests.samples import EVERY, share
 
 solved.install()
 
@@ -55,8 +56,10 @@ def pytest_collect_file():
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Mark the layers, leave out all but a sample of each campaign, and put heavy files first."""
     weights = json.loads(WEIGHTS.read_text())
-    campaigns = set(tomllib.loads((FOLDER / "layers.toml").read_text())["campaign"])
-    drawn = defaultdict(list)
+    layers = tomllib.loads((FOLDER / "layers.toml").read_text())
+    samples: dict[str, int | list[str]] = layers["sample"]
+    campaigns = {*layers["campaign"], *samples}
+    drawn: dict[tuple[str, ...], list[pytest.Item]] = defaultdict(list)
     for item in items:
         name, by = _function(item), getattr(item, "callspec", None)
         params = {} if by is None else by.params
@@ -67,21 +70,29 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         else:
             item.add_marker("cross" if weights.get(name, 0.0) > LIGHT_S else "unit")
     left_out: set[pytest.Item] = set()
-    for cases in drawn.values():
+    for (name, *_), cases in drawn.items():
         cases.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
-        left_out.update(cases[share(len(cases)) :])
+        kept = samples.get(name, share(len(cases)))
+        if EVERY:
+            continue
+        if isinstance(kept, int):
+            left_out.update(cases[kept:])
+        else:
+            left_out.update(item for item in cases if item.callspec.id not in kept)
     if left_out:
         config.hook.pytest_deselected(items=list(left_out))
     files: dict[str, float] = defaultdict(float)
     for name, seconds in weights.items():
         files[name.partition("::")[0]] += seconds
-    kept = [item for item in items if item not in left_out]
-    _in_browser.update(item.path for item in kept if "browser" in getattr(item, "fixturenames", ()))
+    taken = [item for item in items if item not in left_out]
+    _in_browser.update(
+        each.path for each in taken if "browser" in getattr(each, "fixturenames", ())
+    )
 
     def order(item: pytest.Item) -> tuple[bool, float, str]:
         return item.path not in _in_browser, -files[_file(item)], _file(item)
 
-    items[:] = sorted(kept, key=order)
+    items[:] = sorted(taken, key=order)
 
 
 def _file(item: pytest.Item) -> str:

@@ -19,7 +19,8 @@ def is_there(name):
 
 
 def test_campaigns_are_tests():
-    named = tomllib.loads((TESTS / "layers.toml").read_text("utf-8"))["campaign"]
+    layers = tomllib.loads((TESTS / "layers.toml").read_text("utf-8"))
+    named = [*layers["campaign"], *layers["sample"]]
     assert [name for name in named if not is_there(name)] == []
     assert len(set(named)) == len(named) > 40
 
