@@ -14,6 +14,7 @@ from burmester.io.result import task_data
 from burmester.io.saved import read_result
 from tests.command import run
 from tests.oracles import witness
+from tests.samples import samples
 
 LID = str(Path(burmester.__file__).parent / "templates" / "lid-hinge.toml")
 HEAD = "x,y,angle_deg\n"
@@ -236,7 +237,8 @@ def test_no_typed_dyad_breaks_the_command(tmp_path):
     few.write_text(HEAD + "0,0,0\n30,-20,40\n50,-60,90\n")
     far = tmp_path / "far.csv"
     far.write_text(HEAD + "".join(f"{1e7 + x},{x * x},{40 * x}\n" for x in range(7)))
-    for k in range(150):
+    tries = samples(150, 30)
+    for k in tries:
         task = (LID, few, far)[k % 3]
         arguments = ["--dyad", typed(rng), "--dyad", typed(rng)]
         if k % 4 == 0:
@@ -253,5 +255,5 @@ def test_no_typed_dyad_breaks_the_command(tmp_path):
             file.write_text(out)
             read_result(file)  # which judges it again
             assert run("judge", task, *arguments)[0] == code
-    assert ends.count(1) > 35
-    assert ends.count(2) > 20
+    assert ends.count(1) > 0.2 * len(tries)
+    assert ends.count(2) > 0.1 * len(tries)

@@ -86,7 +86,7 @@ def random_pencil(rng, kind):
 
 
 @pytest.mark.parametrize("kind", ["generic", "exact", "flat"])
-def teststationary_angles_against_a_fine_grid(kind):
+def test_stationary_angles_against_a_fine_grid(kind):
     rng = np.random.default_rng(1)
     grid = np.linspace(0, np.pi, 20000, endpoint=False)
     for _ in range(300):

@@ -27,6 +27,7 @@ from tests.oracles.few_pose_tasks import FewPoseTask, few_pose_task
 from tests.oracles.few_poses import FINE, FewPoses, span_of
 from tests.oracles.hard_tasks import sines
 from tests.oracles.witness import places
+from tests.samples import EVERY
 
 
 def around(point, size=1e-3):
@@ -177,6 +178,8 @@ def test_a_linkage_of_a_few_degrees_is_found_where_there_is_no_better_one():
     _, ours, _, theirs, _ = compared(13, kept()[13])
     assert 20 < theirs < 35
     assert ours > theirs - NEAR
+    if not EVERY:
+        return
     _, ours, _, theirs, _ = compared(10, kept()[10])
     assert 0 < theirs < 5
     assert ours > 0

@@ -24,7 +24,7 @@ from tests.oracles import fuzzed_files, plain_reader, recordings
 from tests.oracles.file_verdicts import check_refusal, judged
 from tests.oracles.fuzzed_files import File
 from tests.oracles.plain_reader import Plain
-from tests.samples import share
+from tests.samples import samples, share
 
 LANGUAGES = ("csv", "json", "toml", "parquet")
 SEEDS = st.randoms(use_true_random=False)
@@ -39,27 +39,30 @@ def path(tmp_path_factory):
 
 @pytest.mark.parametrize("language", LANGUAGES)
 def test_a_sample_of_the_campaign(language, path):
-    verdicts = [judged(fuzzed_files.any_file(language, seed), path) for seed in range(400)]
-    assert verdicts.count("exact") > 120
-    assert verdicts.count("unsure") < 8
+    seeds = samples(400, 120)
+    verdicts = [judged(fuzzed_files.any_file(language, seed), path) for seed in seeds]
+    assert verdicts.count("exact") > 0.3 * len(seeds)
+    assert verdicts.count("unsure") < 0.03 * len(seeds)
 
 
 def test_dialects_of_many_countries_are_read_exactly(path):
-    verdicts = [judged(fuzzed_files.any_file("dialects", seed), path) for seed in range(400)]
-    assert verdicts.count("exact") > 360
+    seeds = samples(400, 120)
+    verdicts = [judged(fuzzed_files.any_file("dialects", seed), path) for seed in seeds]
+    assert verdicts.count("exact") > 0.9 * len(seeds)
     assert set(verdicts) <= {"exact", "E104", "E112", "E122"}  # two ways, or beyond a double
 
 
 def test_workbooks_are_read_exactly(path):
-    verdicts = [judged(fuzzed_files.any_file("workbooks", seed), path) for seed in range(150)]
-    assert verdicts.count("exact") > 130
+    seeds = samples(150, 60)
+    verdicts = [judged(fuzzed_files.any_file("workbooks", seed), path) for seed in seeds]
+    assert verdicts.count("exact") > 0.86 * len(seeds)
     assert set(verdicts) <= {"exact", "E104", "E112", "E122"}
 
 
 def test_no_row_of_a_wrong_width_is_taken(path):
     verdicts = {
         (file.maker, judged(file, path))
-        for file in (fuzzed_files.any_file("shapes", seed) for seed in range(800))
+        for file in (fuzzed_files.any_file("shapes", seed) for seed in samples(800, 250))
     }
     assert {verdict for _, verdict in verdicts} <= {"E104", "E106", "E107"}
     assert len({maker for maker, _ in verdicts}) == 11
@@ -270,7 +273,7 @@ def test_the_command_answers_in_json(path, capsys, monkeypatch):
     monkeypatch.setattr("burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None)
     monkeypatch.setattr("burmester.linkages.further_pairs.links_of_pivot_map", lambda *_: [])
     rng, codes = random.Random(5), set()
-    for seed in range(60):
+    for seed in samples(60, 20):
         file = fuzzed_files.any_file(rng.choice(LANGUAGES), seed)
         plain = plain_reader.read(file.data, file.suffix)
         numbers = [abs(n) for pose in plain.poses for n in pose] if plain else []

@@ -32,7 +32,7 @@ def test_strange_poses(name, method, monkeypatch):
     "complete" is what "auto" chooses for six poses or more: once is enough.
     """
     rng = np.random.default_rng(list(STRANGE).index(name))
-    for number in samples(12, 4):
+    for number in samples(12, 3):
         if number == (1 if method == "auto" else 0):
             monkeypatch.setattr(
                 "burmester.linkages.from_dyads.defect_free_linkages", lambda *_: None

@@ -11,6 +11,7 @@ from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task, characteristic_length
 from tests.oracles.witness import random_four_bar, random_poses
+from tests.samples import samples
 
 
 def turned(angle, v):
@@ -42,7 +43,7 @@ MOVES += [(1.0, FAR, 0 * FAR), (1.0, 0 * FAR, FAR), (1.0, FAR, FAR), (1e6, 1e6 *
 @pytest.mark.parametrize("count", [1, 2])
 @pytest.mark.parametrize(("scale", "shift_f", "shift_m"), MOVES)
 def test_few_poses_have_the_same_dyads_in_every_frame_and_unit(count, scale, shift_f, shift_m):
-    for seed in range(4):
+    for seed in samples(4, 2):
         task, wanted = task_of(seed, count, scale, shift_f, shift_m)
         found = synthesize(task)
         for number, row in enumerate(wanted, start=1):

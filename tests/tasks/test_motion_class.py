@@ -31,6 +31,7 @@ from tests.oracles.strange_poses import STRANGE
 from tests.oracles.two_slider_motions import best_pair, planted
 from tests.oracles.two_slider_motions import printed as rounded
 from tests.oracles.witness import misses, places, random_four_bar, random_poses, span
+from tests.samples import samples
 
 PRINTED = (5e-5, np.radians(5e-5))  # half of the last digit of rows with four decimals
 
@@ -504,7 +505,7 @@ def random_general(rng, how):
 def test_no_general_motion_is_called_special(how, offset):
     rng = np.random.default_rng(7)
     undetermined = 0
-    for _ in range(340):
+    for _ in samples(340, 60):
         rows, (position, angle) = random_general(rng, how)
         turn = np.degrees(np.ptp(np.unwrap(np.sort(rows[:, 2]))))
         unit = 10 ** rng.uniform(-6, 6)

@@ -16,6 +16,7 @@ from burmester.tasks.requirements import Requirements
 from burmester.verdicts.ranking import digits_leave_open, is_trade, ranked
 from burmester.verdicts.requirement_check import standard_of
 from tests.oracles.hard_tasks import comes_by
+from tests.samples import samples
 
 
 @pytest.fixture(scope="module")
@@ -169,7 +170,8 @@ def test_the_standard(synthesis, links, transmission, asked, short):
 def test_tasks_of_practice_recommend_what_one_would_build():
     """Hinges, lids, lifts: what comes first works, and nothing in the list is better in all."""
     trades = sound = 0
-    for _, task in practical_tasks(12, 5, "hinge", "lid", "lift"):
+    count = len(samples(12, 4))
+    for _, task in practical_tasks(count, 5, "hinge", "lid", "lift"):
         synthesis = synthesize(task)
         usable = synthesis.usable
         if not usable:
@@ -192,8 +194,8 @@ def test_tasks_of_practice_recommend_what_one_would_build():
         trades += any(is_trade(each, best) for each in usable)
         # No angle that costs nothing: a lid of this travel is never off by ten degrees.
         assert np.degrees(best.error.angle.max()) < 5
-    assert sound >= 6
-    assert trades >= 3
+    assert sound >= count / 2
+    assert trades >= count / 4
 
 
 def test_the_closest_linkage_is_made_sound_where_that_costs_little():
