@@ -8,7 +8,7 @@ import numpy as np
 
 from burmester.dyads.selection import FoundDyad
 from burmester.export import FORMATS, Options, export
-from burmester.export.options import MILLIMETRES
+from burmester.tasks.length_units import MILLIMETRES
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven, Verdict
 from burmester.fourbar.dyad import PR, RP, RR

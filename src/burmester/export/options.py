@@ -11,9 +11,8 @@ from typing import final
 from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.synthesis.result import Candidate
+from burmester.tasks.length_units import MILLIMETRES
 from burmester.wording import in_unit
-
-MILLIMETRES = {"um": 1e-3, "mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
 
 
 @final
@@ -95,7 +94,7 @@ def unit_of(chosen: Candidate, options: Options) -> str:
             why=f"the lengths of this linkage are{in_unit(own)}, and the units are {known}",
             help=Help(f"say what one {own} counts as: ", unit_cure("mm")),
         )
-    return own if own in MILLIMETRES else stated or "mm"
+    return own if own is not None and own in MILLIMETRES else stated or "mm"
 
 
 def stated_unit(chosen: Candidate, options: Options) -> str | None:

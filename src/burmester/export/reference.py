@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from burmester.cures import Cure, Help
 from burmester.errors import BurmesterError, InputError
-from burmester.export.options import MILLIMETRES, Options, unit_of
+from burmester.export.options import Options, unit_of
 from burmester.fourbar.bodies import bodies_of_four_bar, places_of_bodies, scaled_linkage
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
@@ -22,6 +22,7 @@ from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.synthesis.result import Candidate
+from burmester.tasks.length_units import MILLIMETRES
 from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:

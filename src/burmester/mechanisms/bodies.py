@@ -8,7 +8,7 @@ follower; those of other kinds have the names of their skeleton.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final, NamedTuple, final, overload
 
 import numpy as np
@@ -42,6 +42,15 @@ class LinkPlaces:
         if isinstance(key, str):
             return self._of[key]
         return LinkPlaces({name: each[key] for name, each in self._of.items()})
+
+    def scaled(self, scale: float) -> LinkPlaces:
+        """The same in another unit of length, `scale` of them for one."""
+        return LinkPlaces(
+            {
+                name: Displacement(each.translation * scale, each.angle)
+                for name, each in self._of.items()
+            }
+        )
 
 
 @final
@@ -94,6 +103,12 @@ class Joint:
         every = (*self.holes, self.slot.link) if self.slot else tuple(self.holes)
         return tuple(sorted(every, key=lambda link: link != GROUND))
 
+    def scaled(self, scale: float) -> Joint:
+        """The same in another unit of length."""
+        holes = {link: at * scale for link, at in self.holes.items()}
+        slot = self.slot and self.slot._replace(offset=self.slot.offset * scale)
+        return Joint(holes, slot, self.name)
+
     def hole(self, body: str) -> FloatArray:
         """The pin (2,) in the frame of a body that has a hole, or of the pin itself."""
         return self.holes.get(body, ORIGIN)
@@ -131,6 +146,17 @@ class Bodies:
     driver: str
     tree: tuple[Limb, ...]
     closures: tuple[tuple[Joint, str, str], ...]
+
+    def scaled(self, scale: float) -> Bodies:
+        """The same in another unit of length, `scale` of them for one."""
+        new = {id(each): each.scaled(scale) for each in self.joints}
+        return replace(
+            self,
+            joints=tuple(new.values()),
+            links={name: tuple(new[id(each)] for each in own) for name, own in self.links.items()},
+            tree=tuple(each._replace(joint=new[id(each.joint)]) for each in self.tree),
+            closures=tuple((new[id(joint)], one, two) for joint, one, two in self.closures),
+        )
 
     def pins(self, places: LinkPlaces) -> list[FloatArray]:
         """Where the pins of the joints are in F, (*, 2) each, with the bodies at places (*,)."""

@@ -17,6 +17,7 @@ from burmester.printable import printable
 from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
+from burmester.tasks.loads import Loads
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, kept, nominal_rows
 from burmester.tasks.requirements import Requirements, require_possible
 from burmester.tasks.surroundings import Surroundings, require_clear_at_poses
@@ -86,6 +87,9 @@ class Task:
     timing : CrankTiming, optional
         The angles of the driver at the poses.
 
+    loads : Loads, optional
+        Weights, forces, springs and a hand, and how the driver moves in time.
+
     A task keeps its own copy of its numbers, which cannot be written to.
 
     Raises
@@ -122,6 +126,7 @@ class Task:
     read_as: str | None = None
     path: TracedPath | None = None
     timing: CrankTiming | None = None
+    loads: Loads | None = None
 
     @property
     def free_angles(self) -> NDArray[np.bool_]:

@@ -7,13 +7,16 @@ which the poses are met; with a driver that turns fully it may be a whole turn.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol, final
+from typing import Final, Protocol, final
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+
+LOOKS: Final = 721  # places in which the driver's way is tabled
+CORRECTIONS: Final = 4  # of a share; each is nearly LOOKS times as close
 
 
 class Travels(Protocol):
@@ -57,3 +60,20 @@ class Motion:
         """
         share = np.linspace(0.0, 1.0, count) if isinstance(count, int) else np.asarray(count, float)
         return chosen.travel(share, whole)
+
+    @classmethod
+    def of_driver(cls, chosen: Travels, share: FloatArray) -> Motion:
+        """The motion at shares (n,) of the driver's own way, which need not be those of the motion.
+
+        Raises InputError E163 as `of` does.
+        """
+        table = np.linspace(0.0, 1.0, LOOKS)
+        drive = cls.of(chosen, table).drive
+        first, way = drive[0], drive[-1] - drive[0]
+        gone = (drive - first) / way
+        slope = np.maximum(np.gradient(gone, table), 1 / LOOKS)
+        at = np.interp(share, gone, table)
+        for _ in range(CORRECTIONS):
+            off = share - (cls.of(chosen, at).drive - first) / way
+            at = np.clip(at + off / np.interp(at, table, slope), 0.0, 1.0)
+        return cls.of(chosen, at)

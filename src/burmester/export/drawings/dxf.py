@@ -23,12 +23,13 @@ from burmester.export.drawings.drawing import Drawing, Item, Kind, require_drawi
 from burmester.export.drawings.dxf_dimensions import add_dimension, add_style, read_dimensions
 from burmester.export.escaping import dxf_text
 from burmester.export.numbers import error_within
-from burmester.export.options import MILLIMETRES, Options, unit_of
+from burmester.export.options import Options, unit_of
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import stock_for
 from burmester.export.reference import fault, require_equal
 from burmester.mechanisms.bodies import GROUND
 from burmester.synthesis.result import Candidate
+from burmester.tasks.length_units import MILLIMETRES
 
 ezdxf: Any = import_module("ezdxf")
 

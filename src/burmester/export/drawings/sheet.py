@@ -15,12 +15,12 @@ import numpy as np
 from burmester.describe.decimals import figures_of
 from burmester.export.drawings.dimension_lines import LETTER_WIDTH, DimensionLine, dimension_lines
 from burmester.export.drawings.outlines import Outlines
-from burmester.export.options import MILLIMETRES
 from burmester.export.parts.plate import Plate, outline_points
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import INCH, stock_for
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.length_units import MILLIMETRES
 
 ARC_TOLERANCE = 1e-3  # of the width: tolerance of arcs for the size of the sheet
 PLATE_SPACING = 0.7  # of the width: space between plates

@@ -1,0 +1,1 @@
+"""Loads on linkages: what moves them, what holds them, and what their joints bear."""

@@ -1,0 +1,68 @@
+"""Where a loaded linkage rests by itself: the roots of the effort that holds it.
+
+Places are looked at closely where the effort changes sign, and between neighbours where it comes
+near zero and turns; a pair of roots closer than the finer looks may be missed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final, NamedTuple
+
+import numpy as np
+
+from burmester.numerics.arrays import FloatArray
+
+FINER: Final = 16  # looks between two places where a pair of roots may be
+HALVINGS: Final = 50
+
+
+class Equilibrium(NamedTuple):
+    """A share of the motion at which nothing holds the linkage; stable: whether it comes back."""
+
+    share: float
+    stable: bool
+
+
+def equilibria(
+    shares: FloatArray, effort: FloatArray, sense: float, at: Callable[[FloatArray], FloatArray]
+) -> tuple[Equilibrium, ...]:
+    """The roots of the effort (n,) at shares (n,), in their order.
+
+    at: the effort at further shares.  sense: 1 where the driver's coordinate grows with the shares.
+    """
+    size = float(np.nanmax(np.abs(effort), initial=0.0))
+    if size == 0 or not np.isfinite(effort).all():
+        return ()
+    near = np.minimum(np.abs(effort[:-1]), np.abs(effort[1:])) < 2 * np.abs(np.diff(effort))
+    low, high = effort[:-2], effort[2:]
+    turns = (np.abs(effort[1:-1]) <= np.minimum(np.abs(low), np.abs(high))) & (low * high > 0)
+    near |= np.append(turns, False) | np.append(False, turns)
+    inside = np.linspace(0, 1, FINER + 1)[1:-1]
+    more = (shares[:-1, None] + np.diff(shares)[:, None] * inside)[near].ravel()
+    if len(more):
+        shares, order = np.unique(np.concatenate([shares, more]), return_index=True)
+        effort = np.concatenate([effort, at(more)])[order]
+    sign = np.sign(effort)
+    found = [Equilibrium(float(shares[k]), _rises(effort, int(k), sense))
+             for k in np.flatnonzero(sign == 0)]  # fmt: skip
+    crossed = np.flatnonzero(sign[:-1] * sign[1:] < 0)
+    if len(crossed):
+        below, above = shares[crossed], shares[crossed + 1]
+        rising = sign[crossed + 1] > 0
+        for _ in range(HALVINGS):
+            middle = (below + above) / 2
+            before = (at(middle) > 0) != rising
+            below, above = np.where(before, middle, below), np.where(before, above, middle)
+        found += [
+            Equilibrium(float(share), bool(up == (sense > 0)))
+            for share, up in zip((below + above) / 2, rising, strict=True)
+        ]
+    return tuple(sorted(found))
+
+
+def _rises(effort: FloatArray, k: int, sense: float) -> bool:
+    """Whether an effort that is zero at a place pushes back on both sides of it."""
+    before = sense * effort[k - 1] if k > 0 else -1.0
+    after = sense * effort[k + 1] if k + 1 < len(effort) else 1.0
+    return bool(before < 0 < after)

@@ -1,0 +1,211 @@
+"""What is told of a linkage under its loads: efforts, reactions, equilibria, springs, time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import NamedTuple, final
+
+import numpy as np
+
+from burmester.errors import Finding, InputError
+from burmester.loads.drive_in_time import course_of
+from burmester.loads.equilibria import equilibria
+from burmester.loads.loaded_motion import LOOKS, LoadedMotion
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.loads import Drive, Spring
+from burmester.verdicts.judged_linkage import JudgedLinkage
+
+HELD = 1e-9  # of the greatest effort; less is none
+
+
+class Extremes(NamedTuple):
+    """The least and the greatest value along the motion; between which poses each is, from 1."""
+
+    least: float
+    greatest: float
+    at_poses: tuple[tuple[int, int], tuple[int, int]]
+
+
+class Rest(NamedTuple):
+    """An equilibrium: the driver's coordinate, degrees or metres; whether it comes back there."""
+
+    driver: float
+    stable: bool
+    between_poses: tuple[int, int]
+
+
+class SpringFigures(NamedTuple):
+    """A spring with the least and the greatest of its lengths and forces along the motion.
+
+    length: in the task's unit, or degrees; tension: in N, or N m; positive where it pulls.
+    """
+
+    spring: Spring
+    length: tuple[float, float]
+    tension: tuple[float, float]
+
+
+class DriveFigures(NamedTuple):
+    """The motion in time: effort, and the greatest speed and acceleration of the body's origin.
+
+    speed, acceleration: in the task's unit of lengths, a second and a second squared.
+    """
+
+    drive: Drive
+    effort: Extremes
+    speed: float
+    acceleration: float
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadFigures:
+    """Of one linkage from the first pose to the last.
+
+    turns: whether its driver turns: efforts are N m then, else N.
+    effort: that holds it still.  hand: of a hand in place of the driver, positive where it pushes
+    along its way; None where there is no hand.  pins: the greatest force of each, in N.
+    rests: its equilibria.  stays: the poses, from 0, at which friction holds it, or nothing needs
+    to.  findings: springs that are longer or shorter than they allow.
+    """
+
+    turns: bool
+    effort: Extremes
+    hand: Extremes | None
+    pins: dict[str, float]
+    rests: tuple[Rest, ...]
+    stays: tuple[int, ...]
+    springs: tuple[SpringFigures, ...]
+    drive: DriveFigures | None
+    findings: tuple[Finding, ...]
+
+
+def load_figures(found: JudgedLinkage) -> LoadFigures | None:
+    """The figures of a linkage; None where its task has no loads, or it does not move."""
+    if found.task.loads is None:
+        return None
+    try:
+        loaded = LoadedMotion.of(found)
+    except InputError as error:
+        if error.code != "E163":
+            raise
+        return None
+    effort = loaded.effort
+    hand = None
+    if loaded.loads.hand is not None:
+        hand = extremes(loaded, loaded.hand_force(effort))
+    pins = {
+        name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
+        for name, force in loaded.pin_forces(-loaded.applied).items()
+    }
+    return LoadFigures(
+        loaded.rates.turns,
+        extremes(loaded, effort),
+        hand,
+        pins,
+        _rests(found, loaded),
+        _stays(found, loaded),
+        tuple(_spring(loaded, k) for k in range(len(loaded.springs))),
+        _in_time(found, loaded.loads.drive),
+        spring_findings(loaded),
+    )
+
+
+def extremes(loaded: LoadedMotion, values: FloatArray) -> Extremes:
+    """The least and the greatest of values (n,) along a motion."""
+    if not np.isfinite(values).any():
+        return Extremes(np.nan, np.nan, ((1, 1), (1, 1)))
+    low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
+    between = (poses_about(loaded, float(loaded.drive[k])) for k in (low, high))
+    return Extremes(float(values[low]), float(values[high]), (next(between), next(between)))
+
+
+def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
+    """The numbers, from 1, of the poses before and behind a place of the driver."""
+    met = loaded.sense * loaded.at_poses
+    order = np.argsort(met)
+    order = order[np.isfinite(met[order])]
+    slack = HELD * float(np.ptp(met[order]))
+    at = loaded.sense * drive
+    before = order[met[order] <= at + slack]
+    behind = order[met[order] >= at - slack]
+    return int(before[-1] if len(before) else order[0]) + 1, int(
+        behind[0] if len(behind) else order[-1]
+    ) + 1
+
+
+def _rests(found: JudgedLinkage, loaded: LoadedMotion) -> tuple[Rest, ...]:
+    shares = np.linspace(0.0, 1.0, LOOKS)
+
+    def effort(at: FloatArray) -> FloatArray:
+        return LoadedMotion.of(found, at).effort
+
+    rests = equilibria(shares, loaded.effort, loaded.sense, effort)
+    if not rests:
+        return ()
+    drives = LoadedMotion.of(found, np.array([each.share for each in rests])).drive
+    return tuple(
+        Rest(float(np.degrees(at)) if loaded.rates.turns else float(at), each.stable,
+             poses_about(loaded, float(at)))
+        for each, at in zip(rests, drives, strict=True)
+    )  # fmt: skip
+
+
+def _stays(found: JudgedLinkage, loaded: LoadedMotion) -> tuple[int, ...]:
+    """The poses at which the friction of springs, or nothing, is enough to hold it."""
+    reached = np.flatnonzero(np.isfinite(loaded.motion.pose_shares))
+    at = LoadedMotion.of(found, loaded.motion.pose_shares[reached])
+    none = HELD * float(np.nanmax(np.abs(loaded.effort), initial=0.0))
+    held = np.abs(at.effort) <= at.friction + none
+    return tuple(int(k) for k in reached[held])
+
+
+def _spring(loaded: LoadedMotion, k: int) -> SpringFigures:
+    course = loaded.springs[k]
+    turned = course.spring.kind == "torsion"
+    length = np.degrees(course.length) if turned else course.length / loaded.metre
+    return SpringFigures(
+        course.spring,
+        (float(length.min()), float(length.max())),
+        (float(course.tension.min()), float(course.tension.max())),
+    )
+
+
+def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
+    """The springs that are longer or shorter than they allow, with the poses concerned."""
+    out = []
+    for number, course in enumerate(loaded.springs, start=1):
+        if not course.off.any():
+            continue
+        drives = loaded.drive[course.off]
+        poses = sorted({each for at in (drives[0], drives[-1])
+                        for each in poses_about(loaded, float(at))})  # fmt: skip
+        least, most = course.spring.span
+        length = course.length / loaded.metre
+        message = (
+            f"is {length.min():.4g} to {length.max():.4g} long along the motion, and may be "
+            f"{least:.4g} to {most:.4g}"
+        )
+        kind = f"{course.spring.kind} spring {number}"
+        out.append(Finding("spring", f"its {kind} {message}", tuple(k - 1 for k in poses)))
+    return tuple(out)
+
+
+def _in_time(found: JudgedLinkage, drive: Drive | None) -> DriveFigures | None:
+    """A linkage whose driver moves in time; None where the task states no drive."""
+    if drive is None:
+        return None
+    course = course_of(drive, LOOKS)
+    loaded = LoadedMotion.of_driver(found, course.share)
+    way = float(loaded.drive[-1] - loaded.drive[0])
+    speed, push = course.speed * way, course.acceleration * way
+    resisted = loaded.carried(speed, push) - loaded.applied
+    v, a = loaded.rates.of_body(loaded.bodies.body)
+    velocity = v[:, :2] * speed[:, None]
+    acceleration = a[:, :2] * speed[:, None] ** 2 + v[:, :2] * push[:, None]
+    return DriveFigures(
+        drive,
+        extremes(loaded, loaded.rates.effort(resisted)),
+        float(np.nanmax(np.hypot(*velocity.T))) / loaded.metre,
+        float(np.nanmax(np.hypot(*acceleration.T))) / loaded.metre,
+    )

@@ -1,0 +1,282 @@
+"""A linkage under its loads along its motion: efforts, reactions, energy; SI units throughout.
+
+For a unit speed of the driver the bodies move by v.  So by virtual work the driver's effort is the
+sum of (M a - W) v over the bodies, a torque where the driver turns and a force where it slides.
+With q the driver's coordinate, I = sum m v² the reduced inertia and V the potential energy, that is
+I q'' + I' q'² / 2 + dV/dq (Eksergian's equation).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple, Self, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.loads.masses import Masses, body_named
+from burmester.loads.spring_laws import SpringLaw
+from burmester.mechanisms.bodies import GROUND, Bodies, Joint, LinkPlaces
+from burmester.mechanisms.rates import Rates, rates
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.length_units import MILLIMETRES
+from burmester.tasks.loads import Loads, Spring
+from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.motion import Motion
+
+LOOKS = 361  # places along the motion at which a linkage is looked at
+
+
+class SpringCourse(NamedTuple):
+    """A spring along the motion: length and tension (n,), and the rate of its length (n,).
+
+    At places (n,): metres, N, and metres for a unit of the driver.  Of torsion springs radians and
+    N m.  off: where it is longer or shorter than it allows.
+    """
+
+    spring: Spring
+    length: FloatArray
+    tension: FloatArray
+    rate: FloatArray
+    energy: FloatArray
+    off: NDArray[np.bool_]
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LoadedMotion:
+    """At places (n,) from the first pose to the last.
+
+    motion: in the task's unit.  bodies, places, rates, masses: in metres and kg.
+    at_poses: (N,), the driver's coordinate at the poses, nan where it does not reach one.
+    """
+
+    loads: Loads
+    motion: Motion
+    at_poses: FloatArray
+    bodies: Bodies
+    places: LinkPlaces
+    rates: Rates
+    masses: Masses
+    metre: float
+
+    @classmethod
+    def of(cls, found: JudgedLinkage, shares: FloatArray | int = LOOKS) -> Self:
+        """A linkage of a task with loads, at shares (n,) of its motion or so many of them.
+
+        Raises E163 where it does not move from one pose to another, and E177.
+        """
+        if isinstance(shares, int):
+            shares = np.linspace(0.0, 1.0, shares)
+        return cls._of(found, Motion.of(found, shares))
+
+    @classmethod
+    def of_driver(cls, found: JudgedLinkage, shares: FloatArray) -> Self:
+        """The same at shares (n,) of the driver's own way."""
+        return cls._of(found, Motion.of_driver(found, shares))
+
+    @classmethod
+    def _of(cls, found: JudgedLinkage, motion: Motion) -> Self:
+        loads = found.task.loads
+        assert loads is not None
+        metre = MILLIMETRES[found.unit or ""] / 1000
+        bodies = found.bodies.scaled(metre)
+        places = found.bodies_at(motion.drive, motion.places).scaled(metre)
+        masses = Masses.of(bodies, loads, found.task.body, metre)
+        unit = 1.0 if motion.in_turns else metre
+        met = np.nan_to_num(motion.pose_shares)
+        at_poses = np.where(
+            np.isfinite(motion.pose_shares), Motion.of(found, met).drive * unit, np.nan
+        )
+        moved = rates(bodies, places)
+        return cls(loads, motion, at_poses, bodies, places, moved, masses, metre)
+
+    @property
+    def drive(self) -> FloatArray:
+        """The driver's coordinate (n,): radians, or metres."""
+        return self.motion.drive * (1.0 if self.motion.in_turns else self.metre)
+
+    @property
+    def sense(self) -> float:
+        """1 where the driver's coordinate grows from the first pose to the last, else -1."""
+        return -1.0 if self.drive[-1] < self.drive[0] else 1.0
+
+    def _arm(self, name: str, point: FloatArray) -> FloatArray:
+        """A point (2,) of a body from its origin, in F: (n, 2)."""
+        return self.places[name].rotate(point)
+
+    def _wrenches(self, name: str, force: FloatArray, arm: FloatArray) -> FloatArray:
+        """A force (n, 2) at an arm (n, 2) of a body as loads of all bodies: (n, k, 3)."""
+        out = np.zeros_like(self.rates.velocity)
+        if name != GROUND:
+            k = self.rates.bodies.index(name)
+            out[:, k, :2] = force
+            out[:, k, 2] = arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
+        return out
+
+    @cached_property
+    def centres(self) -> FloatArray:
+        """The centres of mass from the origins of the bodies, in F: (n, k, 2)."""
+        pairs = zip(self.rates.bodies, self.masses.centre, strict=True)
+        return np.stack([self._arm(name, centre) for name, centre in pairs], axis=1)
+
+    @cached_property
+    def springs(self) -> tuple[SpringCourse, ...]:
+        """The springs along the motion, but for counterweights."""
+        return tuple(
+            self._torsion(each) if each.kind == "torsion" else self._straight(each)
+            for each in self.loads.springs
+            if each.kind != "counterweight"
+        )
+
+    def _ends(self, spring: Spring) -> list[tuple[str, FloatArray]]:
+        names = [body_named(each.link, self.bodies) for each in spring.ends]
+        points = [np.array(each.point) * self.metre for each in spring.ends]
+        return [(name, self._arm(name, at)) for name, at in zip(names, points, strict=True)]
+
+    def _straight(self, spring: Spring) -> SpringCourse:
+        law = SpringLaw.of(spring, self.metre, self.loads.celsius)
+        one, two = self._ends(spring)
+        apart = self._point(*two) - self._point(*one)
+        length = np.linalg.norm(apart, axis=-1)
+        speed = self.rates.of_point(*two)[0] - self.rates.of_point(*one)[0]
+        with np.errstate(invalid="ignore", divide="ignore"):
+            rate = (speed * apart).sum(axis=-1) / length
+        least, most = (each * self.metre for each in spring.span)
+        off = law.off(length, (least, most))
+        return SpringCourse(spring, length, law.tension(length), rate, law.energy(length), off)
+
+    def _torsion(self, spring: Spring) -> SpringCourse:
+        names = [body_named(each.link, self.bodies) for each in spring.ends]
+        angle = np.unwrap(self.places[names[1]].angle - self.places[names[0]].angle)
+        free = np.radians(spring["free_deg"])
+        angle = angle - 2 * np.pi * np.round((angle[0] - free) / (2 * np.pi))
+        stiff = spring.count * np.degrees(spring["rate_Nm_per_deg"])
+        rate = self.rates.of_body(names[1])[0][:, 2] - self.rates.of_body(names[0])[0][:, 2]
+        moment = stiff * (angle - free)
+        off = np.zeros(angle.shape, dtype=bool)
+        return SpringCourse(spring, angle, moment, rate, moment**2 / (2 * stiff), off)
+
+    def _point(self, name: str, arm: FloatArray) -> FloatArray:
+        return self.places[name].translation + arm
+
+    @cached_property
+    def applied(self) -> FloatArray:
+        """The loads W (n, k, 3) of the bodies: forces in F, moments about their origins."""
+        loads, out = self.loads, np.zeros_like(self.rates.velocity)
+        weights = self.masses.mass[:, None] * loads.gravity
+        out[..., :2] += weights
+        out[..., 2] += self.centres[..., 0] * weights[:, 1] - self.centres[..., 1] * weights[:, 0]
+        body = self.bodies.body
+        out[:, self.rates.bodies.index(body), 2] += loads.torque
+        for force, acts in zip(loads.forces, self._acting, strict=True):
+            own = np.broadcast_to(force.force, (len(out), 2))
+            turned = self._arm(body, force.force) if force.frame == "M" else own
+            arm = self._arm(body, force.at * self.metre)
+            out += self._wrenches(body, turned * acts[:, None], arm)
+        for course in self.springs:
+            if course.spring.kind == "torsion":
+                for end, sign in zip(course.spring.ends, (1.0, -1.0), strict=True):
+                    name = body_named(end.link, self.bodies)
+                    if name != GROUND:
+                        out[:, self.rates.bodies.index(name), 2] += sign * course.tension
+                continue
+            one, two = self._ends(course.spring)
+            apart = self._point(*two) - self._point(*one)
+            with np.errstate(invalid="ignore", divide="ignore"):
+                pull = apart * (course.tension / course.length)[:, None]
+            out += self._wrenches(one[0], pull, one[1])
+            out -= self._wrenches(two[0], pull, two[1])
+        return out
+
+    @cached_property
+    def _acting(self) -> list[FloatArray]:
+        """How much of each force acts at the places: 1 or 0, (n,)."""
+        gone, met = self.sense * self.drive, self.sense * self.at_poses
+        out = []
+        for force in self.loads.forces:
+            low, high = (
+                end if pose is None else met[pose - 1]
+                for pose, end in ((force.from_pose, -np.inf), (force.to_pose, np.inf))
+            )
+            out.append(((gone >= min(low, high)) & (gone <= max(low, high))).astype(float))
+        return out
+
+    def carried(self, speed: FloatArray, push: FloatArray) -> FloatArray:
+        """M a (n, k, 3) where the driver has speeds (n,) and accelerations (n,)."""
+        speed, push = speed[:, None], push[:, None]
+        out = np.zeros_like(self.rates.velocity)
+        for k, name in enumerate(self.rates.bodies):
+            arm = self.centres[:, k]
+            v, a = self.rates.of_point(name, arm)
+            force = self.masses.mass[k] * (a * speed**2 + v * push)
+            turned = self.rates.acceleration[:, k, 2:] * speed**2
+            turned = (turned + self.rates.velocity[:, k, 2:] * push)[:, 0]
+            out[:, k, :2] = force
+            out[:, k, 2] = arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
+            out[:, k, 2] += self.masses.inertia[k] * turned
+        return out
+
+    @cached_property
+    def effort(self) -> FloatArray:
+        """What the driver bears to hold the linkage (n,), N m or N, without friction."""
+        return self.rates.effort(-self.applied)
+
+    @cached_property
+    def friction(self) -> FloatArray:
+        """How much the friction of gas springs adds to or takes from the effort, (n,)."""
+        return sum(
+            (
+                each.spring.count * each.spring["friction_N"] * np.abs(each.rate)
+                for each in self.springs
+                if each.spring.kind == "gas"
+            ),
+            start=np.zeros(self.drive.shape),
+        )
+
+    @cached_property
+    def inertia(self) -> tuple[FloatArray, FloatArray]:
+        """The reduced inertia I (n,) and its derivative by the driver's coordinate."""
+        total, slope = np.zeros(self.drive.shape), np.zeros(self.drive.shape)
+        for k, name in enumerate(self.rates.bodies):
+            v, a = self.rates.of_point(name, self.centres[:, k])
+            turn, bent = self.rates.velocity[:, k, 2], self.rates.acceleration[:, k, 2]
+            total += self.masses.mass[k] * (v * v).sum(-1) + self.masses.inertia[k] * turn**2
+            slope += 2 * self.masses.mass[k] * (v * a).sum(-1)
+            slope += 2 * self.masses.inertia[k] * turn * bent
+        return total, slope
+
+    @cached_property
+    def energy(self) -> FloatArray:
+        """The potential energy (n,) in J of weights and springs, up to a constant."""
+        at = np.stack([self.places[name].translation for name in self.rates.bodies], axis=1)
+        weights = self.masses.mass[:, None] * self.loads.gravity
+        height = -((at + self.centres) * weights).sum(axis=(1, 2))
+        return sum((each.energy for each in self.springs), start=height)
+
+    @cached_property
+    def hand_path(self) -> FloatArray:
+        """The rate (n, 2) at which the point of the hand moves, metres for a unit of the driver."""
+        assert self.loads.hand is not None
+        arm = self._arm(self.bodies.body, self.loads.hand * self.metre)
+        return self.rates.of_point(self.bodies.body, arm)[0]
+
+    def hand_force(self, effort: FloatArray) -> FloatArray:
+        """The force (n,) of a hand that takes the driver's effort, positive along its way."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(self.sense * effort / np.linalg.norm(self.hand_path, axis=-1))
+
+    def pin_forces(self, resisted: FloatArray) -> dict[str, FloatArray]:
+        """The forces (n, 2) in F of the pins, by their letters; resisted: (n, k, 3), M a - W."""
+        forces = self.rates.pin_forces(resisted)
+        return {letter(joint): forces[:, j] for j, joint in enumerate(self.bodies.joints)}
+
+
+def letter(joint: Joint) -> str:
+    """The letter of a joint: of a four-bar A and B of the driver, C and D of the follower."""
+    if joint.name:
+        return joint.name
+    drives = "driver" in joint.holes or (joint.slot is not None and joint.slot.pin == "driver")
+    grounded = GROUND in joint.holes
+    return ("A" if grounded else "B") if drives else ("D" if grounded else "C")

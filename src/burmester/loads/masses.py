@@ -1,0 +1,114 @@
+"""What the bodies of a linkage weigh: the body, its links as plates or by name; SI units."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from burmester.geometry.regions import Polygon
+from burmester.mechanisms.bodies import GROUND, Bodies
+from burmester.numerics.arrays import FloatArray
+from burmester.tasks.loads import BODY, Loads, Mass, Plates, malformed
+from burmester.wording import listed
+
+
+class Masses(NamedTuple):
+    """Of k bodies: mass (k,), centre (k, 2) in the frame of each, inertia (k,) about the centre."""
+
+    mass: FloatArray
+    centre: FloatArray
+    inertia: FloatArray
+
+    @classmethod
+    def of(cls, bodies: Bodies, loads: Loads, outline: Polygon | None, metre: float) -> Masses:
+        """Those of bodies in metres; outline: of the body, in the task's unit; raises E177."""
+        parts: dict[str, list[tuple[float, FloatArray, float]]] = {
+            name: [] for name in bodies.moving
+        }
+        if loads.body is not None:
+            parts[bodies.body].append(_of_body(loads.body, outline, metre))
+        if isinstance(loads.links, Plates):
+            for name, joints in bodies.links.items():
+                corners = np.array([each.hole(name) for each in joints if name in each.holes])
+                if name != GROUND and len(corners):
+                    parts[name].append(_plate(corners, loads.links, metre))
+        else:
+            for given, mass in loads.links.items():
+                name = body_named(given, bodies)
+                holes = [each.hole(name) for each in bodies.links.get(name, ())]
+                centre = np.mean(holes, axis=0) if holes else np.zeros(2)
+                if name != GROUND:
+                    parts[name].append((mass, centre, 0.0))
+        for spring in loads.springs:
+            if spring.kind == "counterweight":
+                name = body_named(spring.ends[1].link, bodies)
+                at = np.array(spring.ends[1].point) * metre
+                if name != GROUND:
+                    parts[name].append((spring.count * spring["mass_kg"], at, 0.0))
+        return cls(*map(np.array, zip(*map(_joined, parts.values()), strict=True)))
+
+
+def body_named(name: str, bodies: Bodies) -> str:
+    """The body of a linkage that a task names; raises E177 for one that it does not have."""
+    if name == BODY:
+        return bodies.body
+    if name == GROUND or name in bodies.moving:
+        return name
+    known = listed([GROUND, BODY, *bodies.moving])
+    raise malformed(f"this linkage has no link {name!r}", f"it has {known}", f"name one of {known}")
+
+
+def moments(corners: FloatArray) -> tuple[float, FloatArray, float]:
+    """Area, centroid (2,) and polar moment about it, of a polygon (n, 2)."""
+    one, two = corners - corners[0], np.roll(corners - corners[0], -1, axis=0)
+    cross = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
+    area = cross.sum() / 2
+    centre = ((one + two) * cross[:, None]).sum(axis=0) / (6 * area)
+    about = (cross * ((one * one + one * two + two * two).sum(axis=1))).sum() / 12
+    polar = about - area * float(centre @ centre)
+    return abs(float(area)), centre + corners[0], abs(float(polar))
+
+
+def _of_body(body: Mass, outline: Polygon | None, metre: float) -> tuple[float, FloatArray, float]:
+    centre, inertia = body.center, body.inertia_kgm2
+    if outline is not None:
+        area, middle, polar = moments(outline.vertices)
+        if centre is None:
+            centre = middle
+        if inertia is None:
+            inertia = body.mass_kg * polar / area * metre**2
+    if centre is None:
+        raise malformed(
+            "the body has a mass, and nothing says where its centre is",
+            "the task has no outline of the body",
+            "write center = [x, y], in the frame of the body, or give the body an outline",
+        )
+    return body.mass_kg, centre * metre, inertia or 0.0
+
+
+def _plate(corners: FloatArray, plate: Plates, metre: float) -> tuple[float, FloatArray, float]:
+    """A plate with round ends about its pins: bars along its sides, each with half of each end."""
+    width, depth = plate.width * metre, plate.density * plate.thickness * metre
+    if len(corners) == 1:
+        return depth * np.pi * width**2 / 4, corners[0], depth * np.pi * width**4 / 32
+    sides = list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
+    parts = []
+    for one, two in sides if len(corners) > 2 else sides[:1]:
+        length = float(np.linalg.norm(two - one))
+        bar = depth * length * width
+        parts.append((bar, (one + two) / 2, bar * (length**2 + width**2) / 12))
+    ends = depth * np.pi * width**2 / 4
+    parts += [(ends / 2, each, ends / 2 * width**2 / 8) for each in corners for _ in range(2)]
+    return _joined(parts)
+
+
+def _joined(parts: list[tuple[float, FloatArray, float]]) -> tuple[float, FloatArray, float]:
+    """Parts of one body as one (Steiner's theorem)."""
+    mass = sum(each[0] for each in parts)
+    if mass == 0:
+        return 0.0, np.zeros(2), sum(each[2] for each in parts)
+    centre = sum((each[0] * each[1] for each in parts), np.zeros(2)) / mass
+    about = sum(each[2] + each[0] * float((each[1] - centre) @ (each[1] - centre))
+                for each in parts)  # fmt: skip
+    return mass, centre, about

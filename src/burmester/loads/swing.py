@@ -1,0 +1,109 @@
+"""A linkage that is let go: how it swings under its loads, without friction.
+
+I q'' + I' q'² / 2 + T(q) = 0, where T is the effort that would hold it.  I and T are smooth along
+the motion, so they are polynomials (Chebyshev's) whose last coefficients have died out.  Time goes
+on by the rule of Dormand and Prince, with steps that keep the error small.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Final, NamedTuple
+
+import numpy as np
+from numpy.polynomial import chebyshev
+
+from burmester.loads.loaded_motion import LoadedMotion
+from burmester.numerics.arrays import FloatArray
+from burmester.verdicts.judged_linkage import JudgedLinkage
+
+DEGREE: Final = 256
+LEAST_STEP: Final = 1e-6  # of the time between two of those told
+DEAD: Final = 1e-15  # relative; coefficients below it are rounding
+STEP_ERROR: Final = 1e-12  # relative, of one step
+_STEPS: Final = (
+    (),
+    (1 / 5,),
+    (3 / 40, 9 / 40),
+    (44 / 45, -56 / 15, 32 / 9),
+    (19372 / 6561, -25360 / 2187, 64448 / 6561, -212 / 729),
+    (9017 / 3168, -355 / 33, 46732 / 5247, 49 / 176, -5103 / 18656),
+    (35 / 384, 0, 500 / 1113, 125 / 192, -2187 / 6784, 11 / 84),
+)
+_FOURTH: Final = np.array(
+    [5179 / 57600, 0, 7571 / 16695, 393 / 640, -92097 / 339200, 187 / 2100, 1 / 40]
+)
+
+
+class Swing(NamedTuple):
+    """At times (n,) in s: share of the way, the driver's coordinate, its speed, the energy in J.
+
+    ended: whether it came to an end of the motion before the last time.
+    """
+
+    time: FloatArray
+    share: FloatArray
+    drive: FloatArray
+    speed: FloatArray
+    energy: FloatArray
+    ended: bool
+
+
+def swing(found: JudgedLinkage, start: float, seconds: float, count: int = 201) -> Swing:
+    """A linkage that is let go at rest at a share of the driver's way; see `LoadedMotion.of`."""
+    nodes = chebyshev.chebpts1(DEGREE + 1)
+    loaded = LoadedMotion.of_driver(found, (nodes + 1) / 2)
+    ends = LoadedMotion.of(found, 2).drive
+    middle, half = ends.mean(), (ends[1] - ends[0]) / 2
+    basis = chebyshev.chebvander(nodes, DEGREE)
+    weight = 2.0 / (DEGREE + 1)
+    table = np.stack([loaded.inertia[0], loaded.inertia[1], loaded.effort, loaded.energy])
+    series = weight * table @ basis
+    series[:, 0] /= 2
+
+    alive = np.abs(series) > DEAD * np.abs(series).max(axis=1, keepdims=True)
+    degrees = np.arange(np.flatnonzero(alive.any(axis=0)).max() + 1)
+    series = series[:, : len(degrees)]
+
+    def values(q: float) -> FloatArray:
+        x = min(1.0, max(-1.0, (q - middle) / half))
+        return np.asarray(series @ np.cos(degrees * math.acos(x)))
+
+    def rates(state: FloatArray) -> FloatArray:
+        inertia, slope, effort, _ = values(state[0])
+        return np.array([state[1], -(slope * state[1] ** 2 / 2 + effort) / inertia])
+
+    state = np.array([ends[0] + (ends[1] - ends[0]) * start, 0.0])
+    times, rows, step, now = np.linspace(0, seconds, count), [state], seconds / count / 4, 0.0
+    size = np.array([abs(half), abs(half) / seconds])
+    for until in times[1:]:
+        while now < until:
+            take = min(step, until - now)
+            new, off = _step(rates, state, take)
+            error = float(np.abs(off / (size + np.abs(state))).max())
+            if error <= STEP_ERROR or take < LEAST_STEP * times[1]:
+                now, state = (until if take == until - now else now + take), new
+            step = take * min(4.0, max(0.2, 0.9 * (STEP_ERROR / max(error, 1e-30)) ** 0.2))
+        if not abs(state[0] - middle) <= abs(half):
+            break
+        rows.append(state)
+    q, speed = np.array(rows).T
+    inertia, _, _, potential = np.array([values(each) for each in q]).T
+    share = (q - ends[0]) / (ends[1] - ends[0])
+    energy = potential + inertia * speed**2 / 2
+    return Swing(times[: len(q)], share, q, speed, energy, len(q) < count)
+
+
+def _step(
+    rates: Callable[[FloatArray], FloatArray], state: FloatArray, step: float
+) -> tuple[FloatArray, FloatArray]:
+    """The state a step later, of fifth order, and how far that of fourth order is from it."""
+    slopes = list[FloatArray]()
+    for row in _STEPS:
+        there = state + step * sum(
+            (a * k for a, k in zip(row, slopes, strict=True)), start=0 * state
+        )
+        slopes.append(rates(there))
+    every = np.array(slopes)
+    return there, step * ((np.array([*_STEPS[-1], 0]) - _FOURTH) @ every)
