@@ -29,6 +29,7 @@ from burmester.io.linkage_data import (
 )
 from burmester.io.pose_data import crank_data, degrees_of, poses_data, tolerances_data
 from burmester.io.reading.specification import requirements_data, surroundings_data
+from burmester.io.reading.trees.loads_tree import loads_data
 from burmester.linkages.nearby_linkages import Move, greatest_move, moves
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.limits import KINDS, Limits
@@ -210,14 +211,23 @@ def task_data(task: Task) -> dict[str, Any]:
             data["path"]["crank_deg"] = [degrees_of(each) for each in angles.tolist()]
     if task.limits:
         data["limits"] = [limits_data(each) for each in task.limits]
-    if task.body is not None:
-        data["body"] = task.body.vertices.tolist()
-    if task.surroundings is not None:
-        data |= surroundings_data(task.surroundings)
+    data |= _around(task)
     if task.requirements.has_any:
         data["requirements"] = requirements_data(task.requirements)
     position, angle = (given / math.sqrt(3) for given in task.resolution)
     data["pose_sigma"] = {"position": position, "angle_deg": math.degrees(angle)}
+    return data
+
+
+def _around(task: Task) -> dict[str, Any]:
+    """The body of a task, what it must not touch, and what loads it."""
+    data: dict[str, Any] = {}
+    if task.body is not None:
+        data["body"] = task.body.vertices.tolist()
+    if task.surroundings is not None:
+        data |= surroundings_data(task.surroundings)
+    if task.loads is not None:
+        data |= loads_data(task.loads)
     return data
 
 

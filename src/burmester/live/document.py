@@ -134,7 +134,10 @@ def document_of(task: Task) -> dict[str, Any]:
     return _with_digits(dict(plain(_with_boxes(document))), task)
 
 
-_BESIDE_POSES = ("crank", "path", "body", "keep_out", "surroundings", "limits", "requirements")
+_BESIDE_POSES = (
+    *("crank", "path", "body", "keep_out", "surroundings", "limits", "requirements"),
+    *("loads", "springs", "drive"),
+)
 _NOT_STATED = {"name": "", "weight": 1, "exact": False}
 
 
@@ -218,7 +221,7 @@ def task_file(document: dict[str, Any]) -> str:
     return "\n".join(lines) + "\n"
 
 
-_TABLES = ("keep_out", "surroundings", "limits", "requirements")
+_TABLES = ("keep_out", "surroundings", "limits", "requirements", "loads", "springs", "drive")
 
 
 def _toml(value: Any) -> str:

@@ -13,7 +13,7 @@ from burmester.loads.equilibria import equilibria
 from burmester.loads.loaded_motion import LOOKS, LoadedMotion
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.loads import Drive, Spring
-from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.judged_linkage import LinkageAtPoses
 
 HELD = 1e-9  # of the greatest effort; less is none
 
@@ -80,7 +80,7 @@ class LoadFigures:
     findings: tuple[Finding, ...]
 
 
-def load_figures(found: JudgedLinkage) -> LoadFigures | None:
+def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
     """The figures of a linkage; None where its task has no loads, or it does not move."""
     if found.task.loads is None:
         return None
@@ -134,7 +134,7 @@ def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
     ) + 1
 
 
-def _rests(found: JudgedLinkage, loaded: LoadedMotion) -> tuple[Rest, ...]:
+def _rests(found: LinkageAtPoses, loaded: LoadedMotion) -> tuple[Rest, ...]:
     shares = np.linspace(0.0, 1.0, LOOKS)
 
     def effort(at: FloatArray) -> FloatArray:
@@ -151,7 +151,7 @@ def _rests(found: JudgedLinkage, loaded: LoadedMotion) -> tuple[Rest, ...]:
     )  # fmt: skip
 
 
-def _stays(found: JudgedLinkage, loaded: LoadedMotion) -> tuple[int, ...]:
+def _stays(found: LinkageAtPoses, loaded: LoadedMotion) -> tuple[int, ...]:
     """The poses at which the friction of springs, or nothing, is enough to hold it."""
     reached = np.flatnonzero(np.isfinite(loaded.motion.pose_shares))
     at = LoadedMotion.of(found, loaded.motion.pose_shares[reached])
@@ -191,7 +191,7 @@ def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
     return tuple(out)
 
 
-def _in_time(found: JudgedLinkage, drive: Drive | None) -> DriveFigures | None:
+def _in_time(found: LinkageAtPoses, drive: Drive | None) -> DriveFigures | None:
     """A linkage whose driver moves in time; None where the task states no drive."""
     if drive is None:
         return None

@@ -22,7 +22,7 @@ from burmester.mechanisms.rates import Rates, rates
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.length_units import MILLIMETRES
 from burmester.tasks.loads import Loads, Spring
-from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Motion
 
 LOOKS = 361  # places along the motion at which a linkage is looked at
@@ -62,7 +62,7 @@ class LoadedMotion:
     metre: float
 
     @classmethod
-    def of(cls, found: JudgedLinkage, shares: FloatArray | int = LOOKS) -> Self:
+    def of(cls, found: LinkageAtPoses, shares: FloatArray | int = LOOKS) -> Self:
         """A linkage of a task with loads, at shares (n,) of its motion or so many of them.
 
         Raises E163 where it does not move from one pose to another, and E177.
@@ -72,12 +72,12 @@ class LoadedMotion:
         return cls._of(found, Motion.of(found, shares))
 
     @classmethod
-    def of_driver(cls, found: JudgedLinkage, shares: FloatArray) -> Self:
+    def of_driver(cls, found: LinkageAtPoses, shares: FloatArray) -> Self:
         """The same at shares (n,) of the driver's own way."""
         return cls._of(found, Motion.of_driver(found, shares))
 
     @classmethod
-    def _of(cls, found: JudgedLinkage, motion: Motion) -> Self:
+    def _of(cls, found: LinkageAtPoses, motion: Motion) -> Self:
         loads = found.task.loads
         assert loads is not None
         metre = MILLIMETRES[found.unit or ""] / 1000

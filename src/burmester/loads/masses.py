@@ -78,12 +78,7 @@ def _of_body(body: Mass, outline: Polygon | None, metre: float) -> tuple[float, 
             centre = middle
         if inertia is None:
             inertia = body.mass_kg * polar / area * metre**2
-    if centre is None:
-        raise malformed(
-            "the body has a mass, and nothing says where its centre is",
-            "the task has no outline of the body",
-            "write center = [x, y], in the frame of the body, or give the body an outline",
-        )
+    assert centre is not None  # else the task would not have been made
     return body.mass_kg, centre * metre, inertia or 0.0
 
 

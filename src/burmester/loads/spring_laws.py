@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.loads import Spring
+from burmester.tasks.loads import ROOM_CELSIUS, Spring
 
 NOMINAL: Final = 5e-3  # metres before the ends of the stroke at which a gas spring is measured
-ROOM_TEMPERATURE: Final = 293.15  # K, at which it is
+ZERO_CELSIUS: Final = 273.15  # K
 
 
 class SpringLaw(NamedTuple):
@@ -36,7 +36,7 @@ class SpringLaw(NamedTuple):
         """The law of all `count` springs together; metre: the task's unit of lengths in metres."""
         many = float(spring.count)
         if spring.kind == "gas":
-            warm = many * (celsius + 273.15) / ROOM_TEMPERATURE
+            warm = many * (celsius + ZERO_CELSIUS) / (ROOM_CELSIUS + ZERO_CELSIUS)
             longest, stroke = spring["length"] * metre, spring["stroke"] * metre
             first, last = spring["force_N"] * warm, spring["compressed_force_N"] * warm
             rate = (last - first) / max(stroke - 2 * NOMINAL, stroke / 10)

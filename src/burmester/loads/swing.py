@@ -16,7 +16,7 @@ from numpy.polynomial import chebyshev
 
 from burmester.loads.loaded_motion import LoadedMotion
 from burmester.numerics.arrays import FloatArray
-from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.judged_linkage import LinkageAtPoses
 
 DEGREE: Final = 256
 LEAST_STEP: Final = 1e-6  # of the time between two of those told
@@ -50,7 +50,7 @@ class Swing(NamedTuple):
     ended: bool
 
 
-def swing(found: JudgedLinkage, start: float, seconds: float, count: int = 201) -> Swing:
+def swing(found: LinkageAtPoses, start: float, seconds: float, count: int = 201) -> Swing:
     """A linkage that is let go at rest at a share of the driver's way; see `LoadedMotion.of`."""
     nodes = chebyshev.chebpts1(DEGREE + 1)
     loaded = LoadedMotion.of_driver(found, (nodes + 1) / 2)

@@ -3,7 +3,7 @@
 Masses are in kg, forces in N, moments in N m, times in s; points and lengths of springs in the
 task's unit of lengths.
 
-E177 loads are malformed
+E177 loads are malformed    E178 no known unit of lengths    E179 a spring does not fit
 """
 
 from __future__ import annotations
@@ -16,7 +16,9 @@ from typing import Any, Final, Literal, TypeAlias, final, get_args
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.length_units import MILLIMETRES
 from burmester.values import real_numbers, shown
 from burmester.wording import listed
 
@@ -32,6 +34,8 @@ Profile: TypeAlias = Literal["constant", "3-4-5", "trapezoid"]
 SpringKind: TypeAlias = Literal[
     "extension", "compression", "gas", "constant", "torsion", "counterweight"
 ]
+ROOM_CELSIUS: Final = 20.0  # at which makers measure gas springs
+SLACK: Final = 1e-9  # relative; lengths that differ by less are the same
 GROUND: Final = "ground"
 BODY: Final = "body"  # whatever link carries the body
 
@@ -258,7 +262,7 @@ class Loads:
     torque: float = 0.0
     hand: FloatArray | None = None
     springs: tuple[Spring, ...] = ()
-    celsius: float = 20.0
+    celsius: float = ROOM_CELSIUS
     drive: Drive | None = None
 
     def __post_init__(self) -> None:
@@ -280,3 +284,51 @@ class Loads:
             object.__setattr__(self, "hand", _point(self.hand, "the point of the hand"))
         warm = _number(self.celsius, "the temperature", least=-273.0)
         object.__setattr__(self, "celsius", warm)
+
+
+def require_possible_loads(
+    loads: Loads, poses: Displacement, unit: str | None, outlined: bool
+) -> None:
+    """Refuse loads that do not fit a task, whatever its linkage.
+
+    E177 (a force between poses that are not there, a mass without a centre), E178 (lengths in no
+    known unit), E179 (a spring between ground and body that is off its stroke at the first pose).
+    """
+    if unit not in MILLIMETRES:
+        known = listed([*MILLIMETRES])
+        raise InputError(
+            "E178",
+            "loads need the unit of lengths",
+            why=f"the unit of lengths is {shown(unit)}, and moments are forces times lengths"
+            if unit
+            else "the task states no unit of lengths, and moments are forces times lengths",
+            help=f'write length_unit = "mm" beside the poses; known are {known}',
+        )
+    (count,) = poses.shape
+    for force in loads.forces:
+        for pose in (force.from_pose, force.to_pose):
+            if pose is not None and not 1 <= pose <= count:
+                help = f"give a number from 1 to {count}"
+                raise malformed(f"a force acts to or from pose {pose} of {count}", help=help)
+    if loads.body is not None and loads.body.center is None and not outlined:
+        raise malformed(
+            "the body has a mass, and nothing says where its centre is",
+            "the task has no outline of the body",
+            "write center = [x, y], in the frame of the body, or give the body an outline",
+        )
+    for number, spring in enumerate(loads.springs, start=1):
+        links = [each.link for each in spring.ends]
+        if spring.kind in ("torsion", "counterweight") or {*links} - {GROUND, BODY}:
+            continue
+        at = [
+            np.array(each.point) if each.link == GROUND else poses.act(np.array(each.point))[0]
+            for each in spring.ends
+        ]
+        length, (least, most) = float(np.linalg.norm(at[1] - at[0])), spring.span
+        if not least * (1 - SLACK) <= length <= most * (1 + SLACK):
+            raise InputError(
+                "E179",
+                f"spring {number} does not fit between its ends at the first pose",
+                why=f"they are {length:.4g} {unit} apart, and it is {least:.4g} to {most:.4g} long",
+                help="move an end, or take a spring with another length or stroke",
+            )

@@ -17,7 +17,7 @@ from burmester.printable import printable
 from burmester.tasks.crank_timing import CrankTiming
 from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
-from burmester.tasks.loads import Loads
+from burmester.tasks.loads import Loads, require_possible_loads
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, kept, nominal_rows
 from burmester.tasks.requirements import Requirements, require_possible
 from burmester.tasks.surroundings import Surroundings, require_clear_at_poses
@@ -236,6 +236,7 @@ class Task:
         self._require_timed()
         require_possible(self.requirements, self.limits)
         self._require_clear()
+        self._require_loadable()
 
     def _require_timed(self) -> None:
         """Refuse crank angles that do not fit the poses, or beside tolerances: E186."""
@@ -250,6 +251,12 @@ class Task:
                 help="leave the tolerances or the crank angles out; of points alone, each with its "
                 "crank angle, 5 or more are a timed path",
             )
+
+    def _require_loadable(self) -> None:
+        """Refuse loads that do not fit the task: E177, E178, E179."""
+        if self.loads is not None:
+            outlined = self.body is not None
+            require_possible_loads(self.loads, self.poses, self.length_unit, outlined)
 
     def _require_clear(self) -> None:
         """Refuse a body that touches a region at a pose that is exact, E175, or has none, E176."""

@@ -162,6 +162,6 @@ LIMIT_OPTIONS: Final = (
 # The tables at the top of a task in a file, and all keys there.
 TABLES: Final = (
     "pose_sigma", "tolerance", "body", "keep_out", "surroundings", "limits", "requirements", "path",
-    "crank",
+    "crank", "loads", "springs", "drive",
 )  # fmt: skip
 TOP_KEYS: Final = ("poses", "angle_unit", "length_unit", *TABLES)

@@ -17,6 +17,7 @@ from burmester.io.reading.specification import Specification, StatedSurroundings
 from burmester.io.reading.stated_tolerances import DefaultTolerance, StatedTolerances
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked
+from burmester.tasks.loads import Loads
 from burmester.tasks.traced_path import TracedPath
 
 HEADER = "x,y,angle_deg"  # what a file may begin with
@@ -140,6 +141,8 @@ class PoseTable(NamedTuple):
     specification: Specification = Specification()
     body: Polygon | None = None  # its outline, in M
     surroundings: StatedSurroundings = StatedSurroundings()
+    loads: Loads | None = None
+    where_loads: str = ""
     tolerance: DefaultTolerance | None = None  # of poses that state none
     pose_sigma: tuple[float, float] | None = None  # standard deviations of the poses, if stated
     # where a row stands, by its number from 0; None is for where they begin

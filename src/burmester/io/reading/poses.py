@@ -408,6 +408,7 @@ def _task(
             requirements=combined_requirements(whole.requirements),
             body=body,
             surroundings=around.surroundings(),
+            loads=table.loads,
             tolerances=tolerances,
             notes=table.notes + body_notes + region_notes,
             read_as=table.read_as,
@@ -417,8 +418,9 @@ def _task(
     except InputError as error:
         if error.code in ("E132", "E134"):  # limits and requirements, not the poses
             error.where = error.where or whole.locations
-        elif error.code == "E175":  # outlines that overlap at a pose
-            error.where = error.where or around.where or None
+        elif error.code in ("E175", "E177", "E178", "E179"):  # outlines at a pose, or loads
+            place = around.where if error.code == "E175" else table.where_loads
+            error.where = error.where or place or None
         elif error.code == "E120" and table.locate_row and not error.where:  # too few poses
             error.where = table.locate_row(None)
         elif error.code in ("E135", "E136") and table.locate_row and not error.where:

@@ -182,6 +182,15 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         )
         drawn += notes + others
 
+    loads, where_loads = None, ""
+    loaded = [top.get(key) for key in ("loads", "springs", "drive")]
+    if any(loaded):
+        from burmester.io.reading.trees.loads_tree import read_loads
+
+        loads = read_loads(*loaded)
+        first = next(each for each in loaded if each)
+        where_loads = document.where(*first.path, key=True)
+
     def locate_row(row: int | None) -> str:
         if row is None:
             return document.where("poses", key=True)
@@ -196,6 +205,8 @@ def read_tree(tree: Any, document: Document, example: str) -> PoseTable:
         specification=specification,
         body=body,
         surroundings=surroundings,
+        loads=loads,
+        where_loads=where_loads,
         tolerance=read("tolerance", lambda node: read_tolerance(node, unit)),
         pose_sigma=read("pose_sigma", _pose_sigma),
         locate_row=locate_row,

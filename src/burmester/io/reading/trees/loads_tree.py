@@ -1,0 +1,247 @@
+"""Loads in the tree of a task: the tables `loads`, `springs` and `drive`.
+
+[loads]
+body = { mass_kg = 4, center = [210, 9] }
+hand = { at = [420, 0] }
+
+[[springs]]
+kind = "gas"
+ground_point = [20, -150]
+body_point = [100, 0]
+force_N = 100
+compressed_force_N = 130
+stroke = 100
+length = 245
+
+[drive]
+duration_s = 2
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any, Final
+
+from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.tasks.loads import (
+    BODY,
+    DENSITIES,
+    GROUND,
+    NEEDED,
+    POSSIBLE,
+    ROOM_CELSIUS,
+    Drive,
+    End,
+    Force,
+    Loads,
+    Mass,
+    Plates,
+    Spring,
+)
+from burmester.wording import listed
+
+_LOADS_HELP = (
+    "loads has gravity, body with mass_kg and center, links, force, torque_Nm, hand with at, and "
+    "temperature_C; or some of them"
+)
+_LINKS_HELP = (
+    'links has the mass of each link in kg, such as driver = 0.3; or plate = "steel 3", the '
+    "material and the thickness, and width"
+)
+_SPRING_HELP = (
+    f"a spring has kind, one of {listed([*NEEDED])}; ground_point and body_point, or from and to "
+    "with link and point each; the numbers of its kind, and count"
+)
+
+
+def _gravity(node: Node) -> Any:
+    return node.text() if isinstance(node.value, str) else node.pair()
+
+
+def _mass(node: Node) -> Mass:
+    given = node.table(
+        {
+            "mass_kg": Field(Node.number),
+            "center": Field(Node.pair),
+            "inertia_kgm2": Field(Node.number),
+        }
+    )
+    if "mass_kg" not in given:
+        raise node.missing("mass_kg")
+    return node.build(Mass, **given)
+
+
+def _links(node: Node) -> Any:
+    node = node._replace(help=_LINKS_HELP)
+    if not isinstance(node.value, dict) or "plate" not in node.value:
+        names = node.value if isinstance(node.value, dict) else ()
+        return node.table(dict.fromkeys(names, Field(Node.number)))
+    given = node.table({"plate": Field(Node.text), "width": Field(Node.number)})
+    material, _, thickness = given["plate"].partition(" ")
+    try:
+        thick = float(thickness)
+    except ValueError:
+        known = listed([*DENSITIES])
+        help = f'write the material and the thickness: {known}; such as plate = "steel 3"'
+        raise node.at("plate").fault("E177", f"is {node.at('plate').shown}", help) from None
+    if "width" not in given:
+        raise node.missing("width")
+    return node.build(Plates, material, thick, given["width"])
+
+
+def _force(node: Node) -> Force:
+    given = node.table(
+        {
+            "at": Field(Node.pair),
+            "force_N": Field(Node.pair),
+            "frame": Field(Node.text),
+            "from_pose": Field(_whole),
+            "to_pose": Field(_whole),
+        }
+    )
+    for key in ("at", "force_N"):
+        if key not in given:
+            raise node.missing(key)
+    return node.build(Force, force=given.pop("force_N"), **given)
+
+
+def _whole(node: Node) -> int:
+    value = node.number()
+    if value != int(value) or value < 1:
+        raise node.wrong("not a number of 1, 2, 3 and so on")
+    return int(value)
+
+
+def _hand(node: Node) -> list[float]:
+    given = node.table({"at": Field(Node.pair)})
+    if "at" not in given:
+        raise node.missing("at")
+    at: list[float] = given["at"]
+    return at
+
+
+_FORCE_HELP = "a force has at and force_N with two numbers each; and frame, from_pose, to_pose"
+_LOADS: Final[Fields] = {
+    "gravity": Field(_gravity, 'gravity is "down", "none", or two numbers in m/s²'),
+    "body": Field(_mass, "body has mass_kg; and center, two numbers in M, and inertia_kgm2"),
+    "links": Field(_links, _LINKS_HELP),
+    "force": Field(lambda node: tuple(map(_force, node.one_or_more())), _FORCE_HELP),
+    "torque_Nm": Field(Node.number),
+    "hand": Field(_hand, "hand has at, the point of the body where it is: [x, y] in M"),
+    "temperature_C": Field(Node.number),
+}
+_NAMES = {"torque_Nm": "torque", "temperature_C": "celsius", "force": "forces"}
+
+
+def _end(node: Node) -> End:
+    given = node.table({"link": Field(Node.text), "point": Field(Node.pair)})
+    x, y = given.get("point", (0.0, 0.0))
+    return End(given.get("link", GROUND), (x, y))
+
+
+def _end_of(link: str, node: Node) -> End:
+    x, y = node.pair()
+    return End(link, (x, y))
+
+
+_END_HELP = 'an end has link, such as "driver", and point, [x, y] in the frame of the link'
+_SPRING: Final[Fields] = {
+    "kind": Field(Node.text),
+    "ground_point": Field(partial(_end_of, GROUND)),
+    "body_point": Field(partial(_end_of, BODY)),
+    "from": Field(_end, _END_HELP),
+    "to": Field(_end, _END_HELP),
+    "count": Field(_whole),
+    **{
+        name: Field(Node.number)
+        for names in (*NEEDED.values(), *POSSIBLE.values())
+        for name in names
+    },
+}
+
+
+def _spring(node: Node) -> Spring:
+    given = node.table(_SPRING)
+    if "kind" not in given:
+        raise node.missing("kind")
+    kind, ends = given.pop("kind"), []
+    for key, other in (("ground_point", "from"), ("body_point", "to")):
+        if key in given and other in given:
+            raise node.fault("E108", f"has {key} and {other}", f"delete {other}", key=other)
+        ends.append(given.pop(key, given.pop(other, None)))
+    if kind in ("torsion", "counterweight") and ends[0] is None:
+        ends[0] = End(GROUND, (0.0, 0.0))
+    for end, key in zip(ends, ("ground_point", "body_point"), strict=True):
+        if end is None:
+            raise node.missing(key)
+    return node.build(Spring, kind, tuple(ends), count=given.pop("count", 1), numbers=given)
+
+
+def read_loads(loads: Node | None, springs: Node | None, drive: Node | None) -> Loads:
+    """The loads in these tables of a task; raises E103 to E107, E108 and E177."""
+    given: dict[str, Any] = {}
+    if loads is not None:
+        given = loads._replace(help=_LOADS_HELP).table(_LOADS)
+    if springs is not None:
+        of_springs = springs._replace(help=_SPRING_HELP).one_or_more()
+        given["springs"] = tuple(map(_spring, of_springs))
+    if drive is not None:
+        help = 'drive has duration_s, and profile: "constant", "3-4-5" or "trapezoid"'
+        node = drive._replace(help=help)
+        stated = node.table({"duration_s": Field(Node.number), "profile": Field(Node.text)})
+        if "duration_s" not in stated:
+            raise node.missing("duration_s")
+        given["drive"] = node.build(Drive, **stated)
+    place = next(each for each in (loads, springs, drive) if each is not None)
+    return place.build(Loads, **{_NAMES.get(key, key): value for key, value in given.items()})
+
+
+def loads_data(loads: Loads) -> dict[str, Any]:
+    """Loads as a file may hold them: the keys `loads`, `springs` and `drive`."""
+    data: dict[str, Any] = {"gravity": loads.gravity.tolist()}
+    if (body := loads.body) is not None:
+        data["body"] = {"mass_kg": body.mass_kg}
+        if body.center is not None:
+            data["body"]["center"] = body.center.tolist()
+        if body.inertia_kgm2 is not None:
+            data["body"]["inertia_kgm2"] = body.inertia_kgm2
+    if isinstance(loads.links, Plates):
+        plate = f"{loads.links.material} {loads.links.thickness!r}"
+        data["links"] = {"plate": plate, "width": loads.links.width}
+    elif loads.links:
+        data["links"] = dict(loads.links)
+    if loads.forces:
+        data["force"] = [_force_data(each) for each in loads.forces]
+    if loads.torque:
+        data["torque_Nm"] = loads.torque
+    if loads.hand is not None:
+        data["hand"] = {"at": loads.hand.tolist()}
+    if loads.celsius != ROOM_CELSIUS:
+        data["temperature_C"] = loads.celsius
+    out: dict[str, Any] = {"loads": data}
+    if loads.springs:
+        out["springs"] = [_spring_data(each) for each in loads.springs]
+    if (drive := loads.drive) is not None:
+        out["drive"] = {"duration_s": drive.duration_s, "profile": drive.profile}
+    return out
+
+
+def _force_data(force: Force) -> dict[str, Any]:
+    data: dict[str, Any] = {"at": force.at.tolist(), "force_N": force.force.tolist()}
+    if force.frame != "F":
+        data["frame"] = force.frame
+    for key in ("from_pose", "to_pose"):
+        if (pose := getattr(force, key)) is not None:
+            data[key] = pose
+    return data
+
+
+def _spring_data(spring: Spring) -> dict[str, Any]:
+    one, two = spring.ends
+    data: dict[str, Any] = {"kind": spring.kind}
+    if (one.link, two.link) == (GROUND, BODY):
+        data |= {"ground_point": list(one.point), "body_point": list(two.point)}
+    else:
+        ends = {"from": one, "to": two}
+        data |= {key: {"link": end.link, "point": list(end.point)} for key, end in ends.items()}
+    return data | dict(spring.numbers) | {"count": spring.count}
