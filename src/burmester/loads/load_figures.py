@@ -10,7 +10,7 @@ import numpy as np
 from burmester.errors import Finding, InputError
 from burmester.loads.drive_in_time import course_of
 from burmester.loads.equilibria import equilibria
-from burmester.loads.loaded_motion import LOOKS, LoadedMotion
+from burmester.loads.loaded_motion import LOOKS, LoadedLinkage, LoadedMotion
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.loads import Drive, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
@@ -85,11 +85,12 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
     if found.task.loads is None:
         return None
     try:
-        loaded = LoadedMotion.of(found)
+        linkage = LoadedLinkage.of(found)
     except InputError as error:
         if error.code != "E163":
             raise
         return None
+    loaded = linkage.at(LOOKS)
     effort = loaded.effort
     hand = None
     if loaded.loads.hand is not None:
@@ -103,10 +104,10 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         extremes(loaded, effort),
         hand,
         pins,
-        _rests(found, loaded),
-        _stays(found, loaded),
+        _rests(loaded),
+        _stays(loaded),
         tuple(_spring(loaded, k) for k in range(len(loaded.springs))),
-        _in_time(found, loaded.loads.drive),
+        _in_time(linkage),
         spring_findings(loaded),
     )
 
@@ -122,7 +123,7 @@ def extremes(loaded: LoadedMotion, values: FloatArray) -> Extremes:
 
 def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
     """The numbers, from 1, of the poses before and behind a place of the driver."""
-    met = loaded.sense * loaded.at_poses
+    met = loaded.sense * loaded.of.at_poses
     order = np.argsort(met)
     order = order[np.isfinite(met[order])]
     slack = HELD * float(np.ptp(met[order]))
@@ -134,16 +135,13 @@ def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
     ) + 1
 
 
-def _rests(found: LinkageAtPoses, loaded: LoadedMotion) -> tuple[Rest, ...]:
+def _rests(loaded: LoadedMotion) -> tuple[Rest, ...]:
     shares = np.linspace(0.0, 1.0, LOOKS)
 
-    def effort(at: FloatArray) -> FloatArray:
-        return LoadedMotion.of(found, at).effort
-
-    rests = equilibria(shares, loaded.effort, loaded.sense, effort)
+    rests = equilibria(shares, loaded.effort, loaded.sense, lambda at: loaded.of.at(at).effort)
     if not rests:
         return ()
-    drives = LoadedMotion.of(found, np.array([each.share for each in rests])).drive
+    drives = loaded.of.at(np.array([each.share for each in rests])).drive
     return tuple(
         Rest(float(np.degrees(at)) if loaded.rates.turns else float(at), each.stable,
              poses_about(loaded, float(at)))
@@ -151,10 +149,10 @@ def _rests(found: LinkageAtPoses, loaded: LoadedMotion) -> tuple[Rest, ...]:
     )  # fmt: skip
 
 
-def _stays(found: LinkageAtPoses, loaded: LoadedMotion) -> tuple[int, ...]:
+def _stays(loaded: LoadedMotion) -> tuple[int, ...]:
     """The poses at which the friction of springs, or nothing, is enough to hold it."""
-    reached = np.flatnonzero(np.isfinite(loaded.motion.pose_shares))
-    at = LoadedMotion.of(found, loaded.motion.pose_shares[reached])
+    reached = np.flatnonzero(np.isfinite(loaded.of.pose_shares))
+    at = loaded.of.at(loaded.of.pose_shares[reached])
     none = HELD * float(np.nanmax(np.abs(loaded.effort), initial=0.0))
     held = np.abs(at.effort) <= at.friction + none
     return tuple(int(k) for k in reached[held])
@@ -163,7 +161,7 @@ def _stays(found: LinkageAtPoses, loaded: LoadedMotion) -> tuple[int, ...]:
 def _spring(loaded: LoadedMotion, k: int) -> SpringFigures:
     course = loaded.springs[k]
     turned = course.spring.kind == "torsion"
-    length = np.degrees(course.length) if turned else course.length / loaded.metre
+    length = np.degrees(course.length) if turned else course.length / loaded.of.metre
     return SpringFigures(
         course.spring,
         (float(length.min()), float(length.max())),
@@ -181,7 +179,7 @@ def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
         poses = sorted({each for at in (drives[0], drives[-1])
                         for each in poses_about(loaded, float(at))})  # fmt: skip
         least, most = course.spring.span
-        length = course.length / loaded.metre
+        length = course.length / loaded.of.metre
         message = (
             f"is {length.min():.4g} to {length.max():.4g} long along the motion, and may be "
             f"{least:.4g} to {most:.4g}"
@@ -191,12 +189,13 @@ def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
     return tuple(out)
 
 
-def _in_time(found: LinkageAtPoses, drive: Drive | None) -> DriveFigures | None:
+def _in_time(linkage: LoadedLinkage) -> DriveFigures | None:
     """A linkage whose driver moves in time; None where the task states no drive."""
+    drive = linkage.loads.drive
     if drive is None:
         return None
     course = course_of(drive, LOOKS)
-    loaded = LoadedMotion.of_driver(found, course.share)
+    loaded = linkage.at_driver(course.share)
     way = float(loaded.drive[-1] - loaded.drive[0])
     speed, push = course.speed * way, course.acceleration * way
     resisted = loaded.carried(speed, push) - loaded.applied
@@ -206,6 +205,6 @@ def _in_time(found: LinkageAtPoses, drive: Drive | None) -> DriveFigures | None:
     return DriveFigures(
         drive,
         extremes(loaded, loaded.rates.effort(resisted)),
-        float(np.nanmax(np.hypot(*velocity.T))) / loaded.metre,
-        float(np.nanmax(np.hypot(*acceleration.T))) / loaded.metre,
+        float(np.nanmax(np.hypot(*velocity.T))) / loaded.of.metre,
+        float(np.nanmax(np.hypot(*acceleration.T))) / loaded.of.metre,
     )

@@ -23,7 +23,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.length_units import MILLIMETRES
 from burmester.tasks.loads import Loads, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
-from burmester.verdicts.motion import Motion
+from burmester.verdicts.motion import Motion, Way
 
 LOOKS = 361  # places along the motion at which a linkage is looked at
 
@@ -44,63 +44,83 @@ class SpringCourse(NamedTuple):
 
 
 @final
-@dataclass(frozen=True, eq=False)
-class LoadedMotion:
-    """At places (n,) from the first pose to the last.
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadedLinkage:
+    """A linkage of a task with loads.
 
-    motion: in the task's unit.  bodies, places, rates, masses: in metres and kg.
-    at_poses: (N,), the driver's coordinate at the poses, nan where it does not reach one.
+    way: its motion in the task's unit, whose unit has so many metres.  bodies, masses: in metres
+    and kg.  at_poses: (N,), the driver's coordinate at the poses, nan where it reaches none.
     """
 
+    found: LinkageAtPoses
     loads: Loads
-    motion: Motion
-    at_poses: FloatArray
-    bodies: Bodies
-    places: LinkPlaces
-    rates: Rates
-    masses: Masses
+    way: Way
     metre: float
+    bodies: Bodies
+    masses: Masses
+    pose_shares: FloatArray
+    at_poses: FloatArray
 
     @classmethod
-    def of(cls, found: LinkageAtPoses, shares: FloatArray | int = LOOKS) -> Self:
-        """A linkage of a task with loads, at shares (n,) of its motion or so many of them.
-
-        Raises E163 where it does not move from one pose to another, and E177.
-        """
-        if isinstance(shares, int):
-            shares = np.linspace(0.0, 1.0, shares)
-        return cls._of(found, Motion.of(found, shares))
-
-    @classmethod
-    def of_driver(cls, found: LinkageAtPoses, shares: FloatArray) -> Self:
-        """The same at shares (n,) of the driver's own way."""
-        return cls._of(found, Motion.of_driver(found, shares))
-
-    @classmethod
-    def _of(cls, found: LinkageAtPoses, motion: Motion) -> Self:
-        loads = found.task.loads
+    def of(cls, found: LinkageAtPoses) -> Self:
+        """Raises E163 where it does not move from one pose to another, and E177."""
+        loads, way = found.task.loads, found.travel()
         assert loads is not None
         metre = MILLIMETRES[found.unit or ""] / 1000
         bodies = found.bodies.scaled(metre)
-        places = found.bodies_at(motion.drive, motion.places).scaled(metre)
         masses = Masses.of(bodies, loads, found.task.body, metre)
-        unit = 1.0 if motion.in_turns else metre
-        met = np.nan_to_num(motion.pose_shares)
-        at_poses = np.where(
-            np.isfinite(motion.pose_shares), Motion.of(found, met).drive * unit, np.nan
-        )
-        moved = rates(bodies, places)
-        return cls(loads, motion, at_poses, bodies, places, moved, masses, metre)
+        shares = way(np.zeros(1)).pose_shares
+        motion = way(np.nan_to_num(shares))
+        at_poses = motion.drive * (1.0 if motion.in_turns else metre)
+        at_poses = np.where(np.isfinite(shares), at_poses, np.nan)
+        return cls(found, loads, way, metre, bodies, masses, shares, at_poses)
+
+    def at(self, shares: FloatArray | int = LOOKS) -> LoadedMotion:
+        """It at shares (n,) of its motion, or so many of them."""
+        if isinstance(shares, int):
+            shares = np.linspace(0.0, 1.0, shares)
+        return self._moved(self.way(shares))
+
+    def at_driver(self, shares: FloatArray) -> LoadedMotion:
+        """It at shares (n,) of what the driver goes."""
+        return self._moved(Motion.of_driver(self.way, shares))
+
+    def _moved(self, motion: Motion) -> LoadedMotion:
+        places = self.found.bodies_at(motion.drive, motion.places).scaled(self.metre)
+        drive = motion.drive * (1.0 if motion.in_turns else self.metre)
+        return LoadedMotion(self, drive, places, rates(self.bodies, places))
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class LoadedMotion:
+    """A loaded linkage at places (n,): its driver's coordinate there, radians or metres."""
+
+    of: LoadedLinkage
+    drive: FloatArray
+    places: LinkPlaces
+    rates: Rates
 
     @property
-    def drive(self) -> FloatArray:
-        """The driver's coordinate (n,): radians, or metres."""
-        return self.motion.drive * (1.0 if self.motion.in_turns else self.metre)
+    def loads(self) -> Loads:
+        """What loads it."""
+        return self.of.loads
+
+    @property
+    def bodies(self) -> Bodies:
+        """Its bodies, in metres."""
+        return self.of.bodies
+
+    @property
+    def masses(self) -> Masses:
+        """What they weigh."""
+        return self.of.masses
 
     @property
     def sense(self) -> float:
         """1 where the driver's coordinate grows from the first pose to the last, else -1."""
-        return -1.0 if self.drive[-1] < self.drive[0] else 1.0
+        reached = self.of.at_poses[np.isfinite(self.of.at_poses)]
+        return -1.0 if reached[-1] < reached[0] else 1.0
 
     def _arm(self, name: str, point: FloatArray) -> FloatArray:
         """A point (2,) of a body from its origin, in F: (n, 2)."""
@@ -132,18 +152,18 @@ class LoadedMotion:
 
     def _ends(self, spring: Spring) -> list[tuple[str, FloatArray]]:
         names = [body_named(each.link, self.bodies) for each in spring.ends]
-        points = [np.array(each.point) * self.metre for each in spring.ends]
+        points = [np.array(each.point) * self.of.metre for each in spring.ends]
         return [(name, self._arm(name, at)) for name, at in zip(names, points, strict=True)]
 
     def _straight(self, spring: Spring) -> SpringCourse:
-        law = SpringLaw.of(spring, self.metre, self.loads.celsius)
+        law = SpringLaw.of(spring, self.of.metre, self.loads.celsius)
         one, two = self._ends(spring)
         apart = self._point(*two) - self._point(*one)
         length = np.linalg.norm(apart, axis=-1)
         speed = self.rates.of_point(*two)[0] - self.rates.of_point(*one)[0]
         with np.errstate(invalid="ignore", divide="ignore"):
             rate = (speed * apart).sum(axis=-1) / length
-        least, most = (each * self.metre for each in spring.span)
+        least, most = (each * self.of.metre for each in spring.span)
         off = law.off(length, (least, most))
         return SpringCourse(spring, length, law.tension(length), rate, law.energy(length), off)
 
@@ -173,7 +193,7 @@ class LoadedMotion:
         for force, acts in zip(loads.forces, self._acting, strict=True):
             own = np.broadcast_to(force.force, (len(out), 2))
             turned = self._arm(body, force.force) if force.frame == "M" else own
-            arm = self._arm(body, force.at * self.metre)
+            arm = self._arm(body, force.at * self.of.metre)
             out += self._wrenches(body, turned * acts[:, None], arm)
         for course in self.springs:
             if course.spring.kind == "torsion":
@@ -193,7 +213,7 @@ class LoadedMotion:
     @cached_property
     def _acting(self) -> list[FloatArray]:
         """How much of each force acts at the places: 1 or 0, (n,)."""
-        gone, met = self.sense * self.drive, self.sense * self.at_poses
+        gone, met = self.sense * self.drive, self.sense * self.of.at_poses
         out = []
         for force in self.loads.forces:
             low, high = (
@@ -259,7 +279,7 @@ class LoadedMotion:
     def hand_path(self) -> FloatArray:
         """The rate (n, 2) at which the point of the hand moves, metres for a unit of the driver."""
         assert self.loads.hand is not None
-        arm = self._arm(self.bodies.body, self.loads.hand * self.metre)
+        arm = self._arm(self.bodies.body, self.loads.hand * self.of.metre)
         return self.rates.of_point(self.bodies.body, arm)[0]
 
     def hand_force(self, effort: FloatArray) -> FloatArray:

@@ -14,9 +14,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from burmester.loads.loaded_motion import LoadedMotion
+from burmester.loads.loaded_motion import LoadedLinkage
 from burmester.numerics.arrays import FloatArray
-from burmester.verdicts.judged_linkage import LinkageAtPoses
 
 DEGREE: Final = 256
 LEAST_STEP: Final = 1e-6  # of the time between two of those told
@@ -50,11 +49,10 @@ class Swing(NamedTuple):
     ended: bool
 
 
-def swing(found: LinkageAtPoses, start: float, seconds: float, count: int = 201) -> Swing:
-    """A linkage that is let go at rest at a share of the driver's way; see `LoadedMotion.of`."""
+def swing(linkage: LoadedLinkage, start: float, seconds: float, count: int = 201) -> Swing:
+    """A linkage that is let go at rest at a share of the driver's way."""
     nodes = chebyshev.chebpts1(DEGREE + 1)
-    loaded = LoadedMotion.of_driver(found, (nodes + 1) / 2)
-    ends = LoadedMotion.of(found, 2).drive
+    loaded, ends = linkage.at_driver((nodes + 1) / 2), linkage.at(2).drive
     middle, half = ends.mean(), (ends[1] - ends[0]) / 2
     basis = chebyshev.chebvander(nodes, DEGREE)
     weight = 2.0 / (DEGREE + 1)

@@ -22,7 +22,7 @@ from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.values import real_numbers
 from burmester.verdicts.judged_linkage import LinkageAtPoses
-from burmester.verdicts.motion import Motion
+from burmester.verdicts.motion import Motion, Way
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -197,16 +197,20 @@ class FoundSixBar(LinkageAtPoses):
         named = plate_names(self.skeleton)
         return LinkPlaces({named[link]: each for link, each in self.links(drive).items()})
 
-    def travel(self, share: FloatArray, whole: bool = False) -> Motion:
-        """Its motion at shares (n,) of the way; see `Motion.of`."""
+    def travel(self, whole: bool = False) -> Way:
+        """Its motion, at whatever shares of it; see `Motion.of`."""
         start, end = self.along(2).tolist()
         full = whole and self.turns > 0
         if full:
             start = float(self.drive[0])
             end = start + math.copysign(2 * math.pi * self.turns, self.drive[-1] - start)
-        drive = start + (end - start) * share
         met = (self.drive - start) / (end - start)
-        return Motion(self.body(drive), drive, met, True, self.turns > 0, full)
+
+        def at(share: FloatArray) -> Motion:
+            drive = start + (end - start) * share
+            return Motion(self.body(drive), drive, met, True, self.turns > 0, full)
+
+        return at
 
     def _joints(self, drive: FloatArray) -> ComplexArray:
         return self.branch.at(self.linkage, drive)

@@ -15,9 +15,9 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
-from burmester.verdicts.four_bar_motion import four_bar_motion
+from burmester.verdicts.four_bar_motion import way_of_four_bar
 from burmester.verdicts.judged_linkage import LinkageAtPoses
-from burmester.verdicts.motion import Motion
+from burmester.verdicts.motion import Way
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.requirement_check import four_bar_figures
 from burmester.verdicts.tolerances import Spread
@@ -173,6 +173,6 @@ class FoundLinkage(LinkageAtPoses):
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
         return places_of_bodies(self.driver_first, body)
 
-    def travel(self, share: FloatArray, whole: bool = False) -> Motion:
-        """Its motion at shares (n,) of the way; see `Motion.of`."""
-        return four_bar_motion(self, share, whole)
+    def travel(self, whole: bool = False) -> Way:
+        """Its motion, at whatever shares of it; see `Motion.of`."""
+        return way_of_four_bar(self, whole)

@@ -18,7 +18,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import characteristic_length
-from burmester.verdicts.motion import Motion
+from burmester.verdicts.motion import Motion, Way
 
 if TYPE_CHECKING:
     from burmester.verdicts.found_linkage import FoundLinkage
@@ -27,8 +27,8 @@ TURN: Final = 2 * np.pi
 ANGLE_SAMPLES: Final = 721  # places between which the coupler's angle is unwrapped
 
 
-def four_bar_motion(chosen: FoundLinkage, share: FloatArray, whole: bool) -> Motion:
-    """The motion of a four-bar at shares (n,) of the way; see `Motion.of`."""
+def way_of_four_bar(chosen: FoundLinkage, whole: bool) -> Way:
+    """The motion of a four-bar; see `Motion.of`."""
     driven = _driven(chosen)
     reached = np.flatnonzero(np.isfinite(driven.parameter))
     if len(reached) < 2 or driven.circuit < 0:
@@ -58,18 +58,23 @@ def four_bar_motion(chosen: FoundLinkage, share: FloatArray, whole: bool) -> Mot
     followed = np.unwrap(own.couplers(start + sense * length * steps).angle)
     there = np.interp(sense * (first - start) / length, steps, followed)
     turns = np.round((chosen.error.places.angle[reached[0]] - there) / TURN)
-    parameter = start + sense * length * share
-    places = own.couplers(parameter)
-    angle = np.interp(share, steps, followed) + TURN * turns
-    angle = places.angle + TURN * np.round((angle - places.angle) / TURN)
-    return Motion(
-        Displacement(places.translation, angle),
-        own.inputs(parameter, places) - TURN * _turns(own, start),
-        sense * (s - start) / length,
-        bool(own.loop.turns),
-        driven.turns_fully,
-        bool(whole and driven.turns_fully),
-    )
+    before = TURN * _turns(own, start)
+
+    def at(share: FloatArray) -> Motion:
+        parameter = start + sense * length * share
+        places = own.couplers(parameter)
+        angle = np.interp(share, steps, followed) + TURN * turns
+        angle = places.angle + TURN * np.round((angle - places.angle) / TURN)
+        return Motion(
+            Displacement(places.translation, angle),
+            own.inputs(parameter, places) - before,
+            sense * (s - start) / length,
+            bool(own.loop.turns),
+            driven.turns_fully,
+            bool(whole and driven.turns_fully),
+        )
+
+    return at
 
 
 def _driven(chosen: FoundLinkage) -> Driven:

@@ -14,7 +14,7 @@ from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
 from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.motion_task import Task
-from burmester.verdicts.motion import Motion
+from burmester.verdicts.motion import Way
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -101,5 +101,5 @@ class LinkageAtPoses(JudgedLinkage):
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
 
     @abstractmethod
-    def travel(self, share: FloatArray, whole: bool = False) -> Motion:
-        """Its motion at shares (n,) of the way; see `Motion.of`."""
+    def travel(self, whole: bool = False) -> Way:
+        """Its motion, at whatever shares of it; see `Motion.of`."""

@@ -6,8 +6,9 @@ which the poses are met; with a driver that turns fully it may be a whole turn.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Protocol, final
+from typing import Final, Protocol, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,8 +23,8 @@ CORRECTIONS: Final = 4  # of a share; each is nearly LOOKS times as close
 class Travels(Protocol):
     """A linkage of any kind that was judged."""
 
-    def travel(self, share: FloatArray, whole: bool) -> Motion:
-        """Its motion at shares (n,) of the way; see `Motion.of`."""
+    def travel(self, whole: bool = False) -> Way:
+        """Its motion, at whatever shares of it; see `Motion.of`."""
         ...
 
 
@@ -59,21 +60,21 @@ class Motion:
         driven.
         """
         share = np.linspace(0.0, 1.0, count) if isinstance(count, int) else np.asarray(count, float)
-        return chosen.travel(share, whole)
+        return chosen.travel(whole)(share)
 
     @classmethod
-    def of_driver(cls, chosen: Travels, share: FloatArray) -> Motion:
-        """The motion at shares (n,) of the driver's own way, which need not be those of the motion.
-
-        Raises InputError E163 as `of` does.
-        """
+    def of_driver(cls, way: Way, share: FloatArray) -> Motion:
+        """The motion at shares (n,) of what the driver goes, which may be others of the motion."""
         table = np.linspace(0.0, 1.0, LOOKS)
-        drive = cls.of(chosen, table).drive
-        first, way = drive[0], drive[-1] - drive[0]
-        gone = (drive - first) / way
+        drive = way(table).drive
+        first, whole = drive[0], drive[-1] - drive[0]
+        gone = (drive - first) / whole
         slope = np.maximum(np.gradient(gone, table), 1 / LOOKS)
         at = np.interp(share, gone, table)
         for _ in range(CORRECTIONS):
-            off = share - (cls.of(chosen, at).drive - first) / way
+            off = share - (way(at).drive - first) / whole
             at = np.clip(at + off / np.interp(at, table, slope), 0.0, 1.0)
-        return cls.of(chosen, at)
+        return way(at)
+
+
+Way: TypeAlias = Callable[[FloatArray], Motion]  # the motion at shares (n,) of it
