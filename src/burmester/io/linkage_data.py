@@ -18,6 +18,7 @@ from burmester.errors import Finding
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
+from burmester.io.loads_data import load_figures_data
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.pose_tolerances import COMPONENTS
@@ -105,6 +106,8 @@ def linkage_data(found: FoundLinkage, tolerance: float | None = None) -> dict[st
         },
         "pivot_uncertainty": _uncertainty(found),
     }
+    if found.loads is not None:
+        data |= load_figures_data(found.loads, found.task.names)
     if found.clearance is not None:
         data["clearance"] = _clearance(found.clearance, found.driver_first.first)
     if found.timing_error is not None:
@@ -161,6 +164,8 @@ def six_bar_data(found: FoundSixBar) -> dict[str, Any]:
             for k in range(len(found.drive))
         ],
     }
+    if found.loads is not None:
+        data |= load_figures_data(found.loads, found.task.names)
     if found.within_tolerance is not None:
         data["within_tolerance"] = _shares(found.within_tolerance)
     return data

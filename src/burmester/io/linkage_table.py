@@ -17,6 +17,7 @@ from burmester.describe.cognates import cognate_lines
 from burmester.describe.decimals import Decimals
 from burmester.describe.digits import links, worst_errors
 from burmester.describe.dimensions import certain, decimals_of, dimensions
+from burmester.describe.load_words import load_notes
 from burmester.describe.quality_words import in_short, quality_note
 from burmester.errors import Advice
 from burmester.io.message import print_trimmed, show, wrapped
@@ -224,6 +225,8 @@ def in_full(
         text = note(synthesis, best) if note is not sentences.standard_note else None
         if text is not None and (best.usable or note not in (uncertainty, of_type)):
             yield Text(text, style="dim" if note is uncertainty else "")
+    for text in load_notes(best.loads, synthesis.task):
+        yield Text(text)
     if lines := cognate_lines(synthesis, best):
         yield Text(f"\nThe curve of {best.id} by its cognates", style="bold")
         for line in lines:

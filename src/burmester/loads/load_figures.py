@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import NamedTuple, final
+from dataclasses import dataclass, fields, replace
+from typing import Any, NamedTuple, TypeVar, final
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from burmester.loads.loaded_motion import LOOKS, LoadedLinkage, LoadedMotion
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.loads import Drive, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
+
+Found = TypeVar("Found", bound=LinkageAtPoses)
 
 HELD = 1e-9  # of the greatest effort; less is none
 
@@ -110,6 +112,24 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         _in_time(linkage),
         spring_findings(loaded),
     )
+
+
+def loaded(found: Found) -> Found:
+    """A linkage with what it bears: not usable where a spring is longer or shorter than it allows.
+
+    Of one that does not lead through the poses nothing is told.
+    """
+    if found.task.loads is None or found.faults:
+        return found
+    figures = load_figures(found)
+    if figures is None:
+        return found
+    more: dict[str, Any] = {"loads": figures}
+    if figures.findings:
+        more["violations"] = (*found.violations, *figures.findings)
+        if "usable" in (each.name for each in fields(found)):
+            more["usable"] = False
+    return replace(found, **more)
 
 
 def extremes(loaded: LoadedMotion, values: FloatArray) -> Extremes:

@@ -33,6 +33,7 @@ from burmester.fourbar.pose_order import (
 )
 from burmester.fourbar.traversal import DEAD_POINT_ANGLE
 from burmester.geometry.displacement import Displacement
+from burmester.loads.load_figures import loaded
 from burmester.mechanisms.branches import Branch, branches_of
 from burmester.mechanisms.circuits import circuits_of
 from burmester.mechanisms.contract import body_of
@@ -322,7 +323,7 @@ def _degenerate(linkage: SixBar, problem: SynthesisProblem) -> list[Finding]:
 def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundSixBar:
     driven, k, task = best.driven, best.branch, problem.given
     turns = float(np.round(driven.drive[k, 0] / (2 * np.pi)))
-    return FoundSixBar(
+    found = FoundSixBar(
         id="S1",
         linkage=linkage,
         branch=driven.branches[k].moved(-turns),
@@ -340,6 +341,7 @@ def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundS
         else shares_used(driven.errors[k].places, task, problem.length),
         task=task,
     )
+    return loaded(found)
 
 
 def _by_tolerances(problem: SynthesisProblem) -> bool:

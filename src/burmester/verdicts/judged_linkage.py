@@ -16,6 +16,9 @@ from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.motion import Way
 
+if TYPE_CHECKING:  # of a room above
+    from burmester.loads.load_figures import LoadFigures
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class JudgedLinkage:
@@ -73,12 +76,15 @@ class LinkageAtPoses(JudgedLinkage):
     within_tolerance : (N, 3) array, optional
         How much of its tolerance each component of each pose uses, where the task has tolerances:
         at most 1 inside, 0 for free components.
+    loads : LoadFigures, optional
+        What it bears, where the task has loads; None of one that leads through no poses.
     id, violations, shortcomings, task
         As in `JudgedLinkage`.
     """
 
     error: PoseError
     within_tolerance: FloatArray | None = None
+    loads: LoadFigures | None = None
     task: Task
 
     @property
