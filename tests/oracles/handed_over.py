@@ -8,13 +8,13 @@ import numpy as np
 
 from burmester.dyads.selection import FoundDyad
 from burmester.export import FORMATS, Options, export
-from burmester.tasks.length_units import MILLIMETRES
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven, Verdict
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
+from burmester.tasks.length_units import MILLIMETRES
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.found_linkage import FoundLinkage
 

@@ -17,7 +17,7 @@ def load_notes(figures: LoadFigures | None, task: Task) -> list[str]:
     held = figures.effort
     out = [f"Held by its driver with {_from_to(held)} {unit}; most {_where(held, task)}."]
     if (hand := figures.hand) is not None:
-        out.append(f"A hand pushes it with {_from_to(hand)} N{_sign(hand)}.")
+        out.append(f"A hand moves it with {_from_to(hand)} N{_sign(hand)}.")
     name, force = max(figures.pins.items(), key=lambda pin: pin[1])
     out.append(f"Its pins bear at most {force:.3g} N, pin {name}.")
     out.append(_rests(figures, task))
@@ -44,8 +44,8 @@ def _from_to(values: Extremes) -> str:
 
 def _sign(hand: Extremes) -> str:
     if hand.least < 0 < hand.greatest:
-        return ", first or last the other way: below zero it holds back"
-    return ": it holds back all the way" if hand.greatest <= 0 else ""
+        return "; below zero it holds the body back"
+    return ", which hold the body back" if hand.greatest <= 0 else ""
 
 
 def _push_or_pull(tension: tuple[float, float], unit: str) -> str:
@@ -56,10 +56,12 @@ def _push_or_pull(tension: tuple[float, float], unit: str) -> str:
 
 def _where(values: Extremes, task: Task) -> str:
     greatest = abs(values.greatest) >= abs(values.least)
-    one, two = values.at_poses[1 if greatest else 0]
-    return f"at {named(one - 1, task)}" if one == two else (
-        f"between {named(one - 1, task)} and {named(two - 1, task)}"
-    )  # fmt: skip
+    return _between(values.at_poses[1 if greatest else 0], task)
+
+
+def _between(poses: tuple[int, int], task: Task) -> str:
+    one, two = (named(pose - 1, task) for pose in poses)
+    return f"at {one}" if one == two else f"between {one} and {two}"
 
 
 def named(pose: int, task: Task) -> str:
@@ -75,8 +77,8 @@ def _rests(figures: LoadFigures, task: Task) -> str:
     if not figures.turns:
         return text
     if stable:
-        at = listed([f"{each.driver:.3g}°" for each in stable])
-        text += f" Let go, it comes to rest with its driver at {at}."
+        at = listed([_between(each.between_poses, task) for each in stable])
+        text += f" Let go, it comes to rest {at}."
     elif not stays and math.copysign(1, figures.effort.least) == math.copysign(
         1, figures.effort.greatest
     ):
