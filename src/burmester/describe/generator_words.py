@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Final
 
+from burmester.diagnosis.pair_checks import reversals
 from burmester.functions.found_generator import MET, ROUNDING, FoundGenerator
 from burmester.synthesis.function_generation import FunctionSynthesis
-from burmester.wording import figure, least_angle, listed, with_article
+from burmester.tasks.function_task import FunctionTask
+from burmester.wording import count, figure, least_angle, listed, with_article
 
 HEADS: Final = (
     *("", "type", "input", "coupler", "output", "max error", "%", "rms", "transm.", "why not"),
@@ -113,13 +116,41 @@ def pair_rows(found: FoundGenerator) -> list[tuple[str, ...]]:
     ]
 
 
-def wanted(synthesis: FunctionSynthesis) -> str:
-    """What is to be made, in a sentence."""
-    task = synthesis.task
+def facts(task: FunctionTask) -> Iterator[tuple[str, str]]:
+    """What is to be made, each fact with its name."""
     low, high = task.input_ends
-    what, way = f"{len(task.inputs)} pairs of angles", ""
     if (function := task.function) is not None:
-        what = f"y = {function.text}, x from {function.x[0]:g} to {function.x[1]:g}"
-        way = ", against it" if function.output_range < 0 else ""
-    turn, made = (figure(math.degrees(each)) for each in (high - low, task.output_span))
-    return f"Wanted: {what}; the input link turns by {turn}°, the output link by {made}°{way}."
+        yield "function", f"y = {function.text}, x from {function.x[0]:g} to {function.x[1]:g}"
+    yield "input", f"{_range(low, high)}{_phase(task.input_phase)}"
+    _, outputs = task.compared()
+    turns = reversals(*task.compared())
+    back = "" if not turns else f"; it turns round {count(turns, 'time')}"
+    least, most = float(outputs.min()), float(outputs.max())
+    yield "output", f"{_range(least, most)}{_phase(task.output_phase)}{back}"
+    yield "asks", _asked(task)
+
+
+def _range(low: float, high: float) -> str:
+    low, high = math.degrees(low), math.degrees(high)
+    return f"{figure(high - low)}°, from {low:.4g}° to {high:.4g}°"
+
+
+def _phase(phase: float | None) -> str:
+    return "" if phase is None else f"; {math.degrees(phase):.6g}° from the ground link at 0"
+
+
+def _asked(task: FunctionTask) -> str:
+    """What is to be found, in words."""
+    pairs, needed = len(task.inputs), task.exact_count
+    phases = {0: "both phases given", 1: "one phase open", 2: "both phases open"}[task.free_phases]
+    head = f"{count(pairs, 'pair')}, {phases}: "
+    solutions = task.solutions
+    if solutions is None:
+        rest = f"; {count(needed, 'pair')} leave finitely many" if pairs >= 3 else ""
+        few = "" if pairs >= 3 else ", and three pairs are the fewest that are solved"
+        return f"{head}infinitely many linkages{rest}{few}"
+    if pairs == needed:
+        most = "one linkage" if solutions == 1 else f"{solutions} linkages at most"
+        return f"{head}{most} through all of them"
+    norm = "least greatest error" if task.minimax else "least squared error"
+    return f"{head}the {norm}, from {count(solutions, 'critical point')} of the residual"

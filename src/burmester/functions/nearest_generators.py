@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import MOST_SIZE, KeptRequirements
-from burmester.functions.refinement import different, refined
+from burmester.functions.refinement import SAME_GENERATOR, refined
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.numerics.bundles import concatenate
 from burmester.numerics.counted_draws import uniform_draws
@@ -104,7 +104,7 @@ def _descended(
     for number, level in enumerate(levels):
         at = np.flatnonzero(arrived & (which == number))
         some = ends[at[np.argsort(error[at], kind="stable")]]
-        some = some[different(some)]
+        some = some[some.first_apart(SAME_GENERATOR, len(some), phases_only=False)]
         best.append(some[: level.most if minimax or not task.minimax else LEVELLED])
     return best
 

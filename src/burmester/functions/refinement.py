@@ -22,7 +22,6 @@ from burmester.numerics.bundles import put, take
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.quadratic_program import SoftProgram
-from burmester.numerics.unique_rows import unique_index
 from burmester.tasks.function_task import FunctionTask
 
 AT_BOUND = 1e-3  # of the logarithm of the greatest size; a length as near to it is at it
@@ -204,14 +203,6 @@ class _Problem:
             less = (here.error**2 - (errors**2).sum(axis=1)) / (2 * level**2)
         broken = np.maximum(here.kept + matvec(here.kept_by_x, step[:, :5]), 0.0).sum(axis=1)
         return np.asarray(less + PENALTY * (here.broken - broken))
-
-
-def different(generators: Generator) -> NDArray[np.bool_]:
-    """Which of generators (k,) repeat no earlier one."""
-    g = generators
-    angles = np.exp(1j * np.stack([g.input_phase, g.output_phase], axis=-1))
-    columns = [np.log(g.sizes[..., 1:]), angles.real, angles.imag, g.side[..., None]]
-    return unique_index(np.concatenate(columns, axis=-1), SAME_GENERATOR, "maximum")
 
 
 def at_bounds(generators: Generator) -> NDArray[np.bool_]:

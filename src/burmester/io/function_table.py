@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import Any, Final
 
 import numpy as np
@@ -20,7 +19,7 @@ from burmester.io.linkage_table import show_read, table_of
 from burmester.io.message import draw, message, print_trimmed, show, wrapped
 from burmester.synthesis.function_generation import FunctionSynthesis
 from burmester.tasks.function_task import FunctionTask
-from burmester.wording import count, figure, listed
+from burmester.wording import listed
 
 CHECK_SCHEMA: Final = "burmester.function-check/1"
 
@@ -115,43 +114,4 @@ def show_function_check(task: FunctionTask, findings: tuple[Advice, ...], consol
     }
     if task.weights is not None:
         columns["weight"] = [f"{each:g}" for each in task.weights.tolist()]
-    show_read(columns, _facts(task), findings, console)
-
-
-def _facts(task: FunctionTask) -> Iterator[tuple[str, str]]:
-    low, high = task.input_ends
-    if (function := task.function) is not None:
-        yield "function", f"y = {function.text}, x from {function.x[0]:g} to {function.x[1]:g}"
-    yield "input", f"{_range(low, high)}{_phase(task.input_phase)}"
-    _, outputs = task.compared()
-    turns = reversals(*task.compared())
-    back = "" if not turns else f"; it turns round {count(turns, 'time')}"
-    least, most = float(outputs.min()), float(outputs.max())
-    yield "output", f"{_range(least, most)}{_phase(task.output_phase)}{back}"
-    yield "asks", _asked(task)
-
-
-def _range(low: float, high: float) -> str:
-    low, high = math.degrees(low), math.degrees(high)
-    return f"{figure(high - low)}°, from {low:.4g}° to {high:.4g}°"
-
-
-def _phase(phase: float | None) -> str:
-    return "" if phase is None else f"; {math.degrees(phase):.6g}° from the ground link at 0"
-
-
-def _asked(task: FunctionTask) -> str:
-    """What is to be found, in words."""
-    pairs, needed = len(task.inputs), task.exact_count
-    phases = {0: "both phases given", 1: "one phase open", 2: "both phases open"}[task.free_phases]
-    head = f"{count(pairs, 'pair')}, {phases}: "
-    solutions = task.solutions
-    if solutions is None:
-        rest = f"; {count(needed, 'pair')} leave finitely many" if pairs >= 3 else ""
-        few = "" if pairs >= 3 else ", and three pairs are the fewest that are solved"
-        return f"{head}infinitely many linkages{rest}{few}"
-    if pairs == needed:
-        most = "one linkage" if solutions == 1 else f"{solutions} linkages at most"
-        return f"{head}{most} through all of them"
-    norm = "least greatest error" if task.minimax else "least squared error"
-    return f"{head}the {norm}, from {count(solutions, 'critical point')} of the residual"
+    show_read(columns, generator_words.facts(task), findings, console)

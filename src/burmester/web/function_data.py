@@ -38,10 +38,11 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     rest = len(synthesis.generators) - len(shown)
     more = f" {len(shown)} of {len(synthesis.generators)} are shown." if rest else ""
     linkages = [_generator(each) for each in shown]
+    asked = [f"{name.capitalize()}: {text}." for name, text in words.facts(task)]
     return {
         "schema": SCHEMA,
         "outcome": synthesis.outcome.to_dict(),
-        "best": [*words.best_sentences(synthesis), words.wanted(synthesis)],
+        "best": words.best_sentences(synthesis) + asked,
         "warnings": [each.to_dict() for each in synthesis.warnings],
         "kind": "function report",
         "whole": True,
