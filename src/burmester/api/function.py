@@ -67,7 +67,8 @@ class FunctionGenerators(AnyResult[FoundGenerator], FunctionSynthesis):
             return plot.structural_error_figure(self)
 
     def _columns(self) -> tuple[Sequence[str], list[tuple[str, ...]], range]:
-        return generator_words.HEADS, list(map(generator_words.row, self)), range(2, 9)
+        rows = [generator_words.row(self, each) for each in self]
+        return generator_words.HEADS, rows, range(2, 9)
 
     def _sentences(self) -> list[str]:
         return generator_words.best_sentences(self)

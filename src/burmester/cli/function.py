@@ -294,7 +294,7 @@ def _check(task: FunctionTask, source: str, *, as_json: bool) -> int:
     """Show a function task and what stands out in it; returns the exit code."""
     from burmester.diagnosis.pair_checks import pair_findings
     from burmester.io.files import quoted
-    from burmester.io.function_table import function_check_data, show_function_check
+    from burmester.io.overview import function_check_data, show_function_check
 
     findings = pair_findings(task)
     if as_json:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final
+
+import numpy as np
 
 from burmester.diagnosis.pair_checks import reversals
 from burmester.functions.found_generator import MET, ROUNDING, FoundGenerator
@@ -13,10 +15,12 @@ from burmester.tasks.function_task import FunctionTask
 from burmester.wording import count, figure, least_angle, listed, with_article
 
 HEADS: Final = (
-    *("", "type", "input", "coupler", "output", "max error", "%", "rms", "transm.", "why not"),
+    *("", "type", "input", "coupler", "output", "max error", "transm.", "%", "rms", "why not"),
 )
-LEAST_TIMES, MOST_TIMES = 1.05, 1000.0  # the nearest one's error; prices outside are not told
+WIDE, NARROW = 9, 7  # columns of tables on a terminal
 PAIR_HEADS: Final = ("pair", "input", "output", "is made", "error")
+MOST_PAIRS = 20  # of which errors are told one by one; of more those that are missed most
+LEAST_TIMES, MOST_TIMES = 1.05, 1000.0  # the nearest one's error; prices outside are not told
 
 
 def best_sentences(synthesis: FunctionSynthesis) -> list[str]:
@@ -37,6 +41,14 @@ def price_note(synthesis: FunctionSynthesis) -> list[str]:
         parts.append(f"{each.id} {miss} at {transmission(each)}{price}")
     parts[0] = parts[0].replace(" by", " misses by")
     return [f"What better transmission costs: {'; '.join(parts)}."]
+
+
+def beside(synthesis: FunctionSynthesis, shown: Sequence[FoundGenerator]) -> list[str]:
+    """What is said of all: why some do not work, and what better transmission costs."""
+    lacks = ((each.id, listed([why.message for why in each.faults] or [""])) for each in shown)
+    if synthesis.method == "judged":
+        return []
+    return [f"{id} {text}" for id, text in lacks if text] + price_note(synthesis)
 
 
 def headline(found: FoundGenerator) -> str:
@@ -69,11 +81,11 @@ def transmission(found: FoundGenerator) -> str:
     return least_angle(found.least_transmission).replace("-", "–")
 
 
-def row(found: FoundGenerator) -> tuple[str, ...]:
+def row(_synthesis: FunctionSynthesis, found: FoundGenerator) -> tuple[str, ...]:
     """The cells of a generator under `HEADS`."""
     _, *lengths = found.lengths.values()
     percent = figure(0.0 if found.is_exact else found.percent).replace("-", "–")
-    errors = angle(found.max_error), percent, angle(found.rms_error), transmission(found)
+    errors = angle(found.max_error), transmission(found), percent, angle(found.rms_error)
     why = "; ".join(each.message for each in found.faults) or "–"
     return (found.id, found.type, *(f"{each:.4g}" for each in lengths), *errors, why)
 
@@ -88,7 +100,7 @@ def dimension_rows(found: FoundGenerator) -> list[tuple[str, str]]:
     return [(name, f"{length:.6g}{at.get(name, '')}") for name, length in found.lengths.items()]
 
 
-def notes(found: FoundGenerator) -> list[str]:
+def notes(_synthesis: FunctionSynthesis, found: FoundGenerator) -> list[str]:
     """What else is to be known to build it, and where it falls short."""
     side = "left" if found.generator.side > 0 else "right"
     extent = figure(found.extent * found.task.ground)
@@ -100,6 +112,17 @@ def notes(found: FoundGenerator) -> list[str]:
         f"has a diagonal of {extent}.",
         *short,
     ]
+
+
+def place_table(
+    _synthesis: FunctionSynthesis, found: FoundGenerator
+) -> tuple[str, tuple[str, ...], list[tuple[str, ...]]]:
+    """What it makes of the pairs: a title, heads and rows; of many those that are missed most."""
+    rows = pair_rows(found)
+    worst = np.argsort(-np.nan_to_num(np.abs(found.errors), nan=np.inf), kind="stable")
+    some = sorted(worst[:MOST_PAIRS].tolist())
+    title = f"At the pairs{' that are missed most' * (len(some) < len(rows))}"
+    return title, PAIR_HEADS, [rows[k] for k in some]
 
 
 def pair_rows(found: FoundGenerator) -> list[tuple[str, ...]]:

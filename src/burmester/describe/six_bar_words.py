@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from burmester.sixbar.found import FoundSixBar
 
 HEADS = ("", "driver", "turns by", "transmits", "link ratio", "extent", "locks after", "kind")
+WIDE, NARROW = len(HEADS), 4  # columns of tables
 POSE_HEADS = ("pose", "off by", "turned by", "driver at", "transmits")
 OF_TOLERANCE = "of the tolerance"
 MOST_POSES = 20  # of which errors are told one by one; of more those that are missed most
@@ -61,6 +63,18 @@ def sentences(synthesis: Synthesis, found: FoundSixBar) -> list[str]:
     if found.shortcomings:
         out.append(f"It {listed(found.shortcomings)}.")
     return out
+
+
+def notes(synthesis: Synthesis, found: FoundSixBar) -> list[str]:
+    """The same without what the message of a given one has said."""
+    driven, at_poses, *short = sentences(synthesis, found)
+    given = synthesis.outcome.code in JUDGED
+    return [driven, *([at_poses] if found.usable else []), *([] if given else short)]
+
+
+def beside(_synthesis: Synthesis, _shown: Sequence[FoundSixBar]) -> list[str]:
+    """What is said of all: nothing more."""
+    return []
 
 
 def dimension_rows(found: FoundSixBar) -> list[tuple[str, ...]]:
@@ -104,10 +118,10 @@ def row(synthesis: Synthesis, found: FoundSixBar) -> tuple[str, ...]:
     )
 
 
-def pose_table(
+def place_table(
     synthesis: Synthesis, found: FoundSixBar
-) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
-    """What it does at the poses: heads and rows; of many poses those that are missed most."""
+) -> tuple[str, tuple[str, ...], list[tuple[str, ...]]]:
+    """What it does at the poses: a title, heads and rows; of many those that are missed most."""
     task = synthesis.task
     numbers = np.arange(len(found.drive))
     if len(numbers) > MOST_POSES:
@@ -128,7 +142,8 @@ def pose_table(
             cells.append(percent(float(found.within_tolerance[k].max())))
         rows.append(tuple(cells))
     heads = (*POSE_HEADS, OF_TOLERANCE) if task.gives_room else POSE_HEADS
-    return heads, rows
+    title = f"At the poses{' that are missed most' * (len(rows) < len(found.drive))}"
+    return title + ", on one branch" * found.on_branches, heads, rows
 
 
 def errors(synthesis: Synthesis, found: FoundSixBar) -> list[tuple[str, str]]:

@@ -12,12 +12,17 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
+from burmester.describe import generator_words
 from burmester.diagnosis.checks import Diagnosis
+from burmester.diagnosis.pair_checks import reversals
+from burmester.errors import Advice
+from burmester.io.function_result import function_task_data
 from burmester.io.linkage_table import show_read
 from burmester.io.message import show as show_message
 from burmester.io.result import motion_data, task_data
 from burmester.synthesis.point_conditions import point_conditions
 from burmester.tasks.crank_timing import CrankTiming
+from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.motion_kinds import General
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
@@ -32,7 +37,7 @@ EXPECT = {  # of a general motion, by the number of independent quadrics that ho
     2: "one linkage at most passes all poses exactly",
     3: "four links at most meet all poses exactly, so six linkages at most do",
 }
-SCHEMA = "burmester.check/1"
+SCHEMA, FUNCTION_SCHEMA = "burmester.check/1", "burmester.function-check/1"
 LEAST_CLOSED = 6  # points of a path that may be closed
 NEAR_ENDS = 1.5  # steps between neighbours; ends of a path that are nearer nearly meet
 
@@ -190,3 +195,38 @@ def _asked_of_path(task: Task, path: TracedPath) -> str:
     near = f"four-bars near {points}" + ("" if path.crank_angles is None else ", timed")
     stated = task.requirements.within is not None or task.gives_room
     return near + (", within a tolerance" if stated else "; no tolerance is stated: one is assumed")
+
+
+# --- pairs of angles
+
+
+def function_check_data(task: FunctionTask, findings: tuple[Advice, ...]) -> dict[str, Any]:
+    """What `burmester check --json` prints of a function task."""
+    low, high = task.input_ends
+    pairs, needed = len(task.inputs), task.exact_count
+    return {
+        "schema": FUNCTION_SCHEMA,
+        "task": function_task_data(task),
+        "asks": {
+            "pairs": pairs,
+            "open_phases": task.free_phases,
+            "kind": "phases" if pairs < needed else "exact" if pairs == needed else "nearest",
+            "solutions": task.solutions,
+        },
+        "input_range_deg": math.degrees(high - low),
+        "output_range_deg": math.degrees(task.output_span),
+        "reversals": reversals(*task.compared()),
+        "warnings": [each.to_dict() for each in findings],
+    }
+
+
+def show_function_check(task: FunctionTask, findings: tuple[Advice, ...], console: Console) -> None:
+    """The pairs as they were read, what is asked, and what stands out."""
+    columns = {
+        "pair": [str(k + 1) for k in range(len(task.inputs))],
+        "input [°]": [f"{each:.10g}" for each in np.degrees(task.inputs).tolist()],
+        "output [°]": [f"{each:.10g}" for each in np.degrees(task.outputs).tolist()],
+    }
+    if task.weights is not None:
+        columns["weight"] = [f"{each:g}" for each in task.weights.tolist()]
+    show_read(columns, generator_words.facts(task), findings, console)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
 from rich.table import Table
@@ -22,14 +22,13 @@ from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import in_unit
 
 if TYPE_CHECKING:
-    from burmester.sixbar.six_bars import SixBars
     from burmester.synthesis.function_generation import AnySynthesis
 
 # Columns; in a narrower terminal both sides of a dyad are in one column, or its length as well.
 NARROW, SLIM = 64, 48
-WIDE = 72  # columns; on fewer tables of six-bars have their first columns only
+WIDE = 72  # columns; on fewer tables of six-bars and generators have their first columns only
 CLOSEST = 3  # linkages in the outcome, where none is usable
-MOST_USABLE = 4  # linkages in the table, unless all are asked for
+MOST_USABLE, MOST_GENERATORS = 4, 8  # linkages in the table, unless all are asked for
 PLAIN = ("R300", "R305", "R307", "R308", "R340")  # outcomes that are told without their code
 
 
@@ -47,13 +46,18 @@ def show_synthesis(
     dyads; verbose: also why these come first, and what the columns are.
     """
     if not isinstance(synthesis, Synthesis):
-        from burmester.io.function_table import show_function
+        from burmester.describe import generator_words
 
-        show_function(synthesis, console, everything=everything)
+        first = synthesis.generators if everything else synthesis.leading(MOST_GENERATORS)
+        told = [each for each in first if each.usable or everything] or first
+        _in_words(synthesis, told, generator_words, console, given=synthesis.method == "judged")
+        if len(told) < len(synthesis.generators):
+            more = len(synthesis.generators) - len(told)
+            print_trimmed(Text(f"{more} more: --all."), console)
         show_warnings(synthesis.warnings, console)
         return
-    if synthesis.six_bars is not None:
-        _six_bars(synthesis, synthesis.six_bars, console)
+    if (six_bars := synthesis.six_bars) is not None:
+        _in_words(synthesis, six_bars.found, six_bar_words, console, given=six_bars.given)
         show_warnings(synthesis.warnings, console)
         return
     rest: list[FoundLinkage] = []
@@ -112,37 +116,40 @@ def _certificate(synthesis: Synthesis, console: Console) -> None:
             print_trimmed(_bullets(lines), console)
 
 
-def _six_bars(synthesis: Synthesis, result: SixBars, console: Console) -> None:
-    """The six-bar to build, in full, and then the others; or why there is none."""
+def _in_words(
+    synthesis: AnySynthesis, shown: Sequence[Any], words: Any, console: Console, *, given: bool
+) -> None:
+    """The linkage to build, in full, and then the others; or why there is none.
+
+    words: the module that says linkages of this kind.  given: whether the first is to be judged.
+    """
     outcome, wide = synthesis.outcome, console.width >= WIDE
-    if result.given or not result.found:
+    works = any(each.usable for each in shown)
+    if given or not works:
         show("result", outcome, console)
-    if not result.found:
-        return
-    best = result.found[0]
-    print_trimmed(Text(six_bar_words.headline(best), style="bold"), console)
-    driven, at_poses, *short = six_bar_words.sentences(synthesis, best)
-    # Of one that was given the message has told the reasons.
-    told = [driven, *([at_poses] if best.usable else []), *([] if result.given else short)]
-    for sentence in told:
+    if given or works:
+        best = shown[0]
+        print_trimmed(Text(words.headline(best), style="bold"), console)
+        for sentence in words.notes(synthesis, best):
+            print_trimmed(Text(sentence), console)
+        if given:
+            title, heads, rows = words.place_table(synthesis, best)
+            print_trimmed(table_of(heads[: None if wide else words.NARROW], rows, title), console)
+        unit = in_unit(best.unit)
+        grid = Table.grid(padding=(0, 2))
+        for name, *joints in words.dimension_rows(best):
+            cells = [Text(each) for each in joints if each]
+            grid.add_row(name, *(cells if wide else [Text("\n").join(cells)]))
+        print_trimmed(Text(f"\nDimensions{unit and ','}{unit}", style="bold"), console)
+        print_trimmed(grid, console)
+    if len(shown) > 1 or not (given or works):
+        rows = [words.row(synthesis, each) for each in shown]
+        heads = words.HEADS[: words.WIDE if wide else words.NARROW]
+        which = "All" if len(shown) == len(synthesis.candidates) else "The best"
+        print_trimmed(table_of(heads, rows, f"{which} of them", left=2, gap=int(wide)), console)
+    for sentence in words.beside(synthesis, shown):
         print_trimmed(Text(sentence), console)
-    if result.given:
-        heads, rows = six_bar_words.pose_table(synthesis, best)
-        title = f"At the poses{' that are missed most' * (len(rows) < len(best.drive))}"
-        title += ", on one branch" * best.on_branches
-        print_trimmed(table_of(heads[: None if wide else 3], rows, title), console)
-    unit = in_unit(synthesis.task.length_unit)
-    grid = Table.grid(padding=(0, 2))
-    for name, *joints in six_bar_words.dimension_rows(best):
-        cells = [Text(each) for each in joints if each]
-        grid.add_row(name, *(cells if wide else [Text("\n").join(cells)]))
-    print_trimmed(Text(f"\nDimensions{unit and ','}{unit}", style="bold"), console)
-    print_trimmed(grid, console)
-    if len(result.found) > 1:
-        rows = [six_bar_words.row(synthesis, each) for each in result.found]
-        heads = six_bar_words.HEADS[: None if wide else 4]
-        print_trimmed(table_of(heads, rows, "All of them", left=2), console)
-    if not result.given:
+    if works and not given:
         print_trimmed(Text(f"\n{outcome.message}."), console)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Final, TypeAlias, final
+from typing import ClassVar, Final, TypeAlias, final
 
 import numpy as np
 
@@ -69,6 +69,7 @@ class FunctionTask:
     notes: what was assumed or passed over when the pairs were read.
     """
 
+    length_unit: ClassVar[str | None] = None  # lengths are in that of the ground link
     inputs: FloatArray
     outputs: FloatArray
     input_phase: float | None = None

@@ -59,6 +59,11 @@ class JudgedLinkage:
         """What it measures and does with its driver, but for the footprint."""
 
     @property
+    def unit(self) -> str | None:
+        """The unit of lengths."""
+        return self.task.length_unit
+
+    @property
     def faults(self) -> tuple[Finding, ...]:
         """All that keeps it from being usable: its defects, then its violations."""
         return self.defects + self.violations
@@ -91,11 +96,6 @@ class LinkageAtPoses(JudgedLinkage):
     def on_branches(self) -> bool:
         """Whether it meets poses on other branches than the one of which its errors are."""
         return False
-
-    @property
-    def unit(self) -> str | None:
-        """The unit of lengths."""
-        return self.task.length_unit
 
     @property
     @abstractmethod

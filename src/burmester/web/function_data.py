@@ -37,7 +37,7 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     shown = synthesis.leading(MOST)
     rest = len(synthesis.generators) - len(shown)
     more = f" {len(shown)} of {len(synthesis.generators)} are shown." if rest else ""
-    linkages = [_generator(each) for each in shown]
+    linkages = [_generator(synthesis, each) for each in shown]
     asked = [f"{name.capitalize()}: {text}." for name, text in words.facts(task)]
     return {
         "schema": SCHEMA,
@@ -54,7 +54,7 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
             "caption": "All linkages, best first",
             "heads": words.HEADS,
             "words": [1, len(words.HEADS) - 1],
-            "rows": list(map(words.row, shown)),
+            "rows": [words.row(synthesis, each) for each in shown],
         },
         "footnotes": "Angles are from the ground link, counter-clockwise, and counted from where "
         "input and output are 0. The structural error is the output that the linkage makes, less "
@@ -62,7 +62,7 @@ def function_report(synthesis: FunctionSynthesis) -> dict[str, Any]:
     }
 
 
-def _generator(found: FoundGenerator) -> dict[str, Any]:
+def _generator(synthesis: FunctionSynthesis, found: FoundGenerator) -> dict[str, Any]:
     """A generator as a linkage that guides its coupler, with its own words and curves."""
     task, transmission = found.task, words.transmission(found)
     lacks = "; ".join(each.message for each in found.faults)
@@ -101,7 +101,7 @@ def _generator(found: FoundGenerator) -> dict[str, Any]:
                 ("least transmission angle", transmission),
                 ("longest link / shortest", figure(float(found.generator.link_ratio))),
             ],
-            "notes": words.notes(found),
+            "notes": words.notes(synthesis, found),
         },
         "tables": [],
         "stops": {
