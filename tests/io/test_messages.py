@@ -1739,9 +1739,8 @@ def said(case, done, code=None):
     assert done.err == ""
     out = re.sub(r"(?m) +$", "", done.out)  # tables are filled with blanks
     if code in TOLD:  # by what was found, without a code
-        counted = re.search(
-            r"(?m)^\d+ (?:of \d+ )?(?:four-bar|pose|six-bar)s? (?:.*\n)+?(?=\n|\Z)", out
-        )
+        kinds = "four-bar|pose|six-bar|function generator"
+        counted = re.search(rf"(?m)^\d+ (?:of \d+ )?(?:{kinds})s? (?:.*\n)+?(?=\n|\Z)", out)
         in_full = re.search("Dimensions|L1 in full|L1 +fixed pivot", out)
         return f"{out[: in_full.start()]}{counted[0]}"
     found = re.search(rf"(?m)^(warning|result)\[{code}\]: .*\n(?:  .*\n|L\d+ .*\n)*", out)
@@ -1772,7 +1771,7 @@ def whole(text):
     return " ".join(" ".join(kept).split())
 
 
-TOLD = ("R300", "R305", "R307", "R308", "R340", "R370")
+TOLD = ("R300", "R305", "R307", "R308", "R340", "R360", "R370")
 ONLY_JSON = ("R320", "R321")  # kinds of motion that say no outcome
 
 
