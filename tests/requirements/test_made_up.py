@@ -16,7 +16,7 @@ POSES = [
 REGISTERED = """
 import math, sys
 from burmester.requirements import table
-from burmester.requirements.requirement import Looser, Requirement, checked_number
+from burmester.requirements.requirement import Looser, Number, Requirement
 
 def looser(bound, figures, share):
     if figures.shortest >= bound:
@@ -40,9 +40,9 @@ LEAST = Requirement(
     help="Length of the shortest link, at least.",
     subject="the least length is",
     such="least_length is one number, such as 5",
-    checked=checked_number(
-        "the least length", lambda length: length >= 0, "a least length of {:g} is impossible",
-        why="lengths are not below zero", help="give a length, such as 5",
+    checked=Number(
+        "length", "the least length", "a least length of {:g} is impossible",
+        why="lengths are not below zero", help="give a length, such as 5", least=0,
     ),
     looser=looser,
 )

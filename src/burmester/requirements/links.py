@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING, Final
 
 from burmester.requirements.requirement import (
     Looser,
+    Number,
     Requirement,
     above,
-    checked_number,
 )
 from burmester.wording import figure
 
@@ -66,12 +66,14 @@ LINK_RATIO: Final = Requirement(
     help="Longest link divided by the shortest, at most.",
     subject="the greatest link ratio is",
     such="link_ratio is one number, such as 5",
-    checked=checked_number(
+    checked=Number(
+        "number",
         "the greatest link ratio",
-        lambda ratio: ratio >= 1,
         "a link ratio of at most {:g} is impossible",
         why="the longest of the four links is never shorter than the shortest",
         help="give a ratio of 1 or more, such as 5",
+        least=1,
+        infinite=True,
     ),
     looser=_looser,
 )

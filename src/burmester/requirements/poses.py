@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from typing import Final
 
 from burmester.errors import InputError
-from burmester.requirements.requirement import Requirement, checked_number, shown
+from burmester.requirements.requirement import Number, Requirement, shown
 
 
 def _flag(value: object) -> bool:
@@ -28,12 +27,13 @@ WITHIN: Final = Requirement(
     subject="the greatest acceptable error is",
     words="a position error of at most {:g}".format,
     such="within is one length in the unit of the poses, such as 0.5",
-    checked=checked_number(
+    checked=Number(
+        "length",
         "the greatest acceptable error",
-        lambda error: 0 < error < math.inf,
         "an error of at most {:g} is impossible",
         why="no pose is met better than rounding allows",
         help="give a length above zero, and mark poses that must be met exactly",
+        above=0,
     ),
 )
 WITHIN_ANGLE: Final = Requirement(
@@ -46,12 +46,13 @@ WITHIN_ANGLE: Final = Requirement(
     subject="the greatest acceptable angle error is",
     words="an angle error of at most {:g}°".format,
     such="within_deg is one angle in degrees, such as 2",
-    checked=checked_number(
+    checked=Number(
+        "angle",
         "the greatest acceptable angle error",
-        lambda error: 0 < error < math.inf,
         "an error of at most {:g}° is impossible",
         why="no pose is met better than rounding allows",
         help="give an angle above zero, and mark poses that must be met exactly",
+        above=0,
     ),
 )
 ANY_ORDER: Final = Requirement(

@@ -45,6 +45,7 @@ class Requirement:
     assumed: bounds of a family where nothing is asked, at first and where nothing keeps them;
     words: a bound that is asked for.  useful: what is kept even where the bound is dropped.
     form: how it is written; None where nobody asks for it.  default: what asks for nothing.
+    choices: its values; known: the names that may be in it.
     option, metavar, help: on the command line; `subject` "is given twice".
     such: what stands in a file.
     checked: the value of what a caller gives; raises InputError E134.
@@ -69,6 +70,7 @@ class Requirement:
     option: str = ""
     metavar: str | None = None
     choices: tuple[str, ...] = ()
+    known: tuple[str, ...] = ()
     help: str = ""
     subject: str = ""
     such: str = ""
@@ -126,21 +128,38 @@ def number(value: object, what: str, *, infinite: bool = False) -> float:
     return out
 
 
-def checked_number(
-    what: str, ok: Callable[[float], bool], wrong: str, why: str, help: str
-) -> Callable[[object], Any]:
-    """The check of a number, which may be infinite if that is ok: E134.
+@final
+@dataclass(frozen=True, slots=True)
+class Number:
+    """A number that is asked for, and what it may be; called, the check of a value: E134.
 
-    wrong: what is said of one that is not ok, with a place for it.
+    measure: what it counts, for its unit.  what: it is.
+    wrong: what is said of one that is out of bounds, with a place for it.
+    least: the bound is allowed itself; above, below: it is not.  infinite: whether infinity is.
     """
 
-    def checked(value: object) -> float:
-        out = number(value, what, infinite=ok(math.inf))
-        if not ok(out):
-            raise InputError("E134", wrong.format(out), why=why, help=help)
+    measure: Literal["number", "length", "angle"]
+    what: str
+    wrong: str
+    why: str
+    help: str
+    least: float = -math.inf
+    above: float = -math.inf
+    below: float = math.inf
+    infinite: bool = False
+
+    def __call__(self, value: object) -> float:
+        """The number that a caller gives."""
+        out = number(value, self.what, infinite=self.infinite)
+        if out < self.least or out <= self.above or self.below <= out < math.inf:
+            raise InputError("E134", self.wrong.format(out), why=self.why, help=self.help)
         return out
 
-    return checked
+    @property
+    def bounds(self) -> dict[str, float]:
+        """Those that it has, by name."""
+        every = {name: getattr(self, name) for name in ("least", "above", "below")}
+        return {name: bound for name, bound in every.items() if math.isfinite(bound)}
 
 
 def above(value: float) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
-from burmester.requirements.requirement import Looser, Requirement, checked_number
+from burmester.requirements.requirement import Looser, Number, Requirement
 from burmester.wording import least_angle
 
 if TYPE_CHECKING:
@@ -53,12 +53,14 @@ TRANSMISSION: Final = Requirement(
     help="Smallest transmission angle allowed while the linkage moves through the poses.",
     subject="the least transmission angle is",
     such="transmission_deg is one number, in degrees, such as 40",
-    checked=checked_number(
+    checked=Number(
+        "angle",
         "the least transmission angle",
-        lambda angle: 0 <= angle < 90,
         "a least transmission angle of {:g}° is impossible",
         why="a transmission angle is between 0° and 90°",
         help="give an angle from 0° to below 90°",
+        least=0,
+        below=90,
     ),
     looser=_looser,
 )

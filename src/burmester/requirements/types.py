@@ -103,6 +103,7 @@ TYPE: Final = Requirement(
     said=lambda figures, _bound, _unit: f"it is {with_article(figures.type_name)}",
     short=lambda figures, _length: f"is {with_article(figures.type_name)}",
     form="names",
+    known=(*TYPES, *GROUPS),
     option="--type",
     metavar="NAME[,NAME]",
     help="Types of linkage allowed; see NAME below.",

@@ -32,7 +32,8 @@ from burmester.io.reading.tables.header import read_header
 from burmester.io.reading.tables.pose_rows import require_width
 from burmester.io.reading.tables.text_source import text_source
 from burmester.io.reading.trees.documents import json_tree, toml_tree
-from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
+from burmester.io.reading.trees.schema import NOT_NEGATIVE, NUMBER, words
 from burmester.io.reading.trees.specification_tree import REQUIREMENT_FIELDS
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.function_task import FunctionTask
@@ -172,6 +173,13 @@ def _stated(whole: Node, fields: Fields) -> Settings:
         raise
 
 
+PAIR_KEYS: Final = ("input_deg", "output_deg")
+_PAIR_FIELDS: Final[Fields] = {
+    **dict.fromkeys(PAIR_KEYS, _NUMBER),
+    "weight": Field(Node.number, schema=NOT_NEGATIVE),
+}
+
+
 def _pairs(node: Node) -> list[list[float]] | int:
     """The pairs with their weights, or their number."""
     if isinstance(node.value, list):
@@ -184,22 +192,31 @@ def _pairs(node: Node) -> list[list[float]] | int:
 def _pair(node: Node) -> list[float]:
     if not isinstance(node.value, dict):
         return [*(each.number() for each in node.items(2, 3)), 1.0][:3]
-    given = node.table(dict.fromkeys(("input_deg", "output_deg", "weight"), _NUMBER))
-    for key in ("input_deg", "output_deg"):
+    given = node.table(_PAIR_FIELDS)
+    for key in PAIR_KEYS:
         if key not in given:
             raise node.missing(key)
     return [given["input_deg"], given["output_deg"], given.get("weight", 1.0)]
 
 
+SPACINGS: Final = ("chebyshev", "even")
+# A pair in a list, with a weight if wanted, or in a table.
+_PAIR: Final = table_schema(_PAIR_FIELDS, required=[*PAIR_KEYS]) | {
+    "type": ["array", "object"],
+    "items": NUMBER,
+    "minItems": 2,
+    "maxItems": 3,
+}
 _FIELDS: Final[Fields] = {
     "expression": Field(Node.text, 'give a text, such as "log10(x)"'),
     "x": Field(Node.pair, "give the two ends of its range, such as [1, 2]"),
     **dict.fromkeys(
-        ("input_deg", "output_deg"),
+        PAIR_KEYS,
         Field(Node.number, "give the range of that link in degrees, such as 60"),
     ),
     "opposite": Field(Node.flag),
-    "pairs": Field(_pairs, _PAIRS_HELP),
-    "spacing": Field(partial(Node.word, known=("chebyshev", "even"))),
+    "pairs": Field(_pairs, _PAIRS_HELP, {"type": ["integer", "array"], "items": _PAIR}),
+    "spacing": Field(partial(Node.word, known=SPACINGS), "", words(SPACINGS)),
     **_SETTINGS,
 }
+FUNCTION_SCHEMA: Final = table_schema(_FIELDS)

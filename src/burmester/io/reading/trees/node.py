@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, TypeAlias, TypeVar
 from burmester.errors import InputError
 from burmester.io.reading.specification import LIMITS, REQUIREMENTS
 from burmester.io.reading.trees.locations import Document, Path, close_match
+from burmester.io.reading.trees.schema import FLAG, NUMBER, PAIR, TEXT, Schema
 from burmester.tasks.option_table import TOP_KEYS
 
 T = TypeVar("T")
@@ -175,10 +176,37 @@ class Node(NamedTuple):
 
 
 class Field(NamedTuple):
-    """What may stand at a key of a table: how it is read, and help."""
+    """What may stand at a key of a table: how it is read, help, and what a schema says of it.
+
+    schema: where that is not what the reader says.
+    """
 
     read: Callable[[Node], Any]
     help: str = ""
+    schema: Schema | None = None
+
+    @property
+    def written(self) -> Schema:
+        """What a schema says of it."""
+        return self.schema or _OF_READERS[self.read]
+
+
+_OF_READERS: dict[Callable[[Node], Any], Schema] = {
+    Node.number: NUMBER,
+    Node.digits: NUMBER,
+    Node.text: TEXT,
+    Node.flag: FLAG,
+    Node.pair: PAIR,
+}
 
 
 Fields: TypeAlias = dict[str, Field]
+
+
+def table_schema(fields: Fields, **more: Any) -> Schema:
+    """A table with these keys and no others; more: that a schema says of it."""
+    keys = {
+        key: ({"description": field.help} if field.help else {}) | field.written
+        for key, field in fields.items()
+    }
+    return {"type": "object", "properties": keys, "additionalProperties": False, **more}

@@ -13,7 +13,7 @@ A tolerance, of a pose or of all poses that state none, has numbers or "free":
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from functools import partial
 from typing import Any, Final
@@ -36,7 +36,18 @@ from burmester.io.reading.specification import (
 )
 from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance, StatedTolerances
 from burmester.io.reading.trees.locations import Document, close_match
-from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
+from burmester.io.reading.trees.schema import (
+    ABOVE_ZERO,
+    NOT_NEGATIVE,
+    NUMBER,
+    PAIR,
+    TEXT,
+    Schema,
+    any_case,
+    words,
+)
+from burmester.io.reading.trees.schema import listed as listed_of
 from burmester.tasks.option_table import TABLES, TOP_KEYS
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.traced_path import TracedPath
@@ -54,9 +65,12 @@ def _tolerance_bound(node: Node) -> float:
     return node.number()
 
 
+AXES: Final = ("fixed", "body")
+# A number from 0, or a word; blanks and capital letters do not count.
+_BOUND: Final = {"minimum": 0} | any_case(FREE_WORDS) | {"type": ["number", "string"]}
 _TOLERANCE_FIELDS: Final[Fields] = {
-    **{key: Field(_tolerance_bound) for key in ("x", "y", *ANGLE_KEYS)},
-    "axes": Field(partial(Node.word, known=("fixed", "body"))),
+    **{key: Field(_tolerance_bound, "", _BOUND) for key in ("x", "y", *ANGLE_KEYS)},
+    "axes": Field(partial(Node.word, known=AXES), "", words(AXES)),
 }
 
 
@@ -74,10 +88,12 @@ TOLERANCE: Final = Field(
     _stated_tolerance,
     'a tolerance has x, y and angle_deg (or angle, angle_rad), each a number or "free", and axes, '
     '"fixed" or "body"',
+    table_schema(_TOLERANCE_FIELDS),
 )
 FREE: Final = Field(
     lambda node: [each.word(COMPONENTS) for each in node.items()],
     'free is a list of some of "x", "y" and "angle"',
+    listed_of(words(COMPONENTS)),
 )
 
 
@@ -104,7 +120,7 @@ POINT_KEYS: Final = {"p": ("px", "py"), "q": ("qx", "qy")}
 FAR: Final = 300  # digits before the point; a number of more may be no double
 _NUMBER: Final = Field(Node.digits)
 _COMMON: Final[Fields] = {
-    "weight": _NUMBER,
+    "weight": Field(Node.digits, "", ABOVE_ZERO),
     "exact": Field(Node.flag, "write true or false"),
     "name": Field(Node.text, "write a text in quotes"),
     "tolerance": TOLERANCE,
@@ -112,13 +128,20 @@ _COMMON: Final[Fields] = {
     "crank_deg": _NUMBER,
     "crank_rad": _NUMBER,
 }
-_POINT: Final = Field(lambda node: [each.digits() for each in node.items(2, 2)])
+_POINT: Final = Field(lambda node: [each.digits() for each in node.items(2, 2)], "", PAIR)
 _XY_ANGLE: Final[Fields] = dict.fromkeys(("x", "y", *ANGLE_KEYS), _NUMBER)
 _POINTS: Final[Fields] = dict.fromkeys(POINTS, _NUMBER) | dict.fromkeys(POINT_KEYS, _POINT)
 _ALSO = "weight, exact, name, tolerance and free"
 _XY_ANGLE_HELP = f"a pose has x, y, angle_deg or angle_rad (or angle, with angle_unit), {_ALSO}"
 _POINTS_HELP = f"a pose has px, py, qx and qy (or p and q with two numbers each), {_ALSO}"
 
+# A pose in a list, or a table of one kind or the other.
+_POSE: Final = table_schema(_COMMON | _XY_ANGLE | _POINTS) | {
+    "type": ["array", "object"],
+    "items": NUMBER,
+    "minItems": 3,
+    "maxItems": 3,
+}
 _UNDER_LIMITS, _UNDER_REQUIREMENTS = "write it under limits", "write it under requirements"
 _MISPLACED: Final = {  # keys that may stand beside the poses by mistake: the help
     **dict.fromkeys(LIMITS, _UNDER_LIMITS),
@@ -247,10 +270,15 @@ def _angle_unit(node: Node) -> str:
     return str(node.value)
 
 
+_SIGMA_FIELDS: Final = dict.fromkeys(
+    ("position", "angle_deg"), Field(Node.number, schema=NOT_NEGATIVE)
+)
+
+
 def _pose_sigma(node: Node) -> tuple[float, float]:
     """Standard deviations of positions and of angles, in radians; raises E103 to E107."""
     node = node._replace(help="give pose_sigma both, position and angle_deg, with 0 or more")
-    given = node.table(dict.fromkeys(("position", "angle_deg"), Field(Node.number)))
+    given = node.table(_SIGMA_FIELDS)
     for key in ("position", "angle_deg"):
         if key not in given:
             raise node.missing(key)
@@ -259,11 +287,22 @@ def _pose_sigma(node: Node) -> tuple[float, float]:
     return given["position"], math.radians(given["angle_deg"])
 
 
+_PATH_FIELDS: Final[Fields] = {
+    "closed": Field(Node.flag),
+    "crank_deg": Field(
+        lambda node: np.radians([each.number() for each in node.items()]), "", listed_of(NUMBER)
+    ),
+}
+_CRANK_FIELDS: Final[Fields] = {
+    "absolute": Field(Node.flag),
+    "within_deg": Field(Node.number, schema=ABOVE_ZERO),
+}
+
+
 def _path(node: Node) -> TracedPath:
     """How points are traced; raises E186."""
     help = "write path = { closed = true }, or path = { crank_deg = [0, 20, 40, ...] } in TOML"
-    angles = Field(lambda node: np.radians([each.number() for each in node.items()]))
-    given = _path_table(node._replace(help=help), {"closed": Field(Node.flag), "crank_deg": angles})
+    given = _path_table(node._replace(help=help), _PATH_FIELDS)
     return node.build(TracedPath, given.get("closed", False), given.get("crank_deg"))
 
 
@@ -271,8 +310,7 @@ def _crank(node: Node) -> CrankOptions:
     """How the crank angles of poses are meant; raises E186."""
     help = "write crank = { absolute = true, within_deg = 0.5 }, or one of the two"
     node = node._replace(help=help)
-    fields = {"absolute": Field(Node.flag), "within_deg": Field(Node.number)}
-    given = _path_table(node, fields)
+    given = _path_table(node, _CRANK_FIELDS)
     within = given.get("within_deg")
     if within is not None and within <= 0:
         raise node.at("within_deg").fault("E186", "is no angle above zero")
@@ -489,3 +527,16 @@ def _crank_column(
         raise InputError("E108", message, where=where, help=help)
     column = [pose.get(keys[0], "nan") for pose in poses]
     return {"crank": column}, keys[0].removeprefix("crank_")
+
+
+# What may stand at the keys of a task, but for those that other modules read.
+POSE_SCHEMAS: Final[Mapping[str, Schema]] = {
+    "poses": listed_of(_POSE),
+    "angle_unit": words(("deg", "rad")),
+    "length_unit": TEXT | {"type": ["string", "null"]},
+    "tolerance": table_schema(_TOLERANCE_FIELDS, description=TOLERANCE.help),
+    "pose_sigma": table_schema(_SIGMA_FIELDS, required=[*_SIGMA_FIELDS]),
+    "path": table_schema(_PATH_FIELDS),
+    "crank": table_schema(_CRANK_FIELDS),
+}
+MISPLACED_KEYS: Final = tuple(_MISPLACED)

@@ -33,9 +33,22 @@ from burmester.io.reading.specification import (
     StatedRequirement,
     checked_requirement,
 )
-from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
+from burmester.io.reading.trees.schema import (
+    ABOVE_ZERO,
+    BOUNDS,
+    FLAG,
+    NOT_NEGATIVE,
+    NUMBER,
+    PAIR,
+    Schema,
+    any_case,
+    one_or_more,
+    words,
+)
+from burmester.io.reading.trees.schema import listed as listed_of
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.requirement import Requirement
+from burmester.requirements.requirement import Number, Requirement
 from burmester.requirements.table import ASKED
 from burmester.tasks.limits import KINDS, Kind, Limits
 from burmester.tasks.option_table import LIMIT_OPTIONS
@@ -97,9 +110,17 @@ def _points(number: int | None, node: Node) -> Any:
 
 
 SHAPE_FIELDS: Final[Fields] = {
-    name: Field(partial(_points, number)) for name, (number, _) in SHAPES.items()
+    name: Field(
+        partial(_points, number), "", PAIR if number == 1 else listed_of(PAIR, number or 3, number)
+    )
+    for name, (number, _) in SHAPES.items()
 }
 AREA_FIELDS: Final[Fields] = {name: SHAPE_FIELDS[name] for name in ("box", "polygon")}
+
+
+def _region_schema(fields: Fields, but: str = "") -> Schema:
+    fields = {name: field for name, field in fields.items() if name != but}
+    return table_schema(fields, minProperties=1, maxProperties=1)
 
 
 def read_region(node: Node, fields: Fields = SHAPE_FIELDS) -> Region:
@@ -117,8 +138,14 @@ def _length_from_text(source: Source) -> LengthRange:
     return least, most
 
 
+_LENGTH_FIELDS: Final[Fields] = {
+    "least": Field(Node.number, schema=NOT_NEGATIVE),
+    "most": Field(Node.number, schema=ABOVE_ZERO),
+}
+
+
 def _read_length(node: Node) -> LengthRange:
-    given = node.table({"least": Field(Node.number), "most": Field(Node.number)})
+    given = node.table(_LENGTH_FIELDS)
     return given.get("least", 0.0), given.get("most", math.inf)
 
 
@@ -176,9 +203,9 @@ _REGION: Final = (
 )
 _RAIL_FIELDS: Final[Fields] = {
     "direction_deg": Field(Node.number),
-    "tolerance_deg": Field(Node.number),
-    "through": Field(read_region, _REGION),
-    "travel": Field(read_region, _REGION),
+    "tolerance_deg": Field(Node.number, schema=NOT_NEGATIVE | {"exclusiveMaximum": 90}),
+    "through": Field(read_region, _REGION, _region_schema(SHAPE_FIELDS, but="line")),
+    "travel": Field(read_region, _REGION, _region_schema(SHAPE_FIELDS, but="point")),
 }
 
 
@@ -188,42 +215,51 @@ class ValueKind(NamedTuple):
     from_text: Callable[[Source], Any]
     from_tree: Callable[[Node], Any]
     such: str = ""
+    schema: Schema | None = None
 
 
 VALUE_KINDS: Final[Mapping[str, ValueKind]] = {
-    "region": ValueKind(region_from_text, read_region, _REGION),
+    "region": ValueKind(region_from_text, read_region, _REGION, _region_schema(SHAPE_FIELDS)),
     "range": ValueKind(
         _length_from_text,
         _read_length,
         "a length has the keys least and most, or one of them, with a number each",
+        table_schema(_LENGTH_FIELDS),
     ),
     "kinds": ValueKind(
-        _kinds_from_text, _read_kinds, 'kinds is a list of some of "RR", "PR", "RP" and "PP"'
+        _kinds_from_text,
+        _read_kinds,
+        'kinds is a list of some of "RR", "PR", "RP" and "PP"',
+        listed_of(words(KINDS), 1),
     ),
     "line": ValueKind(
         _rail_from_text,
         lambda node: node.build(Rail, **node.table(_RAIL_FIELDS)),
         f"a rail or slot has {listed([*_RAIL_FIELDS])}, or some of them; through and travel are "
         "regions",
+        table_schema(_RAIL_FIELDS, minProperties=1),
     ),
     "area": ValueKind(
         lambda source: (
             None if source.text.strip() == ANY else region_from_text(source, FOOTPRINT_HELP)
         ),
         partial(read_region, fields=AREA_FIELDS),
+        schema=_region_schema(AREA_FIELDS),
     ),
     "number": ValueKind(
         lambda source: number_from_text(source, source.text, 0, "E134"), Node.number
     ),
     "choice": ValueKind(lambda source: source.text, Node.text),
-    "flag": ValueKind(lambda source: source.text, Node.flag),
+    "flag": ValueKind(lambda source: source.text, Node.flag, schema=FLAG),
 }
 
 
 _LIMIT_FIELDS: Final[Fields] = {
-    each.name: Field(VALUE_KINDS[each.kind].from_tree, VALUE_KINDS[each.kind].such)
+    each.name: Field(kind.from_tree, kind.such, {"description": each.help} | (kind.schema or {}))
     for each in LIMIT_OPTIONS
+    for kind in (VALUE_KINDS[each.kind],)
 }
+LIMITS_SCHEMA: Final = one_or_more(table_schema(_LIMIT_FIELDS), 1, 2)
 
 
 def read_limits(node: Node) -> Specification:
@@ -272,9 +308,23 @@ def _stated(asked: Requirement, node: Node) -> StatedRequirement:
     return node.build(checked_requirement, asked.name, value, "")._replace(where=where)
 
 
+def _schema_of(asked: Requirement) -> Schema:
+    """What may stand at the key of a requirement."""
+    kind = VALUE_KINDS.get(asked.form or "")
+    out = (kind and kind.schema) or {}
+    if isinstance(asked.checked, Number):
+        out = NUMBER | {BOUNDS[name]: bound for name, bound in asked.checked.bounds.items()}
+    elif asked.choices or asked.known:
+        out = words(asked.choices) if asked.choices else one_or_more(any_case(asked.known), 1)
+    return {"description": asked.help} | out
+
+
 REQUIREMENT_FIELDS: Final[Fields] = {
-    each.name: Field(partial(_stated, each), each.such) for each in ASKED
+    each.name: Field(partial(_stated, each), each.such, _schema_of(each)) for each in ASKED
 }
+
+
+REQUIREMENTS_SCHEMA: Final = table_schema(REQUIREMENT_FIELDS)
 
 
 def read_requirements(node: Node) -> tuple[StatedRequirement, ...]:

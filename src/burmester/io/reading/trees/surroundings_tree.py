@@ -20,17 +20,19 @@ from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.outlines.outline_file import OutlineFile, folder_of, read_outline
 from burmester.io.reading.specification import StatedSurroundings
-from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
+from burmester.io.reading.trees.schema import NOT_NEGATIVE, PAIR, one_or_more
 from burmester.io.reading.trees.specification_tree import SHAPE_FIELDS, read_region
-from burmester.tasks.surroundings import KeepOut, Surroundings
+from burmester.tasks.surroundings import MAX_REGIONS, KeepOut, Surroundings
 
 _AREAS: Final[Fields] = {name: SHAPE_FIELDS[name] for name in ("polygon", "box")}
 _OUTLINE: Final[Fields] = {name: Field(Node.text) for name in ("name", "file", "layer", "id")} | {
-    name: Field(lambda node: node) for name in _AREAS
+    name: Field(lambda node: node, "", area.schema) for name, area in _AREAS.items()
 }
+_DRAWING: Final[Fields] = {key: _OUTLINE[key] for key in ("file", "layer", "id")}
 _SURROUNDINGS: Final[Fields] = {
-    "link_width": Field(Node.number),
-    "margin": Field(Node.number),
+    "link_width": Field(Node.number, schema=NOT_NEGATIVE),
+    "margin": Field(Node.number, schema=NOT_NEGATIVE),
     "body_in_plane": Field(Node.flag),
 }
 _BODY_HELP = (
@@ -45,6 +47,17 @@ _SURROUNDINGS_HELP = (
     "surroundings has the keys link_width and margin with a length each, and body_in_plane, true "
     "or false; or some of them"
 )
+BODY_SCHEMA: Final = table_schema(_DRAWING, required=["file"]) | {
+    "description": _BODY_HELP,
+    "type": ["array", "string", "object"],
+    "items": PAIR,
+    "minItems": 3,
+}
+KEEP_OUT_SCHEMA: Final = one_or_more(
+    table_schema(_OUTLINE, oneOf=[{"required": [shape]} for shape in (*_AREAS, "file")]),
+    most=MAX_REGIONS,
+) | {"description": _REGION_HELP}
+SURROUNDINGS_SCHEMA: Final = table_schema(_SURROUNDINGS, description=_SURROUNDINGS_HELP)
 
 
 def read_body(node: Node, length_unit: str | None) -> tuple[Polygon, tuple[Advice, ...]]:
@@ -57,7 +70,7 @@ def read_body(node: Node, length_unit: str | None) -> tuple[Polygon, tuple[Advic
         return node.build(Polygon, node.points(3)), ()
     if isinstance(node.value, str):
         return _drawn(node, {"file": node.text()}, node, length_unit)
-    given = node.table({key: _OUTLINE[key] for key in ("file", "layer", "id")})
+    given = node.table(_DRAWING)
     if "file" not in given:
         raise node.fault("E105", "names no file")
     return _drawn(node, given, node, length_unit)
