@@ -28,7 +28,7 @@ from burmester.synthesis.function_generation import (
     coupler_synthesis,
     generate_function,
 )
-from burmester.tasks.motion_task import AngleUnit
+from burmester.tasks.motion_task import AngleUnit, require_angle_unit
 from burmester.values import real_numbers
 
 if TYPE_CHECKING:
@@ -145,42 +145,33 @@ def synthesize_function(
     """
     require_callable(progress)
     given = {
+        "x": x,
+        "input_deg": input_deg,
+        "output_deg": output_deg,
+        "pairs": pairs,
+        "spacing": spacing,
+        "opposite": opposite,
+        "minimax": minimax,
         "input_phase_deg": input_phase_deg,
         "output_phase_deg": output_phase_deg,
         "ground": ground,
-        "minimax": minimax,
         "transmission_deg": transmission_deg,
         "link_ratio": link_ratio,
         "types": types,
     }
-    settings = {name: value for name, value in given.items() if value is not None}
+    stated = {name: value for name, value in given.items() if value is not None}
     if isinstance(function, str) or callable(function):
-        if x is None or input_deg is None or output_deg is None:
+        if any(each is None for each in (x, input_deg, output_deg)):
             raise InputError(
                 "E194",
                 "a function needs x, input_deg and output_deg",
                 help="give all three, such as x=(1, 2), input_deg=60, output_deg=60",
             )
-        task = task_of_function(
-            function,
-            x,
-            input_deg,
-            output_deg,
-            pairs=pairs,
-            spacing=spacing,
-            opposite=opposite,
-            settings=settings,
-        )
+        task = task_of_function({"expression": function, **stated})
     else:
-        if angle_unit not in ("deg", "rad"):
-            raise InputError(
-                "E110",
-                "the angle unit is not stated",
-                why="the unit of angles is never guessed",
-                help='say angle_unit="deg" or angle_unit="rad"',
-            )
+        require_angle_unit(angle_unit)
         rows = real_numbers(function, (None, 2), "the pairs")
         rows = rows if angle_unit == "deg" else np.degrees(rows)
-        task = task_of_pairs(rows[:, 0], rows[:, 1], None, settings)
+        task = task_of_pairs(rows[:, 0], rows[:, 1], None, stated)
     with in_python_words(), shown(progress):
         return FunctionGenerators.of(generate_function(task))

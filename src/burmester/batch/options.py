@@ -19,7 +19,7 @@ from typing import Any, Final, Literal, TypeAlias, final
 
 from burmester.errors import InputError
 from burmester.io.reading.functions.function_file import settings_of
-from burmester.io.reading.functions.function_options import NOTHING, Settings
+from burmester.io.reading.functions.function_options import NOTHING, Stated
 from burmester.io.reading.pose_table import PoseTable, Source, held_float
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.trees.documents import read_toml
@@ -102,7 +102,7 @@ class BatchOptions:
             raise
 
     @property
-    def functions(self) -> Settings:
+    def functions(self) -> Stated:
         """What holds for each task of pairs of angles; raises E107 and E191."""
         whole = Node(self.document, (), self.data)
         return settings_of(whole) if FUNCTION in self.data else NOTHING

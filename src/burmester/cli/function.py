@@ -203,16 +203,14 @@ def _task(source: str, given: dict[str, Any]) -> FunctionTask:
             "--output is the range of the output link, in degrees",
             f"give --output 60, say, and name the file by -o {given['output']}",
         )
-    return task_of_function(
-        source,
-        (read_number(ends, 0, low), read_number(ends, len(low) + 1, high)),
-        _number(given, "input_range") or 0.0,
-        _number(given, "output") or 0.0,
-        pairs=given["pairs"],
-        spacing=given["spacing"],
-        opposite=given["opposite"],
-        settings=_settings(given),
-    )
+    ranges = {
+        "expression": source,
+        "x": (read_number(ends, 0, low), read_number(ends, len(low) + 1, high)),
+        "input_deg": _number(given, "input_range"),
+        "output_deg": _number(given, "output"),
+    }
+    beside = {name: given[name] for name in ("pairs", "spacing", "opposite")}
+    return task_of_function(ranges | beside | _settings(given))
 
 
 def _content(source: str) -> bytes:

@@ -22,7 +22,7 @@ from burmester.io.reading.file_content import require_moderate
 from burmester.io.reading.functions.function_options import (
     KEPT,
     NOTHING,
-    Settings,
+    Stated,
     task_of_function,
     task_of_pairs,
 )
@@ -41,7 +41,7 @@ from burmester.tasks.function_task import FunctionTask
 WEIGHT: Final = "weight"
 
 
-def read_pairs(source: Source, settings: Settings) -> FunctionTask:
+def read_pairs(source: Source, settings: Stated) -> FunctionTask:
     """The task in a header and a pair a line."""
     grid = read_header(source, None)
     indices, units = grid.columns.indices, grid.columns.units
@@ -99,7 +99,7 @@ _PAIRS_HELP = (
 def read_function(
     data: bytes,
     path: str,
-    settings: Settings = NOTHING,
+    settings: Stated = NOTHING,
     sheet: str | None = None,
 ) -> FunctionTask:
     """The function task in the bytes of a file.
@@ -126,12 +126,12 @@ def read_function(
         raise
 
 
-def settings_of(whole: Node) -> Settings:
+def settings_of(whole: Node) -> Stated:
     """The settings in a table [function] without pairs; raises E105, E107 and E191."""
     return _stated(whole, _SETTINGS)
 
 
-def task_of(whole: Node, settings: Settings = NOTHING) -> FunctionTask:
+def task_of(whole: Node, settings: Stated = NOTHING) -> FunctionTask:
     """The task of the table [function], with settings of options beside it."""
     stated = {**_stated(whole, _FIELDS), **settings}
     node, pairs = whole.at("function"), stated.get("pairs")
@@ -146,20 +146,10 @@ def task_of(whole: Node, settings: Settings = NOTHING) -> FunctionTask:
     for key in ("x", "input_deg", "output_deg"):
         if key not in stated:
             raise node.fault("E191", f"has no {key}", _FIELDS[key].help)
-    return task_of_function(
-        stated["expression"],
-        tuple(stated["x"]),
-        stated["input_deg"],
-        stated["output_deg"],
-        pairs=pairs,
-        spacing=stated.get("spacing"),
-        opposite=stated.get("opposite", False),
-        settings=stated,
-        source=Source("expression", stated["expression"]),
-    )
+    return task_of_function(stated, Source("expression", stated["expression"]))
 
 
-def _stated(whole: Node, fields: Fields) -> Settings:
+def _stated(whole: Node, fields: Fields) -> Stated:
     """What the table [function] states; raises E105, E107, and E191 for what does not fit."""
     if not isinstance(whole.value, dict) or not isinstance(whole.value.get("function"), dict):
         help = "`burmester new log-generator` writes a file that has one"

@@ -39,31 +39,21 @@ MOST_EXACT: Final = 5  # pairs; from more the spacing is even where none is give
 LEAST_STEP: Final = 1e-9  # radians; inputs that differ less are one
 
 
-Settings: TypeAlias = Mapping[
-    str, Any
-]  # beside the pairs, by the keys of a file; others are passed
-NOTHING: Final[Settings] = MappingProxyType({})
+Stated: TypeAlias = Mapping[str, Any]  # what is stated of a function task, by the keys of a file
+NOTHING: Final[Stated] = MappingProxyType({})
 
 
-def task_of_function(
-    function: str | Callable[[FloatArray], FloatArray],
-    x: tuple[float, float],
-    input_range: float,
-    output_range: float,
-    *,
-    pairs: int | None = None,
-    spacing: Spacing | None = None,
-    opposite: bool = False,
-    settings: Settings = NOTHING,
-    source: Source | None = None,
-) -> FunctionTask:
+def task_of_function(stated: Stated, source: Source | None = None) -> FunctionTask:
     """The task of a function over a range of x, by angles in degrees.
 
     Raises E134 (a type that is not known), E190, E191 and E194.
 
-    source: where the expression stands, for carets.
+    stated: with an `expression`, a text or a function of arrays, its range `x`, `input_deg` and
+        `output_deg`.  source: where the expression stands, for carets.
     """
-    low, high = (float(each) for each in x)
+    function, pairs = stated["expression"], stated.get("pairs")
+    input_range, output_range = stated["input_deg"], stated["output_deg"]
+    low, high = (float(each) for each in stated["x"])
     if not (math.isfinite(low) and math.isfinite(high) and low != high):
         raise InputError(
             "E191",
@@ -110,21 +100,21 @@ def task_of_function(
         values,
         (low, high),
         math.radians(input_range),
-        math.radians(-output_range if opposite else output_range),
+        math.radians(-output_range if stated.get("opposite") else output_range),
         isinstance(function, str),
     )
     number = pairs or SAMPLES
-    chosen = spacing or ("chebyshev" if number <= MOST_EXACT else "even")
+    chosen = stated.get("spacing") or ("chebyshev" if number <= MOST_EXACT else "even")
     shares = chebyshev_spacing(number) if chosen == "chebyshev" else even_spacing(number)
     inputs, outputs = sampled.at(shares)
-    return _task(inputs, outputs, settings, sampled, None)
+    return _task(inputs, outputs, stated, sampled, None)
 
 
 def task_of_pairs(
     inputs: FloatArray,
     outputs: FloatArray,
     weights: FloatArray | None = None,
-    settings: Settings = NOTHING,
+    stated: Stated = NOTHING,
     where: Callable[[int], str] | None = None,
 ) -> FunctionTask:
     """The task of pairs of angles in degrees; raises E134, E191 and E194.
@@ -155,31 +145,31 @@ def task_of_pairs(
             "all outputs are the same, so the output does not move",
             help="give outputs that differ",
         )
-    return _task(theta, phi, settings, None, weights)
+    return _task(theta, phi, stated, None, weights)
 
 
 def _task(
     inputs: FloatArray,
     outputs: FloatArray,
-    settings: Settings,
+    stated: Stated,
     function: SampledFunction | None,
     weights: FloatArray | None,
 ) -> FunctionTask:
-    ground = settings.get("ground", 1.0)
+    ground = stated.get("ground", 1.0)
     if not 0 < ground < 1e9:
         raise InputError(
             "E194",
             f"the length of the ground link is {ground:g}",
             help="give a number above 0 and below 1e+09",
         )
-    one, two = (settings.get(f"{name}_phase_deg") for name in ("input", "output"))
+    one, two = (stated.get(f"{name}_phase_deg") for name in ("input", "output"))
     for name, value in (("input", one), ("output", two)):
         if value is not None and not math.isfinite(value):
             raise InputError(
                 "E194", f"the {name} phase is {shown(value)}", help="give an angle in degrees"
             )
     known = {each.name for each in KEPT}
-    asked = Requirements(**{name: value for name, value in settings.items() if name in known})
+    asked = Requirements(**{name: value for name, value in stated.items() if name in known})
     of_generators = [name for name in TYPES if name in TYPE_OF_SIGNS.values()]
     if not any(map(asked.allows, of_generators)):
         allowed = sorted(asked.allowed_types or ())
@@ -196,7 +186,7 @@ def _task(
         weights,
         ground,
         function,
-        settings.get("minimax", False),
+        stated.get("minimax", False),
         asked,
     )
 
