@@ -85,18 +85,54 @@ POINTS = {
     "limits": {"slot": {"direction_deg": 0}, "fixed_pivot": {"line": [[2, 3], [9, 7]]}},
     "crank": {"absolute": True, "within_deg": 2},
 }
+LOADED = {
+    "angle_unit": "deg",
+    "length_unit": "mm",
+    "poses": [[0, 0, 0], [10, 5, 20], [30, 20, 45]],
+    "loads": {
+        "gravity": "down",
+        "body": {"mass_kg": 4, "center": [210, 9], "inertia_kgm2": 0.1},
+        "links": {"plate": "steel 3", "width": 20},
+        "force": {"at": [1, 2], "force_N": [0, -5], "frame": "M", "from_pose": 1, "to_pose": 2},
+        "torque_Nm": 0.5,
+        "hand": {"at": [420, 0]},
+        "temperature_C": 20,
+    },
+    "springs": [
+        {
+            "kind": "gas",
+            "ground_point": [20, -150],
+            "body_point": [100, 0],
+            "force_N": 100,
+            "compressed_force_N": 130,
+            "stroke": 100,
+            "length": 245,
+            "friction_N": 2,
+            "count": 2,
+        },
+        {
+            "kind": "torsion",
+            "from": {"link": "ground", "point": [0, 0]},
+            "to": {"link": "driver", "point": [0, 0]},
+            "rate_Nm_per_deg": 0.1,
+            "free_deg": -5,
+        },
+    ],
+    "drive": {"duration_s": 2, "profile": "3-4-5"},
+}
 FREE = {"x": 0.5, "y": 0.5}
 PATH = {
     "angle_unit": "deg",
     "poses": [{"x": k, "y": k * (20 - k), "free": ["angle"], "tolerance": FREE} for k in range(5)],
     "path": {"closed": True, "crank_deg": [30 * k for k in range(5)]},
 }
+TASKS = {"poses": POSES, "points": POINTS, "path": PATH, "loads": LOADED}
 # Values of other kinds and sizes, put in the place of each that is there.
 INSTEAD = (True, "word", "free", -1, 0, 0.5, 90, 1e5, [], [1], [[0, 0], [1, 1]], {}, {"x": 1})
 # Codes of what belongs together or is missing, which only reading finds.
 TOGETHER = {
     "E105", "E108", "E110", "E111", "E120", "E122", "E132", "E133", "E136", "E137", "E138", "E170",
-    "E175", "E186",
+    "E175", "E177", "E178", "E179", "E186",
 }  # fmt: skip
 
 
@@ -170,7 +206,7 @@ def test_every_task_of_examples_passes():
     assert read >= 8
 
 
-@pytest.mark.parametrize("tree", [POSES, POINTS, PATH], ids=["poses", "points", "path"])
+@pytest.mark.parametrize("tree", TASKS.values(), ids=TASKS)
 def test_what_is_refused_at_a_key_is_refused_by_the_schema(tree, tmp_path):
     assert refused(tree, tmp_path) is None
     VALIDATOR.validate(tree)
@@ -185,7 +221,7 @@ def test_what_is_refused_at_a_key_is_refused_by_the_schema(tree, tmp_path):
     assert wrong == []
 
 
-@pytest.mark.parametrize("tree", [POSES, POINTS, PATH], ids=["poses", "points", "path"])
+@pytest.mark.parametrize("tree", TASKS.values(), ids=TASKS)
 def test_keys_that_are_not_known_are_refused(tree, tmp_path):
     for path in places(tree):
         at = tree
@@ -223,6 +259,16 @@ def test_keys_at_the_top_may_be_others_but_not_misspelt(tmp_path_factory, key, a
         (POSES, ("limits", 1, "rail", "through"), {"line": [[0, 0], [1, 0]]}),
         (POSES, ("limits", 1, "rail", "travel"), {"point": [0, 0]}),
         (POSES, ("keep_out", 0, "polygon"), CORNERS),
+        (LOADED, ("loads", "gravity"), "up"),
+        (LOADED, ("loads", "body", "mass_kg"), -1),
+        (LOADED, ("loads", "links", "width"), 0),
+        (LOADED, ("loads", "links", "plate"), "lead 3"),
+        (LOADED, ("loads", "temperature_C"), -300),
+        (LOADED, ("loads", "force", "frame"), "G"),
+        (LOADED, ("springs", 0, "kind"), "leaf"),
+        (LOADED, ("springs", 0, "friction_N"), -1),
+        (LOADED, ("drive", "duration_s"), 0),
+        (LOADED, ("drive", "profile"), "sine"),
     ],
     ids=str,
 )

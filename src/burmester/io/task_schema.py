@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from burmester.io.reading.functions.function_file import FUNCTION_SCHEMA
+from burmester.io.reading.trees.loads_tree import LOAD_SCHEMAS
 from burmester.io.reading.trees.pose_tree import MISPLACED_KEYS, POSE_SCHEMAS
 from burmester.io.reading.trees.schema import Schema
 from burmester.io.reading.trees.specification_tree import LIMITS_SCHEMA, REQUIREMENTS_SCHEMA
@@ -29,6 +30,7 @@ def task_schema() -> Schema:
         "surroundings": SURROUNDINGS_SCHEMA,
         "limits": LIMITS_SCHEMA,
         "requirements": REQUIREMENTS_SCHEMA,
+        **LOAD_SCHEMAS,
         "function": FUNCTION_SCHEMA,
     }
     return {

@@ -158,7 +158,7 @@ POSSIBLE: Final[Mapping[SpringKind, tuple[str, ...]]] = {
     "torsion": ("free_deg",),
     "counterweight": (),
 }
-_SIGNED: Final = ("free_deg",)
+SIGNED: Final = ("free_deg",)
 
 
 @final
@@ -196,7 +196,7 @@ class Spring:
             if name not in (*needed, *possible):
                 help = f"it has {listed((*needed, *possible))}"
                 raise malformed(f"{what} has no {name}", help=help)
-            least = -math.inf if name in _SIGNED else 0.0
+            least = -math.inf if name in SIGNED else 0.0
             numbers[name] = _number(value, f"{name} of {what}", least=least)
         object.__setattr__(self, "numbers", numbers)
         if not isinstance(self.count, int) or not 1 <= self.count <= 1000:

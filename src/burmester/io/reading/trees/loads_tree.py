@@ -20,9 +20,18 @@ duration_s = 2
 from __future__ import annotations
 
 from functools import partial
-from typing import Any, Final
+from typing import Any, Final, get_args
 
-from burmester.io.reading.trees.node import Field, Fields, Node
+from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
+from burmester.io.reading.trees.schema import (
+    ABOVE_ZERO,
+    NOT_NEGATIVE,
+    NUMBER,
+    PAIR,
+    Schema,
+    one_or_more,
+    words,
+)
 from burmester.tasks.loads import (
     BODY,
     DENSITIES,
@@ -30,12 +39,14 @@ from burmester.tasks.loads import (
     NEEDED,
     POSSIBLE,
     ROOM_CELSIUS,
+    SIGNED,
     Drive,
     End,
     Force,
     Loads,
     Mass,
     Plates,
+    Profile,
     Spring,
 )
 from burmester.wording import listed
@@ -58,17 +69,27 @@ def _gravity(node: Node) -> Any:
     return node.text() if isinstance(node.value, str) else node.pair()
 
 
+_WHOLE: Final[Schema] = {"type": "integer", "minimum": 1}
+_MASS: Final[Fields] = {
+    "mass_kg": Field(Node.number, schema=NOT_NEGATIVE),
+    "center": Field(Node.pair),
+    "inertia_kgm2": Field(Node.number, schema=NOT_NEGATIVE),
+}
+
+
 def _mass(node: Node) -> Mass:
-    given = node.table(
-        {
-            "mass_kg": Field(Node.number),
-            "center": Field(Node.pair),
-            "inertia_kgm2": Field(Node.number),
-        }
-    )
+    given = node.table(_MASS)
     if "mass_kg" not in given:
         raise node.missing("mass_kg")
     return node.build(Mass, **given)
+
+
+_PLATES: Final[Fields] = {
+    "plate": Field(
+        Node.text, "", {"type": "string", "pattern": f"^\\s*(?:{'|'.join(DENSITIES)}) "}
+    ),
+    "width": Field(Node.number, schema=ABOVE_ZERO),
+}
 
 
 def _links(node: Node) -> Any:
@@ -76,7 +97,7 @@ def _links(node: Node) -> Any:
     if not isinstance(node.value, dict) or "plate" not in node.value:
         names = node.value if isinstance(node.value, dict) else ()
         return node.table(dict.fromkeys(names, Field(Node.number)))
-    given = node.table({"plate": Field(Node.text), "width": Field(Node.number)})
+    given = node.table(_PLATES)
     material, _, thickness = given["plate"].partition(" ")
     try:
         thick = float(thickness)
@@ -90,15 +111,7 @@ def _links(node: Node) -> Any:
 
 
 def _force(node: Node) -> Force:
-    given = node.table(
-        {
-            "at": Field(Node.pair),
-            "force_N": Field(Node.pair),
-            "frame": Field(Node.text),
-            "from_pose": Field(_whole),
-            "to_pose": Field(_whole),
-        }
-    )
+    given = node.table(_FORCE)
     for key in ("at", "force_N"):
         if key not in given:
             raise node.missing(key)
@@ -113,28 +126,62 @@ def _whole(node: Node) -> int:
 
 
 def _hand(node: Node) -> list[float]:
-    given = node.table({"at": Field(Node.pair)})
+    given = node.table(_HAND)
     if "at" not in given:
         raise node.missing("at")
     at: list[float] = given["at"]
     return at
 
 
+_FORCE: Final[Fields] = {
+    "at": Field(Node.pair),
+    "force_N": Field(Node.pair),
+    "frame": Field(Node.text, "", words(("F", "M"))),
+    "from_pose": Field(_whole, "", _WHOLE),
+    "to_pose": Field(_whole, "", _WHOLE),
+}
+_MASSES: Final[Schema] = {
+    "type": "object",
+    "properties": {"plate": False},
+    "additionalProperties": NOT_NEGATIVE,
+}
+_HAND: Final[Fields] = {"at": Field(Node.pair)}
 _FORCE_HELP = "a force has at and force_N with two numbers each; and frame, from_pose, to_pose"
 _LOADS: Final[Fields] = {
-    "gravity": Field(_gravity, 'gravity is "down", "none", or two numbers in m/s²'),
-    "body": Field(_mass, "body has mass_kg; and center, two numbers in M, and inertia_kgm2"),
-    "links": Field(_links, _LINKS_HELP),
-    "force": Field(lambda node: tuple(map(_force, node.one_or_more())), _FORCE_HELP),
+    "gravity": Field(
+        _gravity,
+        'gravity is "down", "none", or two numbers in m/s²',
+        {"anyOf": [words(("down", "none")), PAIR]},
+    ),
+    "body": Field(
+        _mass,
+        "body has mass_kg; and center, two numbers in M, and inertia_kgm2",
+        table_schema(_MASS, required=["mass_kg"]),
+    ),
+    "links": Field(
+        _links, _LINKS_HELP, {"anyOf": [table_schema(_PLATES, required=[*_PLATES]), _MASSES]}
+    ),
+    "force": Field(
+        lambda node: tuple(map(_force, node.one_or_more())),
+        _FORCE_HELP,
+        one_or_more(table_schema(_FORCE, required=["at", "force_N"])),
+    ),
     "torque_Nm": Field(Node.number),
-    "hand": Field(_hand, "hand has at, the point of the body where it is: [x, y] in M"),
-    "temperature_C": Field(Node.number),
+    "hand": Field(
+        _hand,
+        "hand has at, the point of the body where it is: [x, y] in M",
+        table_schema(_HAND, required=["at"]),
+    ),
+    "temperature_C": Field(Node.number, schema=NUMBER | {"minimum": -273}),
 }
 _NAMES = {"torque_Nm": "torque", "temperature_C": "celsius", "force": "forces"}
 
 
+_END: Final[Fields] = {"link": Field(Node.text), "point": Field(Node.pair)}
+
+
 def _end(node: Node) -> End:
-    given = node.table({"link": Field(Node.text), "point": Field(Node.pair)})
+    given = node.table(_END)
     x, y = given.get("point", (0.0, 0.0))
     return End(given.get("link", GROUND), (x, y))
 
@@ -146,14 +193,14 @@ def _end_of(link: str, node: Node) -> End:
 
 _END_HELP = 'an end has link, such as "driver", and point, [x, y] in the frame of the link'
 _SPRING: Final[Fields] = {
-    "kind": Field(Node.text),
-    "ground_point": Field(partial(_end_of, GROUND)),
-    "body_point": Field(partial(_end_of, BODY)),
-    "from": Field(_end, _END_HELP),
-    "to": Field(_end, _END_HELP),
-    "count": Field(_whole),
+    "kind": Field(Node.text, "", words(NEEDED)),
+    "ground_point": Field(partial(_end_of, GROUND), "", PAIR),
+    "body_point": Field(partial(_end_of, BODY), "", PAIR),
+    "from": Field(_end, _END_HELP, table_schema(_END)),
+    "to": Field(_end, _END_HELP, table_schema(_END)),
+    "count": Field(_whole, "", _WHOLE | {"maximum": 1000}),
     **{
-        name: Field(Node.number)
+        name: Field(Node.number, schema=NUMBER if name in SIGNED else NOT_NEGATIVE)
         for names in (*NEEDED.values(), *POSSIBLE.values())
         for name in names
     },
@@ -177,6 +224,17 @@ def _spring(node: Node) -> Spring:
     return node.build(Spring, kind, tuple(ends), count=given.pop("count", 1), numbers=given)
 
 
+_DRIVE: Final[Fields] = {
+    "duration_s": Field(Node.number, schema=ABOVE_ZERO),
+    "profile": Field(Node.text, "", words(get_args(Profile))),
+}
+LOAD_SCHEMAS: Final[dict[str, Schema]] = {
+    "loads": table_schema(_LOADS, description=_LOADS_HELP),
+    "springs": one_or_more(table_schema(_SPRING, description=_SPRING_HELP)),
+    "drive": table_schema(_DRIVE, required=["duration_s"]),
+}
+
+
 def read_loads(loads: Node | None, springs: Node | None, drive: Node | None) -> Loads:
     """The loads in these tables of a task; raises E103 to E107, E108 and E177."""
     given: dict[str, Any] = {}
@@ -188,7 +246,7 @@ def read_loads(loads: Node | None, springs: Node | None, drive: Node | None) -> 
     if drive is not None:
         help = 'drive has duration_s, and profile: "constant", "3-4-5" or "trapezoid"'
         node = drive._replace(help=help)
-        stated = node.table({"duration_s": Field(Node.number), "profile": Field(Node.text)})
+        stated = node.table(_DRIVE)
         if "duration_s" not in stated:
             raise node.missing("duration_s")
         given["drive"] = node.build(Drive, **stated)
