@@ -73,6 +73,13 @@ if TYPE_CHECKING:
     from burmester.synthesis.result import Synthesis as Synthesis
     from burmester.tasks.crank_timing import CrankTiming as CrankTiming
     from burmester.tasks.limits import Limits as Limits
+    from burmester.tasks.loads import Drive as Drive
+    from burmester.tasks.loads import End as End
+    from burmester.tasks.loads import Force as Force
+    from burmester.tasks.loads import Loads as Loads
+    from burmester.tasks.loads import Mass as Mass
+    from burmester.tasks.loads import Plates as Plates
+    from burmester.tasks.loads import Spring as Spring
     from burmester.tasks.motion_task import Task as Task
     from burmester.tasks.rails import Rail as Rail
     from burmester.tasks.requirements import Requirements as Requirements
@@ -107,6 +114,7 @@ _OF_ROOMS = {
     "progress": "Progress",
     "tasks.crank_timing": "CrankTiming",
     "tasks.limits": "Limits",
+    "tasks.loads": "Drive End Force Loads Mass Plates Spring",
     "tasks.motion_task": "Task",
     "tasks.rails": "Rail",
     "tasks.requirements": "Requirements",

@@ -26,16 +26,21 @@ from burmester.geometry.displacement import Displacement
 from burmester.io import files
 from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.found import FoundSixBar
-from burmester.values import real_numbers
+from burmester.tasks.loads import malformed
+from burmester.values import real_numbers, shown
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.still import still
-from burmester.wording import with_article
+from burmester.wording import listed, with_article
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from burmester.loads.kinematics import Kinematics
+    from burmester.loads.load_curves import LoadCurves, SwingCurves
+    from burmester.loads.loaded_motion import LoadedLinkage
     from burmester.synthesis.result import Candidate
+    from burmester.tasks.loads import Drive
     from burmester.tasks.motion_task import Task
 
 
@@ -179,6 +184,135 @@ class Chosen:
             path = Path(folder) / "linkage.gif"
             self.export(path, seconds=seconds, width_px=width_px)
             return MovingPicture(path.read_bytes(), self._title())
+
+    def loaded(self, count: int = 361) -> LoadCurves:
+        """What the linkage bears at so many places from the first pose to the last.
+
+        It is held still at each place; where the task states a drive, `moving` has the same in
+        time.  The greatest and least values are in the attribute `loads`.
+
+        Parameters
+        ----------
+        count : int
+            The number of places, at even steps of the motion.
+
+        Returns
+        -------
+        LoadCurves
+            Effort of the driver (N m, or N where it slides), force of the hand and of the pins (N),
+            energy (J), lengths (the task's unit) and forces (N) of springs.
+
+        Raises
+        ------
+        InputError
+            E163 (a linkage that goes from no pose to another), E177 (a task without loads).
+
+        Examples
+        --------
+        >>> import burmester
+        >>> loads = burmester.Loads(body=burmester.Mass(4.0, [200, 0]), hand=[420, 0])
+        >>> poses = [(0, 0, 0), (-20, -10, 25), (-60, -5, 60)]
+        >>> task = burmester.Task.from_rows(poses, angle_unit="deg", length_unit="mm", loads=loads)
+        >>> best = burmester.synthesize(task).best
+        >>> curves = best.loaded(5)
+        >>> curves.effort.shape, sorted(curves.pins)
+        ((5,), ['A', 'B', 'C', 'D'])
+        >>> round(float(curves.energy[-1] - curves.energy[0]), 2)
+        6.6
+        """
+        from burmester.loads.load_curves import load_curves  # noqa: PLC0415
+
+        with in_python_words():
+            return load_curves(self._loaded(), np.linspace(0.0, 1.0, count))
+
+    def kinematics(self, drive: Drive | None = None, count: int = 361) -> Kinematics:
+        """Places, velocities and accelerations while the driver moves in time.
+
+        Parameters
+        ----------
+        drive : Drive, optional
+            How the driver goes from the first pose to the last; the task's own if not given.
+        count : int
+            The number of times, evenly from beginning to end.
+
+        Returns
+        -------
+        Kinematics
+            Times (s), the driver, the body, and its velocity and acceleration by the task's unit
+            and seconds; `point` says the same of a point of the body.
+
+        Raises
+        ------
+        InputError
+            E163 (a linkage that goes from no pose to another), E177 (no drive).
+
+        Examples
+        --------
+        >>> import burmester
+        >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
+        >>> moved = best.kinematics(burmester.Drive(2.0, "3-4-5"), count=101)
+        >>> float(moved.time[-1]), moved.velocity.shape, moved.point([1.0, 0.5]).acceleration.shape
+        (2.0, (101, 2), (101, 2))
+        """
+        from burmester.loads.kinematics import kinematics  # noqa: PLC0415
+
+        if drive is None and self.task.loads is not None:
+            drive = self.task.loads.drive
+        if drive is None:
+            help = 'give a drive, such as burmester.Drive(2.0, "3-4-5")'
+            raise malformed("nothing says how the driver moves in time", help=help)
+        with in_python_words():
+            return kinematics(cast("Candidate", self), drive, count)
+
+    def swing(self, from_pose: int = 1, seconds: float = 2.0) -> SwingCurves:
+        """How the linkage moves if it is let go, at rest, at a pose; without friction.
+
+        Parameters
+        ----------
+        from_pose : int
+            The number of the pose, from 1.
+        seconds : float
+            For how long.  It ends before where an end of the motion is reached.
+
+        Returns
+        -------
+        SwingCurves
+            Times (s), the driver's angle and speed (degrees, or lengths), and the energy (J).
+
+        Raises
+        ------
+        InputError
+            E163 (a linkage that goes from no pose to another), E177 (a task without loads, or a
+            pose that is not there).
+
+        Examples
+        --------
+        >>> import burmester
+        >>> loads = burmester.Loads(body=burmester.Mass(4.0, [200, 0], 0.05))
+        >>> poses = [(0, 0, 0), (-20, -10, 25), (-60, -5, 60)]
+        >>> task = burmester.Task.from_rows(poses, angle_unit="deg", length_unit="mm", loads=loads)
+        >>> falls = burmester.synthesize(task).best.swing(from_pose=2)
+        >>> falls.ended
+        True
+        """
+        from burmester.loads.load_curves import swing_from  # noqa: PLC0415
+
+        with in_python_words():
+            loaded = self._loaded()
+            reached = np.flatnonzero(np.isfinite(loaded.pose_shares)) + 1
+            if from_pose not in reached:
+                help = f"choose among {listed([str(each) for each in reached])}"
+                raise malformed(f"it goes through no pose {shown(from_pose)}", help=help)
+            return swing_from(loaded, from_pose - 1, seconds)
+
+    def _loaded(self) -> LoadedLinkage:
+        """The linkage with its loads; raises E163 and E177."""
+        from burmester.loads.loaded_motion import LoadedLinkage  # noqa: PLC0415
+
+        if self.task.loads is None:
+            help = "give them to the task: Task(..., loads=burmester.Loads(...))"
+            raise malformed("the task states no loads", help=help)
+        return LoadedLinkage.of(cast("Candidate", self))
 
     def _title(self) -> str:
         return f"{self.id}, {with_article(self.type)}, and {len(self.task.poses.angle)} poses"

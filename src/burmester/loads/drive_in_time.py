@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 import numpy as np
 
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.loads import Drive
+
+HALVINGS: Final = 52
+SLACK: Final = 1e-9  # of the way: beyond its ends rounding is no way
 
 
 class Course(NamedTuple):
@@ -20,14 +23,30 @@ class Course(NamedTuple):
 
 
 def course_of(drive: Drive, count: int) -> Course:
-    """So many times, evenly from beginning to end.
+    """So many times, evenly from beginning to end."""
+    return _at(drive, np.linspace(0.0, 1.0, count))
+
+
+def course_through(drive: Drive, shares: FloatArray) -> Course:
+    """The times at which the driver is at shares (n,) of its way; nan beyond both ends."""
+    below, above = np.zeros(shares.shape), np.ones(shares.shape)
+    for _ in range(HALVINGS):
+        middle = (below + above) / 2
+        short = _at(drive, middle).share < shares
+        below, above = np.where(short, middle, below), np.where(short, above, middle)
+    t = np.where(shares <= 0, 0.0, np.where(shares >= 1, 1.0, (below + above) / 2))
+    beyond = (shares < -SLACK) | (shares > 1 + SLACK)
+    return _at(drive, np.where(beyond, np.nan, t))
+
+
+def _at(drive: Drive, t: FloatArray) -> Course:
+    """At parts t (n,) of the whole time.
 
     The polynomial 3-4-5 is 10 t³ - 15 t⁴ + 6 t⁵: at rest at both ends, without a jerk that is
     infinite.  A trapezoid accelerates for a third of the time and slows down for another.
     """
-    t = np.linspace(0.0, 1.0, count)
     if drive.profile == "constant":
-        share, speed, push = t, np.ones(count), np.zeros(count)
+        share, speed, push = t, 0 * t + 1, 0 * t
     elif drive.profile == "3-4-5":
         share = t**3 * (10 + t * (6 * t - 15))
         speed, push = 30 * t**2 * (1 - t) ** 2, 60 * t * (1 - t) * (1 - 2 * t)

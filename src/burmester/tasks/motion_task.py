@@ -350,6 +350,7 @@ class Task:
         body: Polygon | None = None,
         surroundings: Surroundings | None = None,
         tolerances: PoseTolerances | None = None,
+        loads: Loads | None = None,
     ) -> Task:
         """A task from rows of numbers.
 
@@ -361,7 +362,7 @@ class Task:
             Or (N, 3, 3), homogeneous matrices of the displacements, which need no unit of angles.
         angle_unit : {"deg", "rad"}
             The unit of the angles; it is never guessed.
-        length_unit, limits, requirements, body, surroundings, tolerances
+        length_unit, limits, requirements, body, surroundings, tolerances, loads
             As in `Task`.
 
         Raises
@@ -386,6 +387,7 @@ class Task:
             body=body,
             surroundings=surroundings,
             tolerances=tolerances,
+            loads=loads,
         )
 
 
