@@ -199,6 +199,14 @@ def test_judge_takes_lengths(run):
             run_raising(run, "function", "pairs.csv", "--links", wrong)
 
 
+def test_a_result_of_poses_holds_no_generator(run):
+    Path("poses.csv").write_text("x,y,angle_deg\n0,0,0\n1.2,0.8,21\n2.1,1.9,38\n2.4,3.1,62\n")
+    run("synthesize", "poses.csv", "-o", "poses.json")
+    with pytest.raises(InputError) as caught:
+        run_raising(run, "function", "pairs.csv", "--linkage", "poses.json")
+    assert (caught.value.code, caught.value.where) == ("E150", "poses.json")
+
+
 def run_raising(run, *arguments):
     done = run(*arguments)
     if done.exception is not None:

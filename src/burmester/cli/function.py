@@ -25,7 +25,9 @@ if TYPE_CHECKING:
     from burmester.tasks.function_task import FunctionTask
 
 TABLES: Final = (".csv", ".tsv", ".txt", ".xlsx", ".parquet", ".toml", ".json")  # no expressions
-OF_EXPRESSIONS: Final = ("x", "input_range", "output", "opposite", "pairs", "spacing")
+OF_EXPRESSIONS: Final = ("x", "input_deg", "output_deg", "opposite", "pairs", "spacing")
+NUMBERS: Final = ("input_deg", "output_deg", "input_phase_deg", "output_phase_deg", "ground")
+AS_GIVEN: Final = ("opposite", "pairs", "spacing", "minimax")
 NOT_CHECKED: Final = ("links", "linkage", "plot", "report", "file")
 EXAMPLE: Final = '`burmester function "log10(x)" --x 1:2 --input 60 --output 60`'
 HELP: Final = """\b
@@ -52,8 +54,8 @@ _function, _kept, _linkage = (
 @click.command(cls=Sectioned, epilog=HELP)
 @click.argument("source", metavar="EXPRESSION|PAIRS")
 @_function("--x", metavar="FROM:TO", help="The range of x, such as 1:2 or 0:pi/2.")
-@_function("--input", "input_range", metavar="DEG", help="How far the input link turns over it.")
-@_function("--output", metavar="DEG", help="How far the output link turns over it.")
+@_function("--input", "input_deg", metavar="DEG", help="How far the input link turns over it.")
+@_function("--output", "output_deg", metavar="DEG", help="How far the output link turns over it.")
 @_function("--opposite", is_flag=True, help="The output link turns against the input link.")
 @_function(
     "--pairs",
@@ -71,11 +73,12 @@ _function, _kept, _linkage = (
 @_function("--minimax", is_flag=True, help="Make the greatest error least, not the sum of squares.")
 @_function(
     "--input-phase",
+    "input_phase_deg",
     metavar="DEG",
     help="Angle of the input link from the ground link where the input is 0; by default it is "
     "found.",
 )
-@_function("--output-phase", metavar="DEG", help="The same of the output link.")
+@_function("--output-phase", "output_phase_deg", metavar="DEG", help="The same of the output link.")
 @_function("--ground", metavar="LENGTH", help="Length of the ground link; by default 1.")
 @_kept("--min-transmission", metavar="DEG", help="Least transmission angle over the range.")
 @_kept("--link-ratio", metavar="R", help="Longest link divided by the shortest, at most.")
@@ -182,13 +185,13 @@ def _task(source: str, given: dict[str, Any]) -> FunctionTask:
     if named or ("x" not in stated and os.path.exists(source)):
         if stated:
             option = _option(stated[0])
-            file = "; a file to write is named by -o" if stated[0] == "output" else ""
+            file = "; a file to write is named by -o" if stated[0] == "output_deg" else ""
             raise contradiction(
                 f"{option} is given, and the file states the pairs",
                 f"leave {option} out, or write it into the table [function] of a TOML file{file}",
             )
-        return read_function(_content(source), source, _settings(given), given["sheet"])
-    for name in ("x", "input_range", "output"):
+        return read_function(_content(source), source, _stated(given), given["sheet"])
+    for name in OF_EXPRESSIONS[:3]:
         if given[name] is None:
             if not stated and not any(sign in source for sign in "x()*+ "):
                 _content(source)  # which says that there is no such file
@@ -198,19 +201,13 @@ def _task(source: str, given: dict[str, Any]) -> FunctionTask:
     ends = Source("--x", given["x"])
     if not colon:
         raise contradiction("--x has no range", "give both ends, such as --x 1:2")
-    if given["output"].lower().endswith(TABLES):
+    if given["output_deg"].lower().endswith(TABLES):
         raise contradiction(
             "--output is the range of the output link, in degrees",
-            f"give --output 60, say, and name the file by -o {given['output']}",
+            f"give --output 60, say, and name the file by -o {given['output_deg']}",
         )
-    ranges = {
-        "expression": source,
-        "x": (read_number(ends, 0, low), read_number(ends, len(low) + 1, high)),
-        "input_deg": _number(given, "input_range"),
-        "output_deg": _number(given, "output"),
-    }
-    beside = {name: given[name] for name in ("pairs", "spacing", "opposite")}
-    return task_of_function(ranges | beside | _settings(given))
+    x = read_number(ends, 0, low), read_number(ends, len(low) + 1, high)
+    return task_of_function({**_stated(given), "expression": source, "x": x})
 
 
 def _content(source: str) -> bytes:
@@ -227,25 +224,18 @@ def _content(source: str) -> bytes:
         raise
 
 
-def _settings(given: dict[str, Any]) -> dict[str, Any]:
-    from burmester.io.reading.specification_text import requirements_from_options
-
-    numbers = {
-        "input_phase_deg": _number(given, "input_phase"),
-        "output_phase_deg": _number(given, "output_phase"),
-        "ground": _number(given, "ground"),
-        "minimax": given["minimax"] or None,
-    }
-    stated = {each.field: each.value for each in requirements_from_options(**given)}
-    return stated | {key: value for key, value in numbers.items() if value is not None}
-
-
-def _number(given: dict[str, Any], name: str) -> float | None:
+def _stated(given: dict[str, Any]) -> dict[str, Any]:
+    """What options state, by the keys of a file."""
     from burmester.io.reading.functions.expression import read_number
     from burmester.io.reading.pose_table import Source
+    from burmester.io.reading.specification_text import requirements_from_options
 
-    text = given[name]
-    return None if text is None else read_number(Source(_option(name), text), 0, text)
+    numbers = {name: given[name] for name in NUMBERS if given[name] is not None}
+    return {
+        **{key: read_number(Source(_option(key), text), 0, text) for key, text in numbers.items()},
+        **{name: given[name] for name in AS_GIVEN if given[name]},
+        **{each.field: each.value for each in requirements_from_options(**given)},
+    }
 
 
 def _option(name: str) -> str:
@@ -256,9 +246,14 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
     """The judgement of a linkage that exists; None where none is given."""
     from dataclasses import replace
 
+    from burmester.errors import InputError
     from burmester.io.reading.option_text import lengths_from_texts
     from burmester.io.saved import read_result
-    from burmester.synthesis.function_generation import judge_generator, judge_links
+    from burmester.synthesis.function_generation import (
+        FunctionSynthesis,
+        judge_generator,
+        judge_links,
+    )
 
     links, linkage = given["links"], given["linkage"]
     if links is not None:
@@ -285,6 +280,9 @@ def _judged(task: FunctionTask, given: dict[str, Any]) -> FunctionSynthesis | No
     if linkage is None:
         return None
     result = read_result(linkage)
+    if not isinstance(result.synthesis, FunctionSynthesis):
+        help = "take a result of `burmester function`, or give the lengths by --links"
+        raise InputError("E150", "this is no result of function", where=result.label, help=help)
     return judge_generator(task, result.choose(given["id"]).generator)
 
 

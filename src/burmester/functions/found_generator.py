@@ -217,13 +217,12 @@ def _defects(
     """Why the linkage does not go through the range and the pairs; kinds as codes."""
     out = []
     low, high = task.input_ends
-    names = [str(k + 1) for k in range(len(errors))]
     open_at = np.flatnonzero(np.isnan(errors))
     if len(open_at):
-        out.append(Finding("assembly", f"cannot be assembled at {_pairs(open_at, names)}"))
+        out.append(Finding("assembly", f"cannot be assembled at {_pairs(open_at)}"))
     missed = np.flatnonzero(exact & (np.abs(errors) > MET))
     if len(missed):
-        out.append(Finding("branch", f"meets {_pairs(missed, names)} on another branch"))
+        out.append(Finding("branch", f"meets {_pairs(missed)} on another branch"))
     if not bool(generator.runs_through(low, high)):
         locks = _dead_inputs(generator, low, high)
         angles = np.degrees(locks)
@@ -257,6 +256,5 @@ def _extent(generator: Generator, inputs: FloatArray) -> float:
     return float(np.hypot(np.ptp(points.real), np.ptp(points.imag)))
 
 
-def _pairs(at: NDArray[np.intp], names: list[str]) -> str:
-    named = in_runs([names[int(k)] for k in at], MOST_PAIRS)
-    return f"pair {named}" if len(at) == 1 else f"pairs {named}"
+def _pairs(at: NDArray[np.intp]) -> str:
+    return f"pair{'s' * (len(at) > 1)} {in_runs([str(k + 1) for k in at.tolist()], MOST_PAIRS)}"

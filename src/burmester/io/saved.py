@@ -199,12 +199,9 @@ def _functions(tree: dict[str, Any], refused: dict[str, InputError]) -> Function
     stated = tree.get("task")
     if not isinstance(stated, dict) or not isinstance(tree.get("linkages"), list):
         raise _bad_result("this result has no task, or no linkages")
-    method: FunctionMethod | None = next(
-        (each for each in get_args(FunctionMethod) if each == tree.get("method")), None
-    )
-    if method is None:
-        why = f"it is {shown(tree.get('method'))}"
-        raise _bad_result("$.method of this result cannot be used", why)
+    method: Any = tree.get("method")
+    if method not in get_args(FunctionMethod):
+        raise _bad_result("$.method of this result cannot be used", f"it is {shown(method)}")
     task = task_of(Node(Document(Source("the result", ""), "JSON", ("task",)), (), stated))
     found: list[FoundGenerator] = []
     others = list[str]()

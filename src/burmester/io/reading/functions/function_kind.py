@@ -34,9 +34,7 @@ def is_function(data: bytes, path: str, sheet: str | None = None) -> bool:
         source = text_source(data, path, sheet)
     except InputError:
         return False
-    if source.sheet is not None:
-        return _is_head(source.text)
-    return is_function_text(source.text, path)
+    return is_function_text(source.text, "" if source.sheet else path)
 
 
 _NAMES: Final = re.compile(rb"(?i)output|Abtrieb|sortie|salida|uscita")
