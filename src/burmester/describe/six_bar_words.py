@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from burmester.describe.digits import degrees
+from burmester.describe.load_words import load_notes
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.notation import (
@@ -69,7 +70,8 @@ def notes(synthesis: Synthesis, found: FoundSixBar) -> list[str]:
     """The same without what the message of a given one has said."""
     driven, at_poses, *short = sentences(synthesis, found)
     given = synthesis.outcome.code in JUDGED
-    return [driven, *([at_poses] if found.usable else []), *([] if given else short)]
+    own = [driven, *([at_poses] if found.usable else []), *([] if given else short)]
+    return own + load_notes(found.loads, found.task)
 
 
 def beside(_synthesis: Synthesis, _shown: Sequence[FoundSixBar]) -> list[str]:

@@ -1,8 +1,9 @@
 """CSV of the places along the motion, and JSON of the linkage; the task's own unit.
 
 CSV: a row for each step along the motion from the first pose to the last, and one for each pose;
-joints that have names are told, too.  Numbers are rounded to the digits that carry: what lies far
-below the tolerance is left out.
+joints that have names are told, too, and of a task with loads what the driver, the hand, pins and
+springs bear, held still or at the time of a drive.  Numbers are rounded to the digits that carry:
+what lies far below the tolerance is left out.
 JSON: what `judge --linkage` reads: two dyads, the driver first, or the joints of all links.
 
 E160 the file does not contain the linkage    E163 a linkage that has no motion through its poses
@@ -24,6 +25,8 @@ from burmester.export.reference import PRECISION, Reference, as_rows, require_eq
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import dimensions_data, six_bar_data
 from burmester.io.pose_data import poses_data
+from burmester.loads.load_curves import load_curves
+from burmester.loads.loaded_motion import LoadedLinkage
 from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.tolerance_boxes import poses_counted
@@ -35,6 +38,7 @@ SCHEMA: Final = "burmester.linkage/1"
 JOINTS_SCHEMA: Final = "burmester.six-bar/1"
 MOTION_ROWS: Final = 361  # rows along the motion, beside those of the poses
 ROUNDING: Final = 0.01  # of the tolerance at which a table is compared: error of its numbers
+LOAD_ROUNDING: Final = 1e-7  # of the greatest number of a column of loads: error of its numbers
 
 
 def write_csv(chosen: Candidate, path: Path, options: Options) -> None:
@@ -48,7 +52,8 @@ def write_csv(chosen: Candidate, path: Path, options: Options) -> None:
     marked = [(share, 0) for share in shares.tolist()]
     marked += zip(met.tolist(), (reached + 1).tolist(), strict=True)
     marked.sort()
-    motion = Motion.of(chosen, np.array([share for share, _ in marked]))
+    shares = np.array([share for share, _ in marked])
+    motion = Motion.of(chosen, shares)
     reference = Reference.of(chosen, options, None)
     drive = np.degrees(motion.drive) if motion.in_turns else motion.drive
     bodies, named = reference.bodies(motion.drive, motion.places), _named(reference)
@@ -62,9 +67,10 @@ def write_csv(chosen: Candidate, path: Path, options: Options) -> None:
     head = ["drive_deg" if motion.in_turns else f"drive{in_unit}"]
     head += [f"x{in_unit}", f"y{in_unit}", "angle_deg"]
     head += [f"{name}_{axis}" for name in joints for axis in "xy"]
+    loads = {} if chosen.loads is None else _load_columns(chosen, shares)
     with open(path, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
-        table.writerow([*head, "pose"])
+        table.writerow([*head, *loads, "pose"])
         for k, (place, (_, number)) in enumerate(
             zip(poses_data(motion.places), marked, strict=True)
         ):
@@ -73,7 +79,34 @@ def write_csv(chosen: Candidate, path: Path, options: Options) -> None:
             row += [rounded(each, lengths) for each in at]
             row += [rounded(angle, angles)]
             row += [rounded(each, lengths) for own in joints.values() for each in own[k].tolist()]
-            table.writerow([*row, number or ""])
+            table.writerow([*row, *(each[k] for each in loads.values()), number or ""])
+
+
+def _load_columns(chosen: Candidate, shares: FloatArray) -> dict[str, list[str]]:
+    """What a linkage bears at shares (n,) of its motion, by columns whose names end in units."""
+    curves, unit = load_curves(LoadedLinkage.of(chosen), shares), chosen.unit
+    effort, driver = ("torque_Nm", "deg") if curves.turns else ("force_N", unit)
+    columns = {f"driver_{effort}": curves.effort}
+    if curves.hand is not None:
+        columns["hand_force_N"] = curves.hand
+    columns |= {f"pin_{name}_N": np.hypot(*force.T) for name, force in curves.pins.items()}
+    for number, each in enumerate(curves.springs, start=1):
+        turned = each.spring.kind == "torsion"
+        columns[f"spring_{number}_{'deg' if turned else unit}"] = each.length
+        columns[f"spring_{number}_{'Nm' if turned else 'N'}"] = each.force
+    columns["energy_J"] = curves.energy
+    if (moving := curves.moving) is not None:
+        columns["time_s"] = moving.time
+        columns[f"driver_{driver}_per_s"] = moving.driver_speed
+        columns[f"speed_{unit}_per_s"] = moving.body_speed
+        columns[f"driver_{effort.replace('_', '_in_time_')}"] = moving.effort
+    return {name: _cells(values) for name, values in columns.items()}
+
+
+def _cells(values: FloatArray) -> list[str]:
+    """Numbers to the digits that carry; none at dead points."""
+    decimals = decimals_within(LOAD_ROUNDING * float(np.nanmax(np.abs(values), initial=0.0)))
+    return [rounded(each, decimals) if math.isfinite(each) else "" for each in values.tolist()]
 
 
 def _named(reference: Reference) -> dict[str, tuple[str, FloatArray]]:
@@ -89,7 +122,9 @@ def check_csv(chosen: Candidate, path: Path, options: Options) -> None:
     span = reference.span
     with open(path, encoding="utf-8", newline="") as file:
         head, *rows = list(csv.reader(file))
-    numbers = np.array([[float(cell) for cell in row[:-1]] for row in rows])
+    numbers = np.array(
+        [[float(cell) for cell in row[: 4 + 2 * len(_named(reference))]] for row in rows]
+    )
     places = Displacement(numbers[:, 1:3], np.radians(numbers[:, 3]))
     bodies = _bodies(reference, places, numbers[:, 4:])
     _require_linkage(reference, bodies, places)

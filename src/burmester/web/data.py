@@ -15,6 +15,7 @@ import numpy as np
 from burmester.cures import Face, for_command, for_page
 from burmester.describe import digits, quality_words, sentences
 from burmester.describe.dimensions import decimals_of, dimensions, dyad_in_words
+from burmester.describe.load_words import load_notes
 from burmester.describe.moved_pivots import improvements
 from burmester.dyads.selection import FoundDyad
 from burmester.geometry.displacement import Displacement
@@ -211,7 +212,7 @@ def _linkage(
         "quality": quality,
         "links": links,
         "dimensions": [each._asdict() for each in dimensions(synthesis, found)],
-        "notes": sentences.notes(synthesis, found),
+        "notes": [*sentences.notes(synthesis, found), *load_notes(found.loads, task)],
         # Each by its coefficients p1 to p8, on the scale that the dimensions give them.
         "manifolds": [
             [f"{value:.6g}" for value in np.asarray(each.dyad.coefficients()).tolist()]

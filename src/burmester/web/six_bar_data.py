@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from burmester.describe import six_bar_words
+from burmester.describe.load_words import load_notes
 from burmester.mechanisms.transmission import transmission_angles
 from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.sixbar.six_bars import RULE
@@ -158,7 +159,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar, scene: float) -> dict[str
                 *zip(words.HEADS[1:], row[1:], strict=True),
                 ("at the poses", met or "exact, up to rounding"),
             ],
-            "notes": [],
+            "notes": load_notes(found.loads, found.task),
         },
         "tables": [
             {
