@@ -6,4 +6,4 @@ builds them into FOLDER, `build/docs` if none is given.
 """
 
 # Pages of the reference that are made when the others are laid out: no file of the project.
-GENERATED = ("command", "functions", "modules", "paper-tables", "schema")
+GENERATED = ("asked", "command", "functions", "modules", "paper-tables", "schema")

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import click
 from docs.building import GENERATED
+from docs.building.asked import asked_page
 from docs.building.modules import modules_page
 from PIL import Image
 
@@ -29,6 +30,7 @@ def write_pages(folder: Path, functions):
     """All generated pages; functions: what the page of functions describes."""
     reference = folder / "reference"
     pages = {
+        "asked": asked_page(cell),
         "command": command_page(),
         "functions": functions_page(functions),
         "modules": modules_page(),

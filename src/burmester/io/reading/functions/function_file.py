@@ -209,4 +209,6 @@ _FIELDS: Final[Fields] = {
     "spacing": Field(partial(Node.word, known=SPACINGS), "", words(SPACINGS)),
     **_SETTINGS,
 }
-FUNCTION_SCHEMA: Final = table_schema(_FIELDS)
+FUNCTION_SCHEMA: Final = table_schema(
+    _FIELDS, description="A function of angles, in place of poses."
+)

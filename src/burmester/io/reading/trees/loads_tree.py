@@ -230,8 +230,10 @@ _DRIVE: Final[Fields] = {
 }
 LOAD_SCHEMAS: Final[dict[str, Schema]] = {
     "loads": table_schema(_LOADS, description=_LOADS_HELP),
-    "springs": one_or_more(table_schema(_SPRING, description=_SPRING_HELP)),
-    "drive": table_schema(_DRIVE, required=["duration_s"]),
+    "springs": one_or_more(table_schema(_SPRING)) | {"description": _SPRING_HELP},
+    "drive": table_schema(
+        _DRIVE, required=["duration_s"], description="How the driver moves in time."
+    ),
 }
 
 

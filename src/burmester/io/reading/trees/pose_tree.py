@@ -531,12 +531,18 @@ def _crank_column(
 
 # What may stand at the keys of a task, but for those that other modules read.
 POSE_SCHEMAS: Final[Mapping[str, Schema]] = {
-    "poses": listed_of(_POSE),
-    "angle_unit": words(("deg", "rad")),
-    "length_unit": TEXT | {"type": ["string", "null"]},
+    "poses": listed_of(_POSE)
+    | {"description": f"Rows [x, y, angle]; or tables: {_XY_ANGLE_HELP}; or {_POINTS_HELP}."},
+    "angle_unit": words(("deg", "rad")) | {"description": "The unit of the angles of poses."},
+    "length_unit": TEXT
+    | {"type": ["string", "null"], "description": "The unit of all lengths, such as mm."},
     "tolerance": table_schema(_TOLERANCE_FIELDS, description=TOLERANCE.help),
-    "pose_sigma": table_schema(_SIGMA_FIELDS, required=[*_SIGMA_FIELDS]),
-    "path": table_schema(_PATH_FIELDS),
-    "crank": table_schema(_CRANK_FIELDS),
+    "pose_sigma": table_schema(
+        _SIGMA_FIELDS,
+        required=[*_SIGMA_FIELDS],
+        description="The standard deviations of the poses.",
+    ),
+    "path": table_schema(_PATH_FIELDS, description="The poses are points of a curve to trace."),
+    "crank": table_schema(_CRANK_FIELDS, description="How crank angles of poses are meant."),
 }
 MISPLACED_KEYS: Final = tuple(_MISPLACED)

@@ -255,11 +255,17 @@ VALUE_KINDS: Final[Mapping[str, ValueKind]] = {
 
 
 _LIMIT_FIELDS: Final[Fields] = {
-    each.name: Field(kind.from_tree, kind.such, {"description": each.help} | (kind.schema or {}))
+    each.name: Field(
+        kind.from_tree,
+        kind.such,
+        {"description": each.help, "$comment": kind.such} | (kind.schema or {}),
+    )
     for each in LIMIT_OPTIONS
     for kind in (VALUE_KINDS[each.kind],)
 }
-LIMITS_SCHEMA: Final = one_or_more(table_schema(_LIMIT_FIELDS), 1, 2)
+LIMITS_SCHEMA: Final = one_or_more(table_schema(_LIMIT_FIELDS), 1, 2) | {
+    "description": "What each dyad may be: one table for both dyads, or two, one for each."
+}
 
 
 def read_limits(node: Node) -> Specification:
@@ -316,7 +322,7 @@ def _schema_of(asked: Requirement) -> Schema:
         out = NUMBER | {BOUNDS[name]: bound for name, bound in asked.checked.bounds.items()}
     elif asked.choices or asked.known:
         out = words(asked.choices) if asked.choices else one_or_more(any_case(asked.known), 1)
-    return {"description": asked.help} | out
+    return {"description": asked.help, "$comment": asked.such} | out
 
 
 REQUIREMENT_FIELDS: Final[Fields] = {
@@ -324,7 +330,9 @@ REQUIREMENT_FIELDS: Final[Fields] = {
 }
 
 
-REQUIREMENTS_SCHEMA: Final = table_schema(REQUIREMENT_FIELDS)
+REQUIREMENTS_SCHEMA: Final = table_schema(
+    REQUIREMENT_FIELDS, description="What the whole linkage must be."
+)
 
 
 def read_requirements(node: Node) -> tuple[StatedRequirement, ...]:
