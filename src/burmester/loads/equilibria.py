@@ -25,15 +25,18 @@ class Equilibrium(NamedTuple):
 
 
 def equilibria(
-    shares: FloatArray, effort: FloatArray, sense: float, at: Callable[[FloatArray], FloatArray]
+    shares: FloatArray,
+    effort: FloatArray,
+    sense: float,
+    at: Callable[[FloatArray], FloatArray],
+    none: float = 0.0,
 ) -> tuple[Equilibrium, ...]:
     """The roots of the effort (n,) at shares (n,), in their order.
 
     at: the effort at further shares.  sense: 1 where the driver's coordinate grows with the shares.
+    none: an effort that is not greater is none.  Where there is none from one place to the next the
+    linkage rests wherever it is left, and no single place is told.
     """
-    size = float(np.nanmax(np.abs(effort), initial=0.0))
-    if size == 0 or not np.isfinite(effort).all():
-        return ()
     near = np.minimum(np.abs(effort[:-1]), np.abs(effort[1:])) < 2 * np.abs(np.diff(effort))
     low, high = effort[:-2], effort[2:]
     turns = (np.abs(effort[1:-1]) <= np.minimum(np.abs(low), np.abs(high))) & (low * high > 0)
@@ -43,9 +46,11 @@ def equilibria(
     if len(more):
         shares, order = np.unique(np.concatenate([shares, more]), return_index=True)
         effort = np.concatenate([effort, at(more)])[order]
-    sign = np.sign(effort)
+    sign = np.where(np.abs(effort) <= none, 0.0, np.sign(effort))
+    zero = np.concatenate([[False], sign == 0, [False]])
+    alone = zero[1:-1] & ~zero[:-2] & ~zero[2:]
     found = [Equilibrium(float(shares[k]), _rises(effort, int(k), sense))
-             for k in np.flatnonzero(sign == 0)]  # fmt: skip
+             for k in np.flatnonzero(alone)]  # fmt: skip
     crossed = np.flatnonzero(sign[:-1] * sign[1:] < 0)
     if len(crossed):
         below, above = shares[crossed], shares[crossed + 1]

@@ -17,7 +17,7 @@ from burmester.verdicts.judged_linkage import LinkageAtPoses
 
 Found = TypeVar("Found", bound=LinkageAtPoses)
 
-HELD = 1e-9  # of the greatest effort; less is none
+HELD = 1e-9  # of the greatest effort of all loads, each by itself; less is none
 
 
 class Extremes(NamedTuple):
@@ -158,7 +158,9 @@ def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
 def _rests(loaded: LoadedMotion) -> tuple[Rest, ...]:
     shares = np.linspace(0.0, 1.0, LOOKS)
 
-    rests = equilibria(shares, loaded.effort, loaded.sense, lambda at: loaded.of.at(at).effort)
+    rests = equilibria(
+        shares, loaded.effort, loaded.sense, lambda at: loaded.of.at(at).effort, _none(loaded)
+    )
     if not rests:
         return ()
     drives = loaded.of.at(np.array([each.share for each in rests])).drive
@@ -173,9 +175,13 @@ def _stays(loaded: LoadedMotion) -> tuple[int, ...]:
     """The poses at which the friction of springs, or nothing, is enough to hold it."""
     reached = np.flatnonzero(np.isfinite(loaded.of.pose_shares))
     at = loaded.of.at(loaded.of.pose_shares[reached])
-    none = HELD * float(np.nanmax(np.abs(loaded.effort), initial=0.0))
-    held = np.abs(at.effort) <= at.friction + none
+    held = np.abs(at.effort) <= at.friction + _none(loaded)
     return tuple(int(k) for k in reached[held])
+
+
+def _none(loaded: LoadedMotion) -> float:
+    """The effort below which there is none but rounding."""
+    return HELD * float(np.nanmax(loaded.gross, initial=0.0))
 
 
 def _spring(loaded: LoadedMotion, k: int) -> SpringFigures:

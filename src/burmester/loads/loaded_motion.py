@@ -19,9 +19,9 @@ from burmester.loads.masses import Masses, body_named
 from burmester.loads.spring_laws import SpringLaw
 from burmester.mechanisms.bodies import GROUND, Bodies, Joint, LinkPlaces
 from burmester.mechanisms.rates import Rates, rates
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.tasks.length_units import MILLIMETRES
-from burmester.tasks.loads import Loads, Spring
+from burmester.tasks.loads import SLACK, Loads, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Motion, Way
 
@@ -44,7 +44,7 @@ class SpringCourse(NamedTuple):
 
 
 @final
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class LoadedLinkage:
     """A linkage of a task with loads.
 
@@ -84,6 +84,13 @@ class LoadedLinkage:
     def at_driver(self, shares: FloatArray) -> LoadedMotion:
         """It at shares (n,) of what the driver goes."""
         return self._moved(Motion.of_driver(self.way, shares))
+
+    @cached_property
+    def looks(self) -> tuple[FloatArray, LinkPlaces]:
+        """The driver's coordinate and the bodies' places along the motion, from end to end."""
+        motion = self.way(np.linspace(0.0, 1.0, LOOKS))
+        drive = motion.drive * (1.0 if motion.in_turns else self.metre)
+        return drive, self.found.bodies_at(motion.drive, motion.places)
 
     def _moved(self, motion: Motion) -> LoadedMotion:
         places = self.found.bodies_at(motion.drive, motion.places).scaled(self.metre)
@@ -161,17 +168,20 @@ class LoadedMotion:
         apart = self._point(*two) - self._point(*one)
         length = np.linalg.norm(apart, axis=-1)
         speed = self.rates.of_point(*two)[0] - self.rates.of_point(*one)[0]
-        with np.errstate(invalid="ignore", divide="ignore"):
-            rate = (speed * apart).sum(axis=-1) / length
+        rate = (speed * _directions(apart, length)).sum(axis=-1)
         least, most = (each * self.of.metre for each in spring.span)
         off = law.off(length, (least, most))
         return SpringCourse(spring, length, law.tension(length), rate, law.energy(length), off)
 
     def _torsion(self, spring: Spring) -> SpringCourse:
         names = [body_named(each.link, self.bodies) for each in spring.ends]
-        angle = np.unwrap(self.places[names[1]].angle - self.places[names[0]].angle)
-        free = np.radians(spring["free_deg"])
-        angle = angle - 2 * np.pi * np.round((angle[0] - free) / (2 * np.pi))
+        free, (drives, looks) = np.radians(spring["free_deg"]), self.of.looks
+        # Turns count along the whole motion, wherever on it the places are.
+        table = np.unwrap(looks[names[1]].angle - looks[names[0]].angle)
+        table -= 2 * np.pi * np.round((table[0] - free) / (2 * np.pi))
+        near = np.interp(self.sense * self.drive, self.sense * drives, table)
+        there = self.places[names[1]].angle - self.places[names[0]].angle
+        angle = near + wrapped_angle(there - near)
         stiff = spring.count * np.degrees(spring["rate_Nm_per_deg"])
         rate = self.rates.of_body(names[1])[0][:, 2] - self.rates.of_body(names[0])[0][:, 2]
         moment = stiff * (angle - free)
@@ -204,8 +214,7 @@ class LoadedMotion:
                 continue
             one, two = self._ends(course.spring)
             apart = self._point(*two) - self._point(*one)
-            with np.errstate(invalid="ignore", divide="ignore"):
-                pull = apart * (course.tension / course.length)[:, None]
+            pull = _directions(apart, course.length) * course.tension[:, None]
             out += self._wrenches(one[0], pull, one[1])
             out -= self._wrenches(two[0], pull, two[1])
         return out
@@ -214,13 +223,15 @@ class LoadedMotion:
     def _acting(self) -> list[FloatArray]:
         """How much of each force acts at the places: 1 or 0, (n,)."""
         gone, met = self.sense * self.drive, self.sense * self.of.at_poses
+        slack = SLACK * float(np.ptp(met[np.isfinite(met)]))
         out = []
         for force in self.loads.forces:
             low, high = (
                 end if pose is None else met[pose - 1]
                 for pose, end in ((force.from_pose, -np.inf), (force.to_pose, np.inf))
             )
-            out.append(((gone >= min(low, high)) & (gone <= max(low, high))).astype(float))
+            acts = (gone >= min(low, high) - slack) & (gone <= max(low, high) + slack)
+            out.append(acts.astype(float))
         return out
 
     def carried(self, speed: FloatArray, push: FloatArray) -> FloatArray:
@@ -242,6 +253,22 @@ class LoadedMotion:
     def effort(self) -> FloatArray:
         """What the driver bears to hold the linkage (n,), N m or N, without friction."""
         return self.rates.effort(-self.applied)
+
+    @cached_property
+    def gross(self) -> FloatArray:
+        """The efforts (n,) of all weights, forces and springs, none taken from another."""
+        out = np.abs(self.loads.torque * self.rates.of_body(self.bodies.body)[0][:, 2])
+        for k, name in enumerate(self.rates.bodies):
+            moved = self.rates.of_point(name, self.centres[:, k])[0]
+            out += np.abs(self.masses.mass[k] * moved @ self.loads.gravity)
+        for force, acts in zip(self.loads.forces, self._acting, strict=True):
+            moved = self.rates.of_point(
+                self.bodies.body, self._arm(self.bodies.body, force.at * self.of.metre)
+            )[0]
+            out += acts * np.linalg.norm(force.force) * np.linalg.norm(moved, axis=-1)
+        for course in self.springs:
+            out += np.abs(course.tension * course.rate)
+        return np.asarray(out)
 
     @cached_property
     def friction(self) -> FloatArray:
@@ -291,6 +318,11 @@ class LoadedMotion:
         """The forces (n, 2) in F of the pins, by their letters; resisted: (n, k, 3), M a - W."""
         forces = self.rates.pin_forces(resisted)
         return {letter(joint): forces[:, j] for j, joint in enumerate(self.bodies.joints)}
+
+
+def _directions(apart: FloatArray, length: FloatArray) -> FloatArray:
+    """Unit vectors (n, 2); zero where two points are one, and a spring pulls nowhere."""
+    return apart / np.where(length > 0, length, 1.0)[:, None]
 
 
 def letter(joint: Joint) -> str:

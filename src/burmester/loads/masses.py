@@ -30,13 +30,14 @@ class Masses(NamedTuple):
             parts[bodies.body].append(_of_body(loads.body, outline, metre))
         if isinstance(loads.links, Plates):
             for name, joints in bodies.links.items():
-                corners = np.array([each.hole(name) for each in joints if name in each.holes])
+                corners = np.array([each.holes[name] for each in joints if name in each.holes])
                 if name != GROUND and len(corners):
                     parts[name].append(_plate(corners, loads.links, metre))
         else:
             for given, mass in loads.links.items():
                 name = body_named(given, bodies)
-                holes = [each.hole(name) for each in bodies.links.get(name, ())]
+                joints = bodies.links.get(name, ())
+                holes = [each.holes[name] for each in joints if name in each.holes]
                 centre = np.mean(holes, axis=0) if holes else np.zeros(2)
                 if name != GROUND:
                     parts[name].append((mass, centre, 0.0))

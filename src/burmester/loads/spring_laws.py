@@ -57,11 +57,11 @@ class SpringLaw(NamedTuple):
 
     def energy(self, length: FloatArray) -> FloatArray:
         """What is stored at lengths (*,), in J, up to a constant."""
-        if self.rate == 0:
-            return self.rest * length
-        tension = self.tension(length)
-        # Where the line is cut off at zero the energy stays; tension²/2 rate is its integral.
-        return np.asarray(tension**2 / (2 * self.rate))
+        longer = length - self.start
+        if self.rate != 0:  # beyond where the line is cut off, at zero, the energy stays
+            low, high = sorted((each - self.rest) / self.rate for each in (self.least, self.most))
+            longer = np.clip(longer, low, high)
+        return np.asarray(longer * (self.rest + self.rate * longer / 2))
 
     def off(self, length: FloatArray, span: tuple[float, float]) -> NDArray[np.bool_]:
         """Whether lengths (*,) are beyond what the spring allows: least and greatest, in metres."""

@@ -16,6 +16,7 @@ from numpy.polynomial import chebyshev
 
 from burmester.loads.loaded_motion import LoadedLinkage
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.loads import malformed
 
 DEGREE: Final = 256
 LEAST_STEP: Final = 1e-6  # of the time between two of those told
@@ -50,13 +51,19 @@ class Swing(NamedTuple):
 
 
 def swing(linkage: LoadedLinkage, start: float, seconds: float, count: int = 201) -> Swing:
-    """A linkage that is let go at rest at a share of the driver's way."""
+    """A linkage that is let go at rest at a share of the driver's way.
+
+    Raises E177 where nothing that moves has a mass.
+    """
     nodes = chebyshev.chebpts1(DEGREE + 1)
     loaded, ends = linkage.at_driver((nodes + 1) / 2), linkage.at(2).drive
     middle, half = ends.mean(), (ends[1] - ends[0]) / 2
     basis = chebyshev.chebvander(nodes, DEGREE)
     weight = 2.0 / (DEGREE + 1)
     table = np.stack([loaded.inertia[0], loaded.inertia[1], loaded.effort, loaded.energy])
+    if not (table[0] > 0).all():
+        help = "give the body or the links a mass, or the links plates"
+        raise malformed("nothing that moves has a mass, so it has no motion of its own", help=help)
     series = weight * table @ basis
     series[:, 0] /= 2
 

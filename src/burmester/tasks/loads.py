@@ -96,6 +96,9 @@ class Plates:
         if isinstance(self.material, str) and self.material not in DENSITIES:
             help = f"choose among {listed([*DENSITIES])}, or give the density in kg/m³"
             raise malformed(f"there is no material {shown(self.material)}", help=help)
+        if not isinstance(self.material, str):
+            density = _number(self.material, "the density of plates", least=0.0, above=True)
+            object.__setattr__(self, "material", density)
         for name in ("thickness", "width"):
             value = _number(getattr(self, name), f"the {name} of plates", least=0.0, above=True)
             object.__setattr__(self, name, value)
@@ -127,6 +130,11 @@ class Force:
         if self.frame not in ("F", "M"):
             help = 'say "F" for a force whose direction stays, "M" for one that turns with the body'
             raise malformed(f"there is no frame {shown(self.frame)}", help=help)
+        for pose in (self.from_pose, self.to_pose):
+            if pose is not None and not isinstance(pose, int):
+                raise malformed(
+                    f"a force acts to or from pose {shown(pose)}", help="give 1 or more"
+                )
 
 
 @final

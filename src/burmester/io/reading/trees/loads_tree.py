@@ -99,15 +99,22 @@ def _links(node: Node) -> Any:
         return node.table(dict.fromkeys(names, Field(Node.number)))
     given = node.table(_PLATES)
     material, _, thickness = given["plate"].partition(" ")
-    try:
-        thick = float(thickness)
-    except ValueError:
+    thick = _float(thickness)
+    if thick is None:
         known = listed([*DENSITIES])
         help = f'write the material and the thickness: {known}; such as plate = "steel 3"'
-        raise node.at("plate").fault("E177", f"is {node.at('plate').shown}", help) from None
+        raise node.at("plate").fault("E177", f"is {node.at('plate').shown}", help)
     if "width" not in given:
         raise node.missing("width")
-    return node.build(Plates, material, thick, given["width"])
+    density = _float(material)  # in place of a name
+    return node.build(Plates, material if density is None else density, thick, given["width"])
+
+
+def _float(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
 
 
 def _force(node: Node) -> Force:
