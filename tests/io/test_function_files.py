@@ -18,6 +18,7 @@ from burmester.io import templates
 from burmester.io.reading.functions.expression import read_expression
 from burmester.io.reading.functions.function_file import read_function
 from burmester.io.reading.pose_table import Source
+from burmester.io.reading.poses import read_task
 from burmester.io.saved import read_result
 from burmester.synthesis.function_generation import generate_function
 
@@ -149,6 +150,15 @@ def test_a_table_of_pairs_that_is_wrong_is_refused(text, code):
         read_function(text.encode(), "a.csv")
     assert caught.value.code == code
     assert caught.value.where.startswith("a.csv")
+
+
+def test_poses_have_no_output():
+    """The column is one of pairs, and is not passed over in silence."""
+    with pytest.raises(InputError, match="'output_deg' is not known") as caught:
+        read_task("-", data=b"x,y,angle_deg,output_deg\n0,0,0,1\n1,2,30,2\n3,3,50,3\n")
+    assert caught.value.code == "E107"
+    timed = read_task("-", data=b"x,y,input_deg\n0,0,0\n5,1,20\n9,4,50\n11,8,80\n12,13,100\n")
+    assert np.degrees(timed.path.crank_angles).tolist() == pytest.approx([0, 20, 50, 80, 100])
 
 
 def test_weights_count():

@@ -152,6 +152,7 @@ def read_columns(
             indices[word.role], units[word.role] = i, word.unit
     option = _named(names, indices, unknown) if may_be_named else None
     lengths = _require_poses(names, indices, unknown, where, option)
+    unknown += [indices["output"]] if lengths and "output" in indices else []  # of pairs alone
     if unknown:
         raise _unknown(names, unknown[0], where, ignore)
     tolerances = [role for role in TOLERANCE_ROLES[:2] if units.get(role) is not None]
