@@ -214,7 +214,7 @@ def _requirement(each: Requirement) -> Decorator:
     """The option of a requirement."""
     settings = _SETTINGS.get(each.form, {})
     if each.choices:
-        settings = {"type": click.Choice(each.choices)}
+        settings = {"type": click.Choice([*each.choices])}
     return _specification(
         each.option, each.argument, metavar=each.metavar, help=each.help, **settings
     )

@@ -41,6 +41,7 @@ FOOTPRINT: Final = Requirement(
     slack=lambda area: 1e-9 * float((area.vertices.max(axis=0) - area.vertices.min(axis=0)).max()),
     form="area",
     option="--footprint",
+    label="Footprint: holds all pivots, wherever the poses take them",
     metavar="REGION",
     help="A box or a polygon on the ground; all pivots stay inside it while the linkage moves "
     "through the poses.",

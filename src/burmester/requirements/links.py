@@ -62,6 +62,7 @@ LINK_RATIO: Final = Requirement(
     form="number",
     default=math.inf,
     option="--link-ratio",
+    label="link ratio at most",
     metavar="R",
     help="Longest link divided by the shortest, at most.",
     subject="the greatest link ratio is",

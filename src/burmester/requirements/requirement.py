@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from numbers import Real
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, TypeAlias, final
 
@@ -45,7 +45,8 @@ class Requirement:
     assumed: bounds of a family where nothing is asked, at first and where nothing keeps them;
     words: a bound that is asked for.  useful: what is kept even where the bound is dropped.
     form: how it is written; None where nobody asks for it.  default: what asks for nothing.
-    choices: its values; known: the names that may be in it.
+    choices: its values, in words; known: the names that may be in it.
+    label: of its field on a page.
     option, metavar, help: on the command line; `subject` "is given twice".
     such: what stands in a file.
     checked: the value of what a caller gives; raises InputError E134.
@@ -68,8 +69,9 @@ class Requirement:
     form: Form | None = None
     default: Any = None
     option: str = ""
+    label: str = ""
     metavar: str | None = None
-    choices: tuple[str, ...] = ()
+    choices: Mapping[str, str] = field(default_factory=dict)
     known: tuple[str, ...] = ()
     help: str = ""
     subject: str = ""

@@ -49,6 +49,7 @@ TRANSMISSION: Final = Requirement(
     form="number",
     default=0.0,
     option="--min-transmission",
+    label="transmission angle at least",
     metavar="DEG",
     help="Smallest transmission angle allowed while the linkage moves through the poses.",
     subject="the least transmission angle is",

@@ -14,6 +14,12 @@ if TYPE_CHECKING:
 
 Driver: TypeAlias = Literal["any", "first", "second", "crank"]
 DRIVERS: Final[tuple[Driver, ...]] = get_args(Driver)
+DRIVERS_IN_WORDS: Final[Mapping[str, str]] = {
+    "any": "either dyad",
+    "first": "the first of two limits",
+    "second": "the second of two limits",
+    "crank": "one that turns fully",
+}
 DyadKind: TypeAlias = Literal["RR", "PR", "RP"]
 
 # The types as `Linkage.type` names them, and the kinds of their two dyads.
@@ -103,8 +109,9 @@ TYPE: Final = Requirement(
     said=lambda figures, _bound, _unit: f"it is {with_article(figures.type_name)}",
     short=lambda figures, _length: f"is {with_article(figures.type_name)}",
     form="names",
-    known=(*TYPES, *GROUPS),
+    known=(*GROUPS, *TYPES),
     option="--type",
+    label="Types",
     metavar="NAME[,NAME]",
     help="Types of linkage allowed; see NAME below.",
     subject="the types are",
@@ -131,7 +138,8 @@ DRIVER: Final = Requirement(
     form="choice",
     default="any",
     option="--driver",
-    choices=DRIVERS,
+    label="driver",
+    choices=DRIVERS_IN_WORDS,
     help="The driver: the dyad of the first or of the second limits, or (crank) a dyad that "
     "turns fully.",
     subject="the driver is",

@@ -15,6 +15,7 @@ from typing import Any
 
 from burmester.errors import InputError
 from burmester.live.plain import plain
+from burmester.studio.form import form_data
 from burmester.studio.message import as_json
 from burmester.studio.workers import Message, Turns, Worker, WorkerEndedError, Workers
 
@@ -109,7 +110,7 @@ class ServerState:
         if not formats:  # the worker that was asked has ended
             with suppress(TimeoutError, WorkerEndedError):
                 formats = json.loads((await self.desk({"do": "formats"}, b"{}"))[1])
-        return {**self.start, "exports": formats}
+        return {**self.start, "exports": formats, "form": form_data()}
 
     def is_opening(self, key: str) -> bool:
         """Whether this is the key of the opening task, and it is still being solved."""

@@ -5,6 +5,8 @@ Limits and requirements are asked of linkages; requirements have a table of thei
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Final, Literal, NamedTuple, TypeAlias, get_args
 
 Method: TypeAlias = Literal["auto", "pencil", "exact", "complete"]
@@ -17,7 +19,7 @@ class Option(NamedTuple):
     """One option of `SynthesisOptions`, by its name there and in a batch's file.
 
     known: the words that may be given, the first of them where none is.  option: of the command,
-    which says no where `negated`.
+    which says no where `negated`.  label: of its field in the studio, words: of those known there.
     """
 
     name: str
@@ -28,6 +30,8 @@ class Option(NamedTuple):
     known: tuple[str, ...] = ()
     negated: bool = False
     manufacturing: bool = False
+    label: str = ""
+    words: tuple[str, ...] = ()
 
 
 OPTIONS: Final = (
@@ -39,6 +43,13 @@ OPTIONS: Final = (
         "for 6 or more; exact: all dyads through 5; auto: complete for 6 or more, exact for 5.",
         "METHOD",
         get_args(Method),
+        label="method",
+        words=(
+            "chosen by the task",
+            "pencil: the two dyads of the paper",
+            "exact: through five poses",
+            "complete: every locally best dyad",
+        ),
     ),
     Option(
         "norm",
@@ -46,6 +57,8 @@ OPTIONS: Final = (
         "--norm",
         "The error to minimise: root mean square, or the largest deviation (worst).",
         known=get_args(Norm),
+        label="what is made least",
+        words=("the root mean square", "the worst pose"),
     ),
     Option(
         "length_per_radian",
@@ -54,6 +67,7 @@ OPTIONS: Final = (
         "The position error that counts as much as one radian of angle error; by default a "
         "third of the travel per radian of turn, or the radius of gyration of the body.",
         "LENGTH",
+        label="one radian counts as",
     ),
     Option(
         "prefer",
@@ -61,6 +75,8 @@ OPTIONS: Final = (
         "--prefer",
         "What the recommended linkage of two to four poses is best at.",
         known=get_args(Preference),
+        label="two to four poses: best at",
+        words=get_args(Preference),
     ),
     Option(
         "nine_point_starts",
@@ -92,6 +108,7 @@ OPTIONS: Final = (
         "Manufacturing tolerance of pivots and lengths; report the resulting error.",
         "LENGTH",
         manufacturing=True,
+        label="pivots and lengths are made to ±",
     ),
     Option(
         "rounding_step",
@@ -113,23 +130,22 @@ OPTIONS: Final = (
 
 
 # Those that the studio has, by their long names.
-STUDIO_OPTIONS: Final = {
-    each.option.removeprefix("--"): each
-    for each in OPTIONS
-    if each.known or each.name in ("length_per_radian", "manufacturing_tolerance")
-}
+STUDIO_OPTIONS: Final = {each.option.removeprefix("--"): each for each in OPTIONS if each.label}
 
 
 class LimitOption(NamedTuple):
     """One limit on a dyad, by its name in `Limits` and in files; given once or for each dyad.
 
     kind: of its value, a region, a range of lengths, kinds of dyads, or the line of a slider.
+    label: of its field in the studio, words: of its values there.
     """
 
     name: str
     kind: Literal["region", "range", "kinds", "line"]
     metavar: str
     help: str
+    label: str = ""
+    words: Mapping[str, str] = MappingProxyType({})
 
     @property
     def option(self) -> str:
@@ -138,16 +154,34 @@ class LimitOption(NamedTuple):
 
 
 LIMIT_OPTIONS: Final = (
-    LimitOption("fixed_pivot", "region", "REGION", "Region of a fixed pivot, on the ground."),
-    LimitOption("moving_pivot", "region", "REGION", "Region of a moving pivot, on the body."),
+    LimitOption(
+        "fixed_pivot",
+        "region",
+        "REGION",
+        "Region of a fixed pivot, on the ground.",
+        "Fixed pivot, in the ground",
+    ),
+    LimitOption(
+        "moving_pivot",
+        "region",
+        "REGION",
+        "Region of a moving pivot, on the body.",
+        "Moving pivot, in the body",
+    ),
     LimitOption(
         "length",
         "range",
         "MIN:MAX",
         "Length of the link of an RR dyad; MIN or MAX may be left out.",
+        "length",
     ),
     LimitOption(
-        "kinds", "kinds", "RR,PR,RP", "Kinds of dyads allowed: links RR, sliders PR, slots RP."
+        "kinds",
+        "kinds",
+        "RR,PR,RP",
+        "Kinds of dyads allowed: links RR, sliders PR, slots RP.",
+        "kinds of dyads",
+        {"RR": "a link", "PR": "a slider", "RP": "a slot", "PP": "a carriage"},
     ),
     LimitOption(
         "rail",

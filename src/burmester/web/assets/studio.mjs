@@ -15,14 +15,14 @@ setItem(TAB,name);return name}catch{return"tab"}}function keptHere(){try{const k
 poses)?kept:null}catch{return null}}var LENGTHS={µm:1e-6,um:1e-6,mm:.001,cm:.01,m:1,in:.0254,inch:.0254,'"':.0254,"″":.0254,ft:.3048,"'":.3048,"′":.3048};var ANGLES={"°":1,deg:1,degree:1,degrees:1,
 rad:180/Math.PI,mrad:.18/Math.PI};var WRITTEN=/^([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;var DIGITS=12;var GREATEST=1e300;var tidy=value=>Number(
 value.toPrecision(DIGITS));var written=value=>value===void 0||value===null?"":String(value).replace("-","−").replace("e−","e-");function quantity(text,{kind="\
-number",unit:unit2="",optional=false,least:least2=-Infinity,above=-Infinity,most=Infinity,whole=false}={}){const plain=text.normalize("NFKC").replace(/[−–]/g,
+number",unit:unit2="",optional=false,least:least2=-Infinity,above=-Infinity,below=Infinity,whole=false}={}){const plain=text.normalize("NFKC").replace(/[−–]/g,
 "-").replace(/[\u00a0\u2009\u202f]/g," ").trim();const example={length:unit2 in LENGTHS?`12.5 or 0.5 in`:"12.5",angle:"30 or 0.5 rad",number:"12.5"}[kind];if(!plain)
 return optional?{value:void 0}:{fault:`A number is missing here: write one such as ${example}.`};const found=WRITTEN.exec(plain);if(!found)return{fault:`“${text.
 trim()}” is not a number: write one such as ${example}.`};const number=Number(found[1].replace(",",".")),name=found[2].trim().replace(/^μm$/,"µm");const factor=factorOf(
 name,kind,unit2);if(typeof factor==="string")return{fault:factor};const value=factor===1?number:tidy(number*factor);if(!(Math.abs(value)<=GREATEST))return{fault:`${text.
 trim()} is too large a number.`};const shown2=kind==="angle"?"°":kind==="length"&&unit2?` ${unit2}`:"";if(whole&&!Number.isInteger(value))return{fault:`This ha\
 s to be a whole number, such as ${Math.max(1,Math.round(value))}.`};if(value<least2)return{fault:`This may not be less than ${least2}${shown2}.`};if(value<=above)
-return{fault:`This must be greater than ${above}${shown2}.`};if(value>most)return{fault:`This may not be more than ${most}${shown2}.`};return{value}}function factorOf(name,kind,unit2){
+return{fault:`This must be greater than ${above}${shown2}.`};if(value>=below)return{fault:`This must be less than ${below}${shown2}.`};return{value}}function factorOf(name,kind,unit2){
 if(!name||kind==="length"&&name===unit2)return 1;if(kind==="number")return`“${name}” is not needed here: write the number alone.`;const units=kind==="angle"?
 ANGLES:LENGTHS,known=name in units?name:name.toLowerCase();if(!Object.hasOwn(units,known)){const usual=kind==="angle"?"° or rad":"mm, cm, m, in or ft";return`“${name}\
 ” is not a unit of ${kind} known here: write ${usual}, or the number alone.`}if(kind==="angle")return units[known];if(!Object.hasOwn(LENGTHS,unit2))return`Thi\
@@ -135,8 +135,8 @@ keys(table3).length?table3:void 0;var EXACT={x:0,y:0,angle_deg:0};var FEWEST_TRA
 path!==void 0||document2.poses.length>=FEWEST_TRACED);var setPath=(document2,changes)=>withKeys(document2,{path:withKeys(document2.path??{closed:false},changes)});
 var setUsual=(document2,key,value)=>withKeys(document2,{tolerance:{...EXACT,...document2.tolerance,[key]:value??0}});var pathDocument=(document2,points,closed2)=>withKeys(
 document2,{poses:points.map(([x,y])=>({x,y,free:["angle"]})),path:{closed:closed2},tolerance:isOfPoints(document2)?document2.tolerance??EXACT:EXACT});var isExact=tolerance=>tolerance&&
-["x","y","angle_deg"].every(key=>!tolerance[key]);function settled(document2){const{poses,path:path2,tolerance}=document2,some=poses.some(pose=>pose.free?.length);
-return withKeys(document2,{path:path2&&poses.length&&!poses.every(isPoint)?void 0:path2,tolerance:some?tolerance??EXACT:isExact(tolerance)?void 0:tolerance})}var withCrank=(document2,change)=>document2.
+["x","y","angle_deg"].every(key=>!tolerance[key]);function settled(document2){const{poses,path:path2,tolerance}=document2,some2=poses.some(pose=>pose.free?.length);
+return withKeys(document2,{path:path2&&poses.length&&!poses.every(isPoint)?void 0:path2,tolerance:some2?tolerance??EXACT:isExact(tolerance)?void 0:tolerance})}var withCrank=(document2,change)=>document2.
 path?.crank_deg?setPath(document2,{crank_deg:change(document2.path.crank_deg)}):document2;function betweenCranks(angles,index){const[a,b]=[angles[index-1],angles[index]];
 if(a!==void 0&&b!==void 0)return(a+b)/2;return a===void 0?(b??0)-10:a+(a-(angles[index-2]??a-10))}var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(
 document2.poses,index,withKeys(document2.poses[index],changes))});var addPose=(document2,pose,index=document2.poses.length)=>settled(withCrank(withKeys(document2,
@@ -219,7 +219,7 @@ M0 0V${HATCH}`}))));for(const region of data.keep_out){const d=closed(region.out
 {},region.name||"keep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){
 return data.keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME);labels.block(view.X(x),view.Y(y),7.2*text.length,14);
 return s("text",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)
-return[];const some=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES)===0);return[...placesAtPoses(data,linkage),...some].flatMap(place=>data.body.map(
+return[];const some2=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES)===0);return[...placesAtPoses(data,linkage),...some2].flatMap(place=>data.body.map(
 corner=>act(place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),
 Math.max(u,a),Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(
 withBody,data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;
@@ -493,10 +493,10 @@ floor(Math.min(...frames)),high=Math.ceil(Math.max(...frames)),stride=Math.max(1
 x.length;k+=stride)places.push({x:way.x[k],y:way.y[k],a:way.angle[k]});return places}var regionCorners=region=>region.polygon??(region.box?boxCorners(region.box):
 null);var seen=(body,place)=>body.map(corner=>act(place,corner));function posePlace(document2,k){const{x,y,angle}=standing(document2,k);return{x,y,a:radians(angle)}}
 function regionsTouched(document2,linkage,body){const places=usedPlaces(linkage),width=document2.surroundings?.link_width??0,margin=document2.surroundings?.margin??
-0;const apart=Math.ceil(document2.poses.length/MOST_PLACES2),some=[...document2.poses.keys()].filter(k=>k%apart===0);return regionsOf(document2).map(region=>{const corners=regionCorners(
-region);if(!corners)return"";const pose=body.length>2?some.find(k=>overlap2(seen(body,posePlace(document2,k)),corners)):void 0;if(pose!==void 0)return`The body \
-touches it at pose ${poseName(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap2(seen(body,place),corners)))return"The \
-body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(
+0;const apart=Math.ceil(document2.poses.length/MOST_PLACES2),some2=[...document2.poses.keys()].filter(k=>k%apart===0);return regionsOf(document2).map(region=>{const corners=regionCorners(
+region);if(!corners)return"";const pose=body.length>2?some2.find(k=>overlap2(seen(body,posePlace(document2,k)),corners)):void 0;if(pose!==void 0)return`The body\
+ touches it at pose ${poseName(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap2(seen(body,place),corners)))return"The\
+ body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(
 place,dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id}\
  comes nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var KEY2="burmester.studio.key";var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){
 super(messages.map(each=>each.message).join(" ")||`the server answered ${status}`);this.status=status;this.messages=messages}};async function messagesOf(response){
@@ -1068,8 +1068,8 @@ join(", ")}) of the body`;put(point2.handle,"aria-label",`${name}. Drag it, or u
 button",class:"bs-small","aria-label":`Remove point ${k+1}`,onclick:()=>this.remove(point2)},"Remove"))}))}};function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`all ${noun}s`:
 way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:`no ${noun}`;const dead=way.dead.filter(Boolean).length;const ends=way.round?"tu\
 rns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var factsOf=({said})=>h("dl",{class:"bm-facts"},said.facts.
-map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))));function spaceStory(data,linkage){const some=data.poses.some(isPoint2),every=nounOf(data)==="\
-point";const taken=some&&linkage?`the places that ${linkage.id} takes at ${every?"the":"its"} points`:"";const marked=[every?"":"the poses",taken].filter(Boolean).
+map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))));function spaceStory(data,linkage){const some2=data.poses.some(isPoint2),every=nounOf(data)===
+"point";const taken=some2&&linkage?`the places that ${linkage.id} takes at ${every?"the":"its"} points`:"";const marked=[every?"":"the poses",taken].filter(Boolean).
 join(" and ");const plain=`Every place of the body is one point of this space${marked?`; numbered points are ${marked}`:""}.`;if(!linkage)return[plain];const surface=side=>h(
 "b",{class:`bm-side${side}`},linkage.led[side].id);return[plain," The surfaces are all places that dyad ",surface(0)," (driver) and dyad ",surface(1)," (followe\
 r) allow; where they meet, the line, the coupler moves."]}function table2(caption,heads,rows){return h("div",{class:"bm-scroll",tabindex:0,role:"region","aria-label":caption},h("table",{},h("caption",{},caption),h("the\
@@ -1694,118 +1694,107 @@ this.pairs.children.length||wanted.some((each,k)=>each!==this.pairs.children[k])
 (field,i)=>field.show(points[k][i])));give(this.more,"hidden",points.length<=FEW2);say(this.more,`and ${points.length-FEW2} more, to drag in the plane`)}make(k){
 const pair=["x","y"].map((axis,i)=>new NumberField({label:`${axis} of point ${k+1} of ${this.name}`,options:()=>({...this.options(),optional:false}),step:this.step,
 commit:value=>this.set(points=>points.map((point2,j)=>j===k?point2.map((old,m)=>m===i?value:old):point2))}));return{pair,element:h("span",{class:"bs-pair"},pair.
-map(field=>field.element))}}};var SHAPES=["point","line","segment","box","polygon"];var KINDS2=[["RR","RR: a link"],["PR","PR: a slider"],["RP","RP: a slot"],["PP","PP: a carriage"]];var TYPES=[
-"grashof","non-grashof","crank-rocker","rocker-crank","double-crank","double-rocker","triple-rocker","change-point","slider-crank","inverted slider-crank","doub\
-le slider","Oldham linkage","Rapson slide"];var DRIVERS=[["any","either dyad"],["crank","one that turns fully"],["first","the first of two limits"],["second","t\
-he second of two limits"]];var METHODS=[["auto","chosen by the task"],["complete","complete: every locally best dyad"],["pencil","pencil: the two dyads of the p\
-aper"],["exact","exact: through five poses"]];var PREFERENCES=[["transmission","transmission"],["size","size"],["accuracy","accuracy"]];var NORMS=[["rms","the r\
-oot mean square"],["worst","the worst pose"]];var UNITS2=["","mm","cm","m","in","ft"];var section2=(name,title,open,...content)=>h("details",{class:"bs-section",
-"data-section":name,open},h("summary",{},title),...content);var TaskPanel=class{madeTables;regionRows;linkWidth;margin;inPlane;bodyNumbers;driver;anyOrder;numbers;lengths;tables;apart;regionList;bodyState;constructor(store,scene,regions,body,files){
-this.store=store;this.scene=scene;this.regions=regions;this.body=body;this.files=files;this.element=h("div",{class:"bs-task"});this.element.append(this.makeLimits(),
-this.makeRegions(),this.makeBody(),this.makeRequirements(),this.makeOptions());store.on("document selection",()=>this.draw());regions.onjudged=()=>this.drawVerdicts();
-this.draw()}edit(change){this.store.edit(change)}length(label,commit,options={},attributes={}){return new NumberField({label,commit,options:()=>({kind:"length",
-unit:this.store.document.length_unit,optional:true,...options}),step:()=>this.scene.step,attributes})}tools(label,shapes,toolOf,data){return h("div",{class:"bs-\
-tools",role:"group","aria-label":label},shapes.map(shape=>this.toolButton(shape,()=>toolOf(shape),{"data-draw":`${data} ${shape}`})))}toolButton(text,toolOf,attributes){
+map(field=>field.element))}}};var SHAPES=["point","line","segment","box","polygon"];var UNITS2=["","mm","cm","m","in","ft"];var section2=(name,title,open,...content)=>h("details",{class:"bs-\
+section","data-section":name,open},h("summary",{},title),...content);var TaskPanel=class{madeTables;regionRows;linkWidth;margin;inPlane;bodyNumbers;asks;options;tables;apart;regionList;bodyState;constructor(store,scene,regions,body,files,form){
+this.store=store;this.scene=scene;this.regions=regions;this.body=body;this.files=files;this.form=form;this.element=h("div",{class:"bs-task"});this.element.append(
+this.makeLimits(),this.makeRegions(),this.makeBody(),this.makeRequirements(),this.makeOptions());store.on("document selection",()=>this.draw());regions.onjudged=
+()=>this.drawVerdicts();this.draw()}edit(change){this.store.edit(change)}length(label,commit,options={},attributes={}){return new NumberField({label,commit,options:()=>({
+kind:"length",unit:this.store.document.length_unit,optional:true,...options}),step:()=>this.scene.step,attributes})}tools(label,shapes,toolOf,data){return h("di\
+v",{class:"bs-tools",role:"group","aria-label":label},shapes.map(shape=>this.toolButton(shape,()=>toolOf(shape),{"data-draw":`${data} ${shape}`})))}toolButton(text,toolOf,attributes){
 const made2=button(text,()=>this.scene.use(made2.tool&&made2.tool===this.scene.tool?null:made2.tool=toolOf()),{"aria-pressed":"false",...attributes});this.scene.
 on("tool",tool=>put(made2,"aria-pressed",Boolean(tool)&&tool===made2.tool));return made2}points(name,set){return new PointFields({name,set,options:()=>({kind:"l\
 ength",unit:this.store.document.length_unit}),step:()=>this.scene.step})}makeLimits(){this.apart=tick("another limit for each of the two dyads",on=>this.edit(document2=>splitLimits(
 document2,on)),{"data-key":"limits-apart"});this.tables=h("div",{});this.madeTables=[];return section2("limits","Limits of pivots and links",false,this.apart.element,
-this.tables)}makeTable(k){const{store,regions}=this,edit=changes=>this.edit(document2=>setLimit(document2,k,changes));const title=h("h3",{}),parts={};for(const[
-key,name]of[["fixed_pivot","Fixed pivot, in the ground"],["moving_pivot","Moving pivot, in the body"]]){const state=h("p",{class:"bs-state"});const numbers=this.
+this.tables)}limitsOf(form){return this.form.limits.filter(each=>each.form===form)}makeTable(k){const{store,regions}=this,edit=changes=>this.edit(document2=>setLimit(
+document2,k,changes));const title=h("h3",{}),parts={};for(const{key,label:name}of this.limitsOf("region")){const state=h("p",{class:"bs-state"});const numbers=this.
 points(`the limit of the ${key.replace("_"," ")}`,change=>this.edit(document2=>withPoints(document2,k,key,change)));const remove=button("Delete",()=>regions.removeLimit(
 k,key),{"data-do":`delete-limit-${k}-${key}`,"aria-label":`Delete the limit: ${name}`});parts[key]={state,numbers,remove};parts[key].element=h("div",{class:"bs-\
 limit-box"},h("h4",{},name),this.tools(`Draw a limit: ${name}`,SHAPES,shape=>regions.limitTool(k,key,shape),`limit ${k} ${key}`),numbers.element,state,remove)}const least2=this.
 length("least length",value=>edit({length:range(value,limitsOf(store.document)[k]?.length?.most)}),{least:0},{"data-key":`least-${k}`,placeholder:"any"});const most=this.
-length("greatest length",value=>edit({length:range(limitsOf(store.document)[k]?.length?.least,value)}),{least:0},{"data-key":`most-${k}`,placeholder:"any"});const kinds=KINDS2.
-map(([kind,text])=>({kind,...tick(text,()=>edit({kinds:kindsOf2(kinds)}),{"data-key":`kind-${k}-${kind}`})}));const lengthState=h("p",{class:"bs-state"}),kindsState=h(
-"p",{class:"bs-state"});const element=h("div",{class:"bs-limit-table"},title,parts.fixed_pivot.element,parts.moving_pivot.element,h("div",{class:"bs-row"},labelled(
-"length from",least2.element),labelled("to",most.element)),lengthState,h("div",{class:"bs-row",role:"group","aria-label":"kinds of dyads"},kinds.map(each=>each.
-element)),kindsState);return{element,title,parts,least:least2,most,kinds,lengthState,kindsState}}drawLimits(){const{document:document2}=this.store,tables=limitsOf(
-document2),count=Math.max(1,tables.length);give(this.apart.box,"checked",tables.length>1);while(this.madeTables.length<count)this.madeTables.push(this.makeTable(
-this.madeTables.length));while(this.tables.children.length>count)this.tables.lastChild.remove();while(this.tables.children.length<count)this.tables.append(this.
-madeTables[this.tables.children.length].element);for(let k=0;k<count;k+=1){const table3=tables[k]??{},made2=this.madeTables[k];say(made2.title,count>1?`Dyad ${k+
-1}`:"Both dyads");for(const key of["fixed_pivot","moving_pivot"])this.drawLimit(made2.parts[key],table3[key]);made2.least.show(table3.length?.least);made2.most.
-show(table3.length?.most);for(const{kind,box}of made2.kinds)box.checked=!table3.kinds||table3.kinds.includes(kind)}}drawLimit({numbers,remove},region){for(const each of[
-remove,numbers.element])give(each,"hidden",!region);if(!region)return;const[[shape,stated]]=Object.entries(region);numbers.show(shape,shape==="point"?[stated]:stated)}drawVerdicts(){
-const{regions}=this,tables=limitsOf(this.store.document);this.madeTables.forEach((made2,k)=>{for(const key of["fixed_pivot","moving_pivot"])tell(made2.parts[key].
-state,tables[k]?.[key]?regions.said(k,key):null);tell(made2.lengthState,tables[k]?.length?regions.said(k,"length"):null);tell(made2.kindsState,tables[k]?.kinds?
-regions.said(k,"kinds"):null)});this.regionRows.forEach((row,k)=>tell(row.state,regions.touched?[regions.touched[k]].filter(Boolean):null))}makeRegions(){this.regionList=
-h("div",{});this.regionRows=[];this.linkWidth=this.length("width of the links",value=>this.edit(document2=>setSurrounding(document2,"link_width",value)),{least:0},
-{"data-key":"link_width",placeholder:"0"});this.margin=this.length("least clearance",value=>this.edit(document2=>setSurrounding(document2,"margin",value)),{least:0},
-{"data-key":"margin",placeholder:"0"});this.inPlane=tick("links that stand on the ground must not touch the body either",on=>this.edit(document2=>setSurrounding(
-document2,"body_in_plane",on||void 0)),{"data-key":"body_in_plane"});return section2("keep-out","Regions to keep out of",false,h("p",{class:"bs-hint"},"The body\
- and the links must not touch them between the poses."),this.tools("Draw a region to keep out of",["box","polygon"],shape=>this.regions.regionTool(shape),"regio\
-n"),this.regionList,h("div",{class:"bs-row"},labelled("links are wide",this.linkWidth.element),labelled("least clearance",this.margin.element)),this.inPlane.element)}drawRegions(){
-const{store}=this,regions=regionsOf(store.document);while(this.regionRows.length<regions.length){this.regionRows.push(this.regionRow(this.regionRows.length));this.
-regionList.append(this.regionRows.at(-1).element)}for(const row of this.regionRows.splice(regions.length))row.element.remove();this.regionRows.forEach((row,k)=>row.
-show(regions[k],store.selection?.kind==="region"&&store.selection.index===k));const{link_width,margin,body_in_plane}=store.document.surroundings??{};this.linkWidth.
-show(link_width);this.margin.show(margin);give(this.inPlane.box,"checked",Boolean(body_in_plane))}regionRow(k){const{store}=this,shapeKey=region=>region.box?"bo\
-x":"polygon";const name=textField(`Name of region ${k+1}`,text=>this.edit(document2=>setRegion(document2,k,{name:text.trim()||void 0})),{"data-key":`region-name\
--${k}`,placeholder:`region ${k+1}`});const numbers=this.points(`region ${k+1}`,change=>this.edit(document2=>{const region=regionsOf(document2)[k],key=shapeKey(region);
-return setRegion(document2,k,{[key]:change(region[key])})}));const state=h("p",{class:"bs-state"}),inNumbers=h("details",{},h("summary",{},"in numbers"),numbers.
-element),file=h("p",{class:"bs-hint"});const element=h("div",{class:"bs-limit-box","data-region-row":k,onfocusin:()=>store.select({kind:"region",index:k})},h("d\
-iv",{class:"bs-row"},name,button("Delete",()=>this.regions.removeRegion(k),{"data-do":`delete-region-${k}`,"aria-label":`Delete region ${k+1}`})),state,inNumbers,
-file);const show=(region,selected)=>{const text=(region.name??"").replace(/[\r\n]+/g," ");if(document.activeElement!==name&&name.value!==text)name.value=text;element.
-classList.toggle("bs-selected",selected);give(inNumbers,"hidden",region.file!==void 0);give(file,"hidden",!inNumbers.hidden);if(inNumbers.hidden)file.textContent=
-`from the drawing ${region.file}`;else numbers.show(shapeKey(region),region[shapeKey(region)])};return{element,state,show}}makeBody(){this.bodyNumbers=this.points(
-"the outline",change=>this.edit(document2=>setBody(document2,change(bodyOf(document2)))));this.bodyCount=h("summary",{});this.bodyBox=h("details",{},this.bodyCount,
-this.bodyNumbers.element);this.noBody=button("Delete the outline",()=>this.edit(document2=>setBody(document2,[])),{"data-do":"delete-body"});return section2("bo\
-dy","Outline of the body",false,h("p",{class:"bs-hint"},"It is seen at every pose, moves with the linkage, and says what an angle error counts as."),h("div",{class:"\
-bs-tools"},this.toolButton("Draw it",()=>this.body.tool(),{"data-draw":"body"}),button("From a drawing (SVG, DXF)…",()=>this.files.chooseOutline(),{"data-do":"\
-outline-file"}),this.noBody),this.bodyBox)}drawBody(){const{document:task}=this.store,corners=bodyOf(task);give(this.noBody,"hidden",!task.body);give(this.bodyBox,
-"hidden",!corners.length);if(!corners.length)return;say(this.bodyCount,`${corners.length} corners, in numbers`);this.bodyNumbers.show("polygon",corners)}makeRequirements(){
-const set=key=>value=>this.edit(document2=>setRequirement(document2,key,value));const number=(label,key,options)=>new NumberField({label,commit:set(key),options:()=>({
-optional:true,unit:this.store.document.length_unit,...options}),attributes:{"data-key":key,placeholder:"–"}});this.numbers={transmission_deg:number("least tra\
-nsmission angle","transmission_deg",{kind:"angle",least:0,most:90}),link_ratio:number("longest link to the shortest, at most","link_ratio",{least:1}),within:number(
-"greatest position error","within",{kind:"length",above:0}),within_deg:number("greatest angle error","within_deg",{kind:"angle",above:0})};this.driver=choice("d\
-river",DRIVERS,value=>set("driver")(value==="any"?void 0:value),{"data-key":"driver"});this.anyOrder=tick("the poses may be met in any order",on=>set("any_order")(
-on||void 0),{"data-key":"any_order"});this.types=TYPES.map(type=>({type,...tick(type,()=>set("types")(typesOf(this.types)),{"data-key":`type-${type}`})}));this.
-noFootprint=button("Delete",()=>set("footprint")(void 0),{"data-do":"delete-footprint","aria-label":"Delete the footprint"});return section2("requirements","Wha\
-t the linkage must be",true,h("div",{class:"bs-grid"},labelled("transmission angle at least",this.numbers.transmission_deg.element,"°"),labelled("position erro\
-r at most",this.numbers.within.element," "),labelled("angle error at most",this.numbers.within_deg.element,"°"),labelled("link ratio at most",this.numbers.link_ratio.
-element," "),labelled("driver",this.driver)),this.anyOrder.element,h("div",{class:"bs-limit-box"},h("h4",{},"Footprint: holds all pivots, wherever the poses tak\
-e them"),this.tools("Draw the footprint",["box","polygon"],shape=>this.regions.footprintTool(shape),"footprint"),this.noFootprint),h("details",{},h("summary",{},
-"Types"),h("div",{class:"bs-ticks"},this.types.map(each=>each.element)),h("p",{class:"bs-hint"},"None: any type.")))}drawRequirements(){const asked=this.store.document.
-requirements??{};for(const[key,field]of Object.entries(this.numbers))field.show(asked[key]);this.driver.value=asked.driver??"any";give(this.anyOrder.box,"checke\
-d",Boolean(asked.any_order));give(this.noFootprint,"hidden",!asked.footprint);for(const{type,box}of this.types)box.checked=Boolean(asked.types?.includes(type))}makeOptions(){
-const{store}=this;this.unit=choice("unit of length",UNITS2.map(unit2=>[unit2,unit2||"not stated"]),value=>this.edit(document2=>withKeys(document2,{length_unit:value||
-void 0})),{"data-key":"length_unit"});this.method=choice("method",METHODS,value=>store.option("method",value==="auto"?void 0:value),{"data-key":"method"});this.
-norm=choice("norm",NORMS,value=>store.option("norm",value==="rms"?void 0:value),{"data-key":"norm"});this.prefer=choice("best at",PREFERENCES,value=>store.option(
-"prefer",value==="transmission"?void 0:value),{"data-key":"prefer"});this.lengths=["angle-weight","tolerance"].map(name=>({name,field:this.length(name,value=>store.
-option(name,value),{above:0},{"data-key":name,placeholder:"–"})}));const[weight,made2]=this.lengths.map(({field})=>field.element);return section2("options","U\
-nit and method",false,h("div",{class:"bs-grid"},labelled("unit of length",this.unit),labelled("method",this.method),labelled("what is made least",this.norm),labelled(
-"two to four poses: best at",this.prefer),labelled("one radian counts as",weight," "),labelled("pivots and lengths are made to ±",made2," ")),h("p",{class:"bs-\
-hint"},"Another unit leaves the numbers as they are."))}drawOptions(){const{document:document2,options}=this.store,unit2=document2.length_unit??"";if(![...this.
-unit.options].some(each=>each.value===unit2))this.unit.append(h("option",{value:unit2},unit2));this.unit.value=unit2;this.method.value=options.method??"auto";this.
-norm.value=options.norm??"rms";this.prefer.value=options.prefer??"transmission";for(const{name,field}of this.lengths)field.show(options[name])}draw(){const{document:{
-limits,keep_out,surroundings,body,requirements,length_unit},options,selection}=this.store;const now=[limits,keep_out,surroundings,body,requirements,length_unit,
-options,selection];if(now.every((each,k)=>each===this.drawn?.[k])&&this.drawn)return;this.drawn=now;this.drawLimits();this.drawRegions();this.drawBody();this.drawRequirements();
-this.drawOptions();this.drawVerdicts()}};function tell(element,sentences){give(element,"hidden",sentences===null);if(sentences===null)return;put(element,"class",
-`bs-state ${sentences.length?"bs-broken":"bs-met"}`);say(element,sentences.length?`✕ ${sentences.join(" ")}`:"✓ met by the chosen linkage")}function withPoints(document2,k,key,change){
-const[[shape,stated]]=Object.entries(limitsOf(document2)[k][key]);return setLimit(document2,k,{[key]:shapeOf(shape,change(shape==="point"?[stated]:stated))})}var range=(least2,most)=>least2===
-void 0&&most===void 0?void 0:{...least2===void 0?{}:{least:least2},...most===void 0?{}:{most}};function kindsOf2(kinds){const list=kinds.filter(({box})=>box.checked).
-map(({kind})=>kind);return list.length===kinds.length||!list.length?void 0:list}function typesOf(types){const list=types.filter(({box})=>box.checked).map(({type})=>type);
-return list.length?list:void 0}var EMPTY="An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";var CURVE="Drag a point of the c\
+length("greatest length",value=>edit({length:range(limitsOf(store.document)[k]?.length?.least,value)}),{least:0},{"data-key":`most-${k}`,placeholder:"any"});const[
+{label,choices}]=this.limitsOf("kinds");const kinds=choices.map(([kind,text])=>({kind,...tick(`${kind}: ${text}`,()=>edit({kinds:kindsOf2(kinds)}),{"data-key":`\
+kind-${k}-${kind}`})}));const lengthState=h("p",{class:"bs-state"}),kindsState=h("p",{class:"bs-state"});const element=h("div",{class:"bs-limit-table"},title,Object.
+values(parts).map(part=>part.element),h("div",{class:"bs-row"},labelled("length from",least2.element),labelled("to",most.element)),lengthState,h("div",{class:"b\
+s-row",role:"group","aria-label":label},kinds.map(each=>each.element)),kindsState);return{element,title,parts,least:least2,most,kinds,lengthState,kindsState}}drawLimits(){
+const{document:document2}=this.store,tables=limitsOf(document2),count=Math.max(1,tables.length);give(this.apart.box,"checked",tables.length>1);while(this.madeTables.
+length<count)this.madeTables.push(this.makeTable(this.madeTables.length));while(this.tables.children.length>count)this.tables.lastChild.remove();while(this.tables.
+children.length<count)this.tables.append(this.madeTables[this.tables.children.length].element);for(let k=0;k<count;k+=1){const table3=tables[k]??{},made2=this.madeTables[k];
+say(made2.title,count>1?`Dyad ${k+1}`:"Both dyads");for(const key of Object.keys(made2.parts))this.drawLimit(made2.parts[key],table3[key]);made2.least.show(table3.
+length?.least);made2.most.show(table3.length?.most);for(const{kind,box}of made2.kinds)box.checked=!table3.kinds||table3.kinds.includes(kind)}}drawLimit({numbers,
+remove},region){for(const each of[remove,numbers.element])give(each,"hidden",!region);if(!region)return;const[[shape,stated]]=Object.entries(region);numbers.show(
+shape,shape==="point"?[stated]:stated)}drawVerdicts(){const{regions}=this,tables=limitsOf(this.store.document);this.madeTables.forEach((made2,k)=>{for(const key of Object.
+keys(made2.parts))tell(made2.parts[key].state,tables[k]?.[key]?regions.said(k,key):null);tell(made2.lengthState,tables[k]?.length?regions.said(k,"length"):null);
+tell(made2.kindsState,tables[k]?.kinds?regions.said(k,"kinds"):null)});this.regionRows.forEach((row,k)=>tell(row.state,regions.touched?[regions.touched[k]].filter(
+Boolean):null))}makeRegions(){this.regionList=h("div",{});this.regionRows=[];this.linkWidth=this.length("width of the links",value=>this.edit(document2=>setSurrounding(
+document2,"link_width",value)),{least:0},{"data-key":"link_width",placeholder:"0"});this.margin=this.length("least clearance",value=>this.edit(document2=>setSurrounding(
+document2,"margin",value)),{least:0},{"data-key":"margin",placeholder:"0"});this.inPlane=tick("links that stand on the ground must not touch the body either",on=>this.
+edit(document2=>setSurrounding(document2,"body_in_plane",on||void 0)),{"data-key":"body_in_plane"});return section2("keep-out","Regions to keep out of",false,h(
+"p",{class:"bs-hint"},"The body and the links must not touch them between the poses."),this.tools("Draw a region to keep out of",["box","polygon"],shape=>this.regions.
+regionTool(shape),"region"),this.regionList,h("div",{class:"bs-row"},labelled("links are wide",this.linkWidth.element),labelled("least clearance",this.margin.element)),
+this.inPlane.element)}drawRegions(){const{store}=this,regions=regionsOf(store.document);while(this.regionRows.length<regions.length){this.regionRows.push(this.regionRow(
+this.regionRows.length));this.regionList.append(this.regionRows.at(-1).element)}for(const row of this.regionRows.splice(regions.length))row.element.remove();this.
+regionRows.forEach((row,k)=>row.show(regions[k],store.selection?.kind==="region"&&store.selection.index===k));const{link_width,margin,body_in_plane}=store.document.
+surroundings??{};this.linkWidth.show(link_width);this.margin.show(margin);give(this.inPlane.box,"checked",Boolean(body_in_plane))}regionRow(k){const{store}=this,
+shapeKey=region=>region.box?"box":"polygon";const name=textField(`Name of region ${k+1}`,text=>this.edit(document2=>setRegion(document2,k,{name:text.trim()||void 0})),
+{"data-key":`region-name-${k}`,placeholder:`region ${k+1}`});const numbers=this.points(`region ${k+1}`,change=>this.edit(document2=>{const region=regionsOf(document2)[k],
+key=shapeKey(region);return setRegion(document2,k,{[key]:change(region[key])})}));const state=h("p",{class:"bs-state"}),inNumbers=h("details",{},h("summary",{},
+"in numbers"),numbers.element),file=h("p",{class:"bs-hint"});const element=h("div",{class:"bs-limit-box","data-region-row":k,onfocusin:()=>store.select({kind:"r\
+egion",index:k})},h("div",{class:"bs-row"},name,button("Delete",()=>this.regions.removeRegion(k),{"data-do":`delete-region-${k}`,"aria-label":`Delete region ${k+
+1}`})),state,inNumbers,file);const show=(region,selected)=>{const text=(region.name??"").replace(/[\r\n]+/g," ");if(document.activeElement!==name&&name.value!==
+text)name.value=text;element.classList.toggle("bs-selected",selected);give(inNumbers,"hidden",region.file!==void 0);give(file,"hidden",!inNumbers.hidden);if(inNumbers.
+hidden)file.textContent=`from the drawing ${region.file}`;else numbers.show(shapeKey(region),region[shapeKey(region)])};return{element,state,show}}makeBody(){this.
+bodyNumbers=this.points("the outline",change=>this.edit(document2=>setBody(document2,change(bodyOf(document2)))));this.bodyCount=h("summary",{});this.bodyBox=h(
+"details",{},this.bodyCount,this.bodyNumbers.element);this.noBody=button("Delete the outline",()=>this.edit(document2=>setBody(document2,[])),{"data-do":"delete\
+-body"});return section2("body","Outline of the body",false,h("p",{class:"bs-hint"},"It is seen at every pose, moves with the linkage, and says what an angle er\
+ror counts as."),h("div",{class:"bs-tools"},this.toolButton("Draw it",()=>this.body.tool(),{"data-draw":"body"}),button("From a drawing (SVG, DXF)…",()=>this.
+files.chooseOutline(),{"data-do":"outline-file"}),this.noBody),this.bodyBox)}drawBody(){const{document:task}=this.store,corners=bodyOf(task);give(this.noBody,"h\
+idden",!task.body);give(this.bodyBox,"hidden",!corners.length);if(!corners.length)return;say(this.bodyCount,`${corners.length} corners, in numbers`);this.bodyNumbers.
+show("polygon",corners)}makeRequirements(){this.asks=this.form.requirements.map(each=>({...each,...this.field(each,value=>this.edit(document2=>setRequirement(document2,
+each.key,value)))}));const of=(...forms)=>this.asks.filter(({form})=>forms.includes(form)).map(({element})=>element);return section2("requirements","What the li\
+nkage must be",true,h("div",{class:"bs-grid"},of("number"),of("choice")),of("flag"),of("area"),of("names"))}field({key,label,form,choices,...bounds2},set){const attributes={
+"data-key":key};switch(form){case"choice":case"word":{const[[usual]]=choices,element=choice(label,choices,value=>set(value===usual?void 0:value),attributes);return{
+element:labelled(label,element),show:value=>element.value=value??usual}}case"flag":{const{box,element}=tick(label,on=>set(on||void 0),attributes);return{element,
+show:value=>give(box,"checked",Boolean(value))}}case"names":{const ticks2=choices.map(([name,text])=>({name,...tick(text,()=>set(some(ticks2)),{"data-key":`${key}\
+-${name}`})}));const element=h("details",{},h("summary",{},label),h("div",{class:"bs-ticks"},ticks2.map(each=>each.element)),h("p",{class:"bs-hint"},"None: any."));
+return{element,show:value=>ticks2.forEach(({name,box})=>box.checked=Boolean(value?.includes(name)))}}case"area":{const none=button("Delete",()=>set(void 0),{"da\
+ta-do":`delete-${key}`,"aria-label":`Delete the ${key}`});const element=h("div",{class:"bs-limit-box"},h("h4",{},label),this.tools(`Draw the ${key}`,["box","pol\
+ygon"],shape=>this.regions.footprintTool(shape),key),none);return{element,show:value=>give(none,"hidden",!value)}}default:{const options=form==="length"?{kind:"\
+length",above:0}:bounds2;const field=new NumberField({label,commit:set,options:()=>({optional:true,unit:this.store.document.length_unit,...options}),step:()=>form===
+"length"?this.scene.step:1,attributes:{...attributes,placeholder:"–"}});return{element:labelled(label,field.element,options.kind==="angle"?"°":" "),show:value=>field.
+show(value)}}}}drawRequirements(){for(const{key,show}of this.asks)show(this.store.document.requirements?.[key])}makeOptions(){const{store}=this;this.unit=choice(
+"unit of length",UNITS2.map(unit2=>[unit2,unit2||"not stated"]),value=>this.edit(document2=>withKeys(document2,{length_unit:value||void 0})),{"data-key":"length\
+_unit"});this.options=this.form.options.map(each=>({...each,...this.field(each,value=>store.option(each.key,value))}));const of=form=>this.options.filter(each=>each.
+form===form).map(({element})=>element);return section2("options","Unit and method",false,h("div",{class:"bs-grid"},labelled("unit of length",this.unit),of("word"),
+of("length")),h("p",{class:"bs-hint"},"Another unit leaves the numbers as they are."))}drawOptions(){const{document:document2,options}=this.store,unit2=document2.
+length_unit??"";if(![...this.unit.options].some(each=>each.value===unit2))this.unit.append(h("option",{value:unit2},unit2));this.unit.value=unit2;for(const{key,
+show}of this.options)show(options[key])}draw(){const{document:{limits,keep_out,surroundings,body,requirements,length_unit},options,selection}=this.store;const now=[
+limits,keep_out,surroundings,body,requirements,length_unit,options,selection];if(now.every((each,k)=>each===this.drawn?.[k])&&this.drawn)return;this.drawn=now;this.
+drawLimits();this.drawRegions();this.drawBody();this.drawRequirements();this.drawOptions();this.drawVerdicts()}};function tell(element,sentences){give(element,"\
+hidden",sentences===null);if(sentences===null)return;put(element,"class",`bs-state ${sentences.length?"bs-broken":"bs-met"}`);say(element,sentences.length?`✕ ${sentences.
+join(" ")}`:"✓ met by the chosen linkage")}function withPoints(document2,k,key,change){const[[shape,stated]]=Object.entries(limitsOf(document2)[k][key]);return setLimit(
+document2,k,{[key]:shapeOf(shape,change(shape==="point"?[stated]:stated))})}var range=(least2,most)=>least2===void 0&&most===void 0?void 0:{...least2===void 0?{}:
+{least:least2},...most===void 0?{}:{most}};function kindsOf2(kinds){const list=kinds.filter(({box})=>box.checked).map(({kind})=>kind);return list.length===kinds.
+length||!list.length?void 0:list}function some(ticks2){const list=ticks2.filter(({box})=>box.checked).map(({name})=>name);return list.length?list:void 0}var EMPTY="An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";var CURVE="Drag a point of the c\
 urve, or draw another one: the linkages are looked for anew.";var POINTS2="Drag a pose or a point: the linkages are looked for anew.";var FIRST="Drag a pose by \
 its point, turn it by the tip of its arrow: every linkage answers at once.";function layOut(root,store,start){const scene=new Scene(store),banners=new Banners(store),
 files=new Files(store,start,banners);banners.files=files;const body=new BodyEditor(store,scene),regions=new Regions(store,scene);const panel2=new TaskPanel(store,
-scene,regions,body,files),handles=new PoseHandles(store,scene),table3=new PoseTable(store,scene);const curve=new PathCurve(store,scene),path2=new PathPanel(store,
-scene);const player=h("div",{id:"bs-player"}),results=h("aside",{id:"bs-results","aria-label":"Linkages"}),panels=h("div",{id:"bs-panels"});const name=h("input",
-{class:"bs-text bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"false",onchange:()=>store.rename(name.value.trim()||"task")});const undo=button(
-"↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctrl+Shif\
-t+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,"value",store.name.replace(/[\r\n]+/g," "));give(undo,"disabled",!store.history.
-canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);show();root.replaceChildren(h("header",{class:"bs-head"},h("h1",{},"burmester s\
-tudio"),name,h("div",{class:"bs-row"},undo,redo),files.element,banners.status,banners.live),banners.element,h("main",{class:"bs-main"},h("section",{class:"bs-le\
-ft","aria-label":"The task"},h("div",{class:"bm-card"},h("h2",{},"Poses"),table3.element,path2.element),h("div",{class:"bm-card"},panel2.element,new ExportSettings(
-store,scene).element)),h("section",{class:"bs-stage bm-card","aria-label":"The plane"},stageBar(store,scene,()=>files.opened()),scene.element,player),results,panels));
-scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);files.opened=refitWhenSolved(store,scene);return{
-scene,banners,files,body,regions,panel:panel2,handles,table:table3,curve,path:path2}}function stageBar(store,scene,drawn){const pose=button("Add poses",()=>scene.
-use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const toggle=(text,name,make,data)=>button(text,()=>scene.
-use(scene.tool?.name===name?null:make()),{"data-do":data,"aria-pressed":"false"});const point2=toggle("Add points","point",()=>new PointTool(store,scene),"add-p\
-oints");const path2=toggle("Draw a path","path",()=>new PathTool(store,scene,drawn),"draw-path");const stop=button("Stop solving",()=>store.cancel(),{"data-do":"\
-cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.length?isPath(store.document)?CURVE:
-store.document.poses.some(isPoint)?POINTS2:FIRST:EMPTY));for(const[each,name]of[[pose,"pose"],[point2,"point"],[path2,"path"]])put(each,"aria-pressed",scene.tool?.
-name===name)};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(
+scene,regions,body,files,start.form),handles=new PoseHandles(store,scene),table3=new PoseTable(store,scene);const curve=new PathCurve(store,scene),path2=new PathPanel(
+store,scene);const player=h("div",{id:"bs-player"}),results=h("aside",{id:"bs-results","aria-label":"Linkages"}),panels=h("div",{id:"bs-panels"});const name=h("\
+input",{class:"bs-text bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"false",onchange:()=>store.rename(name.value.trim()||"task")});
+const undo=button("↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"\
+Redo (Ctrl+Shift+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,"value",store.name.replace(/[\r\n]+/g," "));give(undo,"dis\
+abled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);show();root.replaceChildren(h("header",{class:"bs-head"},
+h("h1",{},"burmester studio"),name,h("div",{class:"bs-row"},undo,redo),files.element,banners.status,banners.live),banners.element,h("main",{class:"bs-main"},h("\
+section",{class:"bs-left","aria-label":"The task"},h("div",{class:"bm-card"},h("h2",{},"Poses"),table3.element,path2.element),h("div",{class:"bm-card"},panel2.element,
+new ExportSettings(store,scene).element)),h("section",{class:"bs-stage bm-card","aria-label":"The plane"},stageBar(store,scene,()=>files.opened()),scene.element,
+player),results,panels));scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);files.opened=refitWhenSolved(
+store,scene);return{scene,banners,files,body,regions,panel:panel2,handles,table:table3,curve,path:path2}}function stageBar(store,scene,drawn){const pose=button(
+"Add poses",()=>scene.use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const toggle=(text,name,make,data)=>button(
+text,()=>scene.use(scene.tool?.name===name?null:make()),{"data-do":data,"aria-pressed":"false"});const point2=toggle("Add points","point",()=>new PointTool(store,
+scene),"add-points");const path2=toggle("Draw a path","path",()=>new PathTool(store,scene,drawn),"draw-path");const stop=button("Stop solving",()=>store.cancel(),
+{"data-do":"cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.length?isPath(store.document)?
+CURVE:store.document.poses.some(isPoint)?POINTS2:FIRST:EMPTY));for(const[each,name]of[[pose,"pose"],[point2,"point"],[path2,"path"]])put(each,"aria-pressed",scene.
+tool?.name===name)};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(
 ()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"bs-bar"},h("div",{class:"bs-row"},pose,point2,path2,button("Fit",
 ()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),button("+",()=>scene.zoom(1.25,scene.size.width/
 2,scene.size.height/2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom out"}),...keyList(),

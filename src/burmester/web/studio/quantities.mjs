@@ -16,11 +16,11 @@ export const written = (value) => (value === undefined || value === null ? "" : 
 
 /** What a text says: { value } in the unit of the task (lengths) or in degrees (angles), or { fault }, a sentence.
  *
- * kind: "length", "angle" or "number"; unit: the task's unit of length, if it has one; least, above, most: what the value may be;
+ * kind: "length", "angle" or "number"; unit: the task's unit of length, if it has one; least, above, below: what the value may be;
  * whole: whether it is a whole number; optional: whether nothing may stand there, which is the value undefined.
  * @returns {{ value?: number, fault?: string }}
  */
-export function quantity(text, { kind = "number", unit = "", optional = false, least = -Infinity, above = -Infinity, most = Infinity, whole = false } = {}) {
+export function quantity(text, { kind = "number", unit = "", optional = false, least = -Infinity, above = -Infinity, below = Infinity, whole = false } = {}) {
   const plain = text.normalize("NFKC").replace(/[−–]/g, "-").replace(/[\u00a0\u2009\u202f]/g, " ").trim();
   const example = { length: unit in LENGTHS ? `12.5 or 0.5 in` : "12.5", angle: "30 or 0.5 rad", number: "12.5" }[kind];
   if (!plain) return optional ? { value: undefined } : { fault: `A number is missing here: write one such as ${example}.` };
@@ -35,7 +35,7 @@ export function quantity(text, { kind = "number", unit = "", optional = false, l
   if (whole && !Number.isInteger(value)) return { fault: `This has to be a whole number, such as ${Math.max(1, Math.round(value))}.` };
   if (value < least) return { fault: `This may not be less than ${least}${shown}.` };
   if (value <= above) return { fault: `This must be greater than ${above}${shown}.` };
-  if (value > most) return { fault: `This may not be more than ${most}${shown}.` };
+  if (value >= below) return { fault: `This must be less than ${below}${shown}.` };
   return { value };
 }
 

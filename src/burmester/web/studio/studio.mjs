@@ -33,7 +33,7 @@ function layOut(root, store, start) {
   const scene = new Scene(store), banners = new Banners(store), files = new Files(store, start, banners);
   banners.files = files;
   const body = new BodyEditor(store, scene), regions = new Regions(store, scene);
-  const panel = new TaskPanel(store, scene, regions, body, files), handles = new PoseHandles(store, scene), table = new PoseTable(store, scene);
+  const panel = new TaskPanel(store, scene, regions, body, files, start.form), handles = new PoseHandles(store, scene), table = new PoseTable(store, scene);
   const curve = new PathCurve(store, scene), path = new PathPanel(store, scene);
   const player = h("div", { id: "bs-player" }), results = h("aside", { id: "bs-results", "aria-label": "Linkages" }), panels = h("div", { id: "bs-panels" });
   const name = h("input", { class: "bs-text bs-task-name", "aria-label": "Name of the task", autocomplete: "off", spellcheck: "false", onchange: () => store.rename(name.value.trim() || "task") });

@@ -6,15 +6,6 @@ import { NumberField, button, choice, labelled, textField, tick } from "./fields
 import { PointFields } from "./point_fields.mjs";
 
 const SHAPES = ["point", "line", "segment", "box", "polygon"];
-const KINDS = [["RR", "RR: a link"], ["PR", "PR: a slider"], ["RP", "RP: a slot"], ["PP", "PP: a carriage"]];
-const TYPES = [
-  "grashof", "non-grashof", "crank-rocker", "rocker-crank", "double-crank", "double-rocker", "triple-rocker", "change-point",
-  "slider-crank", "inverted slider-crank", "double slider", "Oldham linkage", "Rapson slide",
-];
-const DRIVERS = [["any", "either dyad"], ["crank", "one that turns fully"], ["first", "the first of two limits"], ["second", "the second of two limits"]];
-const METHODS = [["auto", "chosen by the task"], ["complete", "complete: every locally best dyad"], ["pencil", "pencil: the two dyads of the paper"], ["exact", "exact: through five poses"]];
-const PREFERENCES = [["transmission", "transmission"], ["size", "size"], ["accuracy", "accuracy"]];
-const NORMS = [["rms", "the root mean square"], ["worst", "the worst pose"]];
 const UNITS = ["", "mm", "cm", "m", "in", "ft"];
 
 const section = (name, title, open, ...content) => h("details", { class: "bs-section", "data-section": name, open }, h("summary", {}, title), ...content);
@@ -26,21 +17,21 @@ export class TaskPanel {
   /** @type {any} */ margin;
   /** @type {any} */ inPlane;
   /** @type {any} */ bodyNumbers;
-  /** @type {any} */ driver;
-  /** @type {any} */ anyOrder;
-  /** @type {any} */ numbers;
-  /** @type {any} */ lengths;
+  /** @type {any} */ asks;
+  /** @type {any} */ options;
   /** @type {any} */ tables;
   /** @type {any} */ apart;
   /** @type {any} */ regionList;
   /** @type {any} */ bodyState;
 
-  constructor(store, scene, regions, body, files) {
+  /** form: what can be asked, as the start of the page says. */
+  constructor(store, scene, regions, body, files, form) {
     this.store = store;
     this.scene = scene;
     this.regions = regions;
     this.body = body;
     this.files = files;
+    this.form = form;
     this.element = h("div", { class: "bs-task" });
     this.element.append(this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeRequirements(), this.makeOptions());
     store.on("document selection", () => this.draw());
@@ -81,10 +72,14 @@ export class TaskPanel {
     return section("limits", "Limits of pivots and links", false, this.apart.element, this.tables);
   }
 
+  limitsOf(form) {
+    return this.form.limits.filter((each) => each.form === form);
+  }
+
   makeTable(k) {
     const { store, regions } = this, edit = (changes) => this.edit((document) => setLimit(document, k, changes));
     const title = h("h3", {}), parts = {};
-    for (const [key, name] of [["fixed_pivot", "Fixed pivot, in the ground"], ["moving_pivot", "Moving pivot, in the body"]]) {
+    for (const { key, label: name } of this.limitsOf("region")) {
       const state = h("p", { class: "bs-state" });
       const numbers = this.points(`the limit of the ${key.replace("_", " ")}`, (change) => this.edit((document) => withPoints(document, k, key, change)));
       const remove = button("Delete", () => regions.removeLimit(k, key), { "data-do": `delete-limit-${k}-${key}`, "aria-label": `Delete the limit: ${name}` });
@@ -93,11 +88,12 @@ export class TaskPanel {
     }
     const least = this.length("least length", (value) => edit({ length: range(value, limitsOf(store.document)[k]?.length?.most) }), { least: 0 }, { "data-key": `least-${k}`, placeholder: "any" });
     const most = this.length("greatest length", (value) => edit({ length: range(limitsOf(store.document)[k]?.length?.least, value) }), { least: 0 }, { "data-key": `most-${k}`, placeholder: "any" });
-    const kinds = KINDS.map(([kind, text]) => ({ kind, ...tick(text, () => edit({ kinds: kindsOf(kinds) }), { "data-key": `kind-${k}-${kind}` }) }));
+    const [{ label, choices }] = this.limitsOf("kinds");
+    const kinds = choices.map(([kind, text]) => ({ kind, ...tick(`${kind}: ${text}`, () => edit({ kinds: kindsOf(kinds) }), { "data-key": `kind-${k}-${kind}` }) }));
     const lengthState = h("p", { class: "bs-state" }), kindsState = h("p", { class: "bs-state" });
-    const element = h("div", { class: "bs-limit-table" }, title, parts.fixed_pivot.element, parts.moving_pivot.element,
+    const element = h("div", { class: "bs-limit-table" }, title, Object.values(parts).map((part) => part.element),
       h("div", { class: "bs-row" }, labelled("length from", least.element), labelled("to", most.element)), lengthState,
-      h("div", { class: "bs-row", role: "group", "aria-label": "kinds of dyads" }, kinds.map((each) => each.element)), kindsState);
+      h("div", { class: "bs-row", role: "group", "aria-label": label }, kinds.map((each) => each.element)), kindsState);
     return { element, title, parts, least, most, kinds, lengthState, kindsState };
   }
 
@@ -110,7 +106,7 @@ export class TaskPanel {
     for (let k = 0; k < count; k += 1) {
       const table = tables[k] ?? {}, made = this.madeTables[k];
       say(made.title, count > 1 ? `Dyad ${k + 1}` : "Both dyads");
-      for (const key of ["fixed_pivot", "moving_pivot"]) this.drawLimit(made.parts[key], table[key]);
+      for (const key of Object.keys(made.parts)) this.drawLimit(made.parts[key], table[key]);
       made.least.show(table.length?.least);
       made.most.show(table.length?.most);
       for (const { kind, box } of made.kinds) box.checked = !table.kinds || table.kinds.includes(kind);
@@ -127,7 +123,7 @@ export class TaskPanel {
   drawVerdicts() {
     const { regions } = this, tables = limitsOf(this.store.document);
     this.madeTables.forEach((made, k) => {
-      for (const key of ["fixed_pivot", "moving_pivot"]) tell(made.parts[key].state, tables[k]?.[key] ? regions.said(k, key) : null);
+      for (const key of Object.keys(made.parts)) tell(made.parts[key].state, tables[k]?.[key] ? regions.said(k, key) : null);
       tell(made.lengthState, tables[k]?.length ? regions.said(k, "length") : null);
       tell(made.kindsState, tables[k]?.kinds ? regions.said(k, "kinds") : null);
     });
@@ -210,50 +206,51 @@ export class TaskPanel {
   // Requirements and options
 
   makeRequirements() {
-    const set = (key) => (value) => this.edit((document) => setRequirement(document, key, value));
-    const number = (label, key, options) => new NumberField({ label, commit: set(key), options: () => ({ optional: true, unit: this.store.document.length_unit, ...options }), attributes: { "data-key": key, placeholder: "–" } });
-    this.numbers = {
-      transmission_deg: number("least transmission angle", "transmission_deg", { kind: "angle", least: 0, most: 90 }),
-      link_ratio: number("longest link to the shortest, at most", "link_ratio", { least: 1 }),
-      within: number("greatest position error", "within", { kind: "length", above: 0 }),
-      within_deg: number("greatest angle error", "within_deg", { kind: "angle", above: 0 }),
-    };
-    this.driver = choice("driver", DRIVERS, (value) => set("driver")(value === "any" ? undefined : value), { "data-key": "driver" });
-    this.anyOrder = tick("the poses may be met in any order", (on) => set("any_order")(on || undefined), { "data-key": "any_order" });
-    this.types = TYPES.map((type) => ({ type, ...tick(type, () => set("types")(typesOf(this.types)), { "data-key": `type-${type}` }) }));
-    this.noFootprint = button("Delete", () => set("footprint")(undefined), { "data-do": "delete-footprint", "aria-label": "Delete the footprint" });
-    return section("requirements", "What the linkage must be", true,
-      h("div", { class: "bs-grid" },
-        labelled("transmission angle at least", this.numbers.transmission_deg.element, "°"),
-        labelled("position error at most", this.numbers.within.element, " "),
-        labelled("angle error at most", this.numbers.within_deg.element, "°"),
-        labelled("link ratio at most", this.numbers.link_ratio.element, " "),
-        labelled("driver", this.driver)),
-      this.anyOrder.element,
-      h("div", { class: "bs-limit-box" }, h("h4", {}, "Footprint: holds all pivots, wherever the poses take them"), this.tools("Draw the footprint", ["box", "polygon"], (shape) => this.regions.footprintTool(shape), "footprint"), this.noFootprint),
-      h("details", {}, h("summary", {}, "Types"), h("div", { class: "bs-ticks" }, this.types.map((each) => each.element)), h("p", { class: "bs-hint" }, "None: any type.")));
+    this.asks = this.form.requirements.map((each) => ({ ...each, ...this.field(each, (value) => this.edit((document) => setRequirement(document, each.key, value))) }));
+    const of = (...forms) => this.asks.filter(({ form }) => forms.includes(form)).map(({ element }) => element);
+    return section("requirements", "What the linkage must be", true, h("div", { class: "bs-grid" }, of("number"), of("choice")), of("flag"), of("area"), of("names"));
+  }
+
+  /** The element of a field, and how it shows a value: { element, show }. */
+  field({ key, label, form, choices, ...bounds }, set) {
+    const attributes = { "data-key": key };
+    switch (form) {
+      case "choice": case "word": {
+        const [[usual]] = choices, element = choice(label, choices, (value) => set(value === usual ? undefined : value), attributes);
+        return { element: labelled(label, element), show: (value) => (element.value = value ?? usual) };
+      }
+      case "flag": {
+        const { box, element } = tick(label, (on) => set(on || undefined), attributes);
+        return { element, show: (value) => give(box, "checked", Boolean(value)) };
+      }
+      case "names": {
+        const ticks = choices.map(([name, text]) => ({ name, ...tick(text, () => set(some(ticks)), { "data-key": `${key}-${name}` }) }));
+        const element = h("details", {}, h("summary", {}, label), h("div", { class: "bs-ticks" }, ticks.map((each) => each.element)), h("p", { class: "bs-hint" }, "None: any."));
+        return { element, show: (value) => ticks.forEach(({ name, box }) => (box.checked = Boolean(value?.includes(name)))) };
+      }
+      case "area": {
+        const none = button("Delete", () => set(undefined), { "data-do": `delete-${key}`, "aria-label": `Delete the ${key}` });
+        const element = h("div", { class: "bs-limit-box" }, h("h4", {}, label), this.tools(`Draw the ${key}`, ["box", "polygon"], (shape) => this.regions.footprintTool(shape), key), none);
+        return { element, show: (value) => give(none, "hidden", !value) };
+      }
+      default: {
+        const options = form === "length" ? { kind: "length", above: 0 } : bounds;
+        const field = new NumberField({ label, commit: set, options: () => ({ optional: true, unit: this.store.document.length_unit, ...options }), step: () => (form === "length" ? this.scene.step : 1), attributes: { ...attributes, placeholder: "–" } });
+        return { element: labelled(label, field.element, options.kind === "angle" ? "°" : " "), show: (value) => field.show(value) };
+      }
+    }
   }
 
   drawRequirements() {
-    const asked = this.store.document.requirements ?? {};
-    for (const [key, field] of Object.entries(this.numbers)) field.show(asked[key]);
-    this.driver.value = asked.driver ?? "any";
-    give(this.anyOrder.box, "checked", Boolean(asked.any_order));
-    give(this.noFootprint, "hidden", !asked.footprint);
-    for (const { type, box } of this.types) box.checked = Boolean(asked.types?.includes(type));
+    for (const { key, show } of this.asks) show(this.store.document.requirements?.[key]);
   }
 
   makeOptions() {
     const { store } = this;
     this.unit = choice("unit of length", UNITS.map((unit) => [unit, unit || "not stated"]), (value) => this.edit((document) => withKeys(document, { length_unit: value || undefined })), { "data-key": "length_unit" });
-    this.method = choice("method", METHODS, (value) => store.option("method", value === "auto" ? undefined : value), { "data-key": "method" });
-    this.norm = choice("norm", NORMS, (value) => store.option("norm", value === "rms" ? undefined : value), { "data-key": "norm" });
-    this.prefer = choice("best at", PREFERENCES, (value) => store.option("prefer", value === "transmission" ? undefined : value), { "data-key": "prefer" });
-    this.lengths = ["angle-weight", "tolerance"].map((name) => ({ name, field: this.length(name, (value) => store.option(name, value), { above: 0 }, { "data-key": name, placeholder: "–" }) }));
-    const [weight, made] = this.lengths.map(({ field }) => field.element);
-    return section("options", "Unit and method", false, h("div", { class: "bs-grid" },
-      labelled("unit of length", this.unit), labelled("method", this.method), labelled("what is made least", this.norm), labelled("two to four poses: best at", this.prefer),
-      labelled("one radian counts as", weight, " "), labelled("pivots and lengths are made to ±", made, " ")),
+    this.options = this.form.options.map((each) => ({ ...each, ...this.field(each, (value) => store.option(each.key, value)) }));
+    const of = (form) => this.options.filter((each) => each.form === form).map(({ element }) => element);
+    return section("options", "Unit and method", false, h("div", { class: "bs-grid" }, labelled("unit of length", this.unit), of("word"), of("length")),
       h("p", { class: "bs-hint" }, "Another unit leaves the numbers as they are."));
   }
 
@@ -261,10 +258,7 @@ export class TaskPanel {
     const { document, options } = this.store, unit = document.length_unit ?? "";
     if (![...this.unit.options].some((each) => each.value === unit)) this.unit.append(h("option", { value: unit }, unit));
     this.unit.value = unit;
-    this.method.value = options.method ?? "auto";
-    this.norm.value = options.norm ?? "rms";
-    this.prefer.value = options.prefer ?? "transmission";
-    for (const { name, field } of this.lengths) field.show(options[name]);
+    for (const { key, show } of this.options) show(options[key]);
   }
 
   /** While poses are dragged nothing here is another. */
@@ -304,7 +298,7 @@ function kindsOf(kinds) {
   return list.length === kinds.length || !list.length ? undefined : list;
 }
 
-function typesOf(types) {
-  const list = types.filter(({ box }) => box.checked).map(({ type }) => type);
+function some(ticks) {
+  const list = ticks.filter(({ box }) => box.checked).map(({ name }) => name);
   return list.length ? list : undefined;
 }
