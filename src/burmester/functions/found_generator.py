@@ -19,11 +19,12 @@ from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.requirements.figures import Figures
 from burmester.requirements.table import NOT_ASKED, shortcomings, standard
 from burmester.tasks.function_task import FunctionTask
+from burmester.tasks.notation import MOST_NAMES
 from burmester.verdicts.judged_linkage import JudgedLinkage
+from burmester.verdicts.ranking import ERROR_RATIO
 from burmester.verdicts.requirement_check import figures_of
 from burmester.wording import figure, in_runs
 
-CLOSE: Final = 3.0  # times the least error; a sound linkage as close as this comes first
 ROUNDING: Final = 1e-9  # radians; an output error below is none
 MET: Final = 1e-7  # radians; a pair missed by less is met exactly
 SAME_EXACT: Final = 1e-6  # of the logarithm of a link, and radians, through exact pairs
@@ -31,7 +32,6 @@ SAME_VALLEY: Final = 0.25  # the same of linkages downhill of starts
 MORE_TRANSMISSION: Final = math.radians(1)  # what makes a linkage of one valley another one
 STEP_OF_PRICES: Final = math.radians(3)  # of transmission, between members of it
 MORE_ERROR: Final = 1.03  # times the error; the same
-MOST_PAIRS: Final = 6  # pairs or runs of them that a message names
 
 
 @final
@@ -117,7 +117,7 @@ def found_generators(
     least = max(min(errors, default=math.inf), MET)
 
     def order(each: FoundGenerator) -> tuple[bool, bool, float, float]:
-        sound = not each.shortcomings and each.max_error <= CLOSE * least
+        sound = not each.shortcomings and each.max_error <= ERROR_RATIO * least
         error = each.max_error if each.max_error > MET else 0.0
         transmission = each.least_transmission
         return (
@@ -257,4 +257,4 @@ def _extent(generator: Generator, inputs: FloatArray) -> float:
 
 
 def _pairs(at: NDArray[np.intp]) -> str:
-    return f"pair{'s' * (len(at) > 1)} {in_runs([str(k + 1) for k in at.tolist()], MOST_PAIRS)}"
+    return f"pair{'s' * (len(at) > 1)} {in_runs([str(k + 1) for k in at.tolist()], MOST_NAMES)}"

@@ -11,17 +11,17 @@ from typing import Final, NamedTuple
 import numpy as np
 
 from burmester.functions.exact_pairs import generators_of_phases, other_phases
+from burmester.functions.found_generator import MET
 from burmester.functions.generator import Generator
+from burmester.requirements.links import LINK_RATIO
 from burmester.requirements.table import keeps
 from burmester.tasks.function_task import FunctionTask
 from burmester.verdicts.requirement_check import figures_of
 
 GRID: Final = 72  # phases within half a turn; half a turn more is the same link drawn backwards
 FINE_GRID: Final = 360  # the same where one phase is open only
-MOST_RATIO: Final = 10.0  # of the longest link to the shortest
 KEPT: Final = 6  # generators that are told
 APART: Final = np.radians(15)  # phases; of generators nearer to each other the best is told
-EXACT: Final = 1e-7  # radians; a pair missed by less is met
 
 
 class PhaseFamily(NamedTuple):
@@ -45,7 +45,8 @@ def best_of_phases(task: FunctionTask) -> PhaseFamily:
     found = found.with_better_side(task.inputs, task.outputs)
     tried, (low, high) = len(found), task.input_ends
     error = np.abs(found.error(task.inputs, task.outputs)).max(axis=-1)
-    works = found.runs_through(low, high) & (error < EXACT) & (found.link_ratio <= MOST_RATIO)
+    works = found.runs_through(low, high) & (error < MET)
+    works &= found.link_ratio <= LINK_RATIO.standard
     found = found[works]
     figures = figures_of(found.linkage(), found.least_transmission(low, high), True)
     kept = keeps(task.requirements.bounds, figures)

@@ -7,13 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from burmester.functions.found_generator import FoundGenerator
+from burmester.functions.found_generator import ROUNDING, FoundGenerator
 from burmester.plot.style import BLACK, BLUE, GREEN, GREY, VERMILION, figure
 from burmester.synthesis.function_generation import FunctionSynthesis
 
 MOST_CURVES = 4  # linkages in one figure
 FAR = 5.0  # times the greatest error of the first; worse linkages are left out
-ROUNDING = 1e-9  # radians; an error below is none
 
 
 def structural_error(ax: Axes, found: FoundGenerator, color: str = BLUE) -> list[Line2D]:
