@@ -9,6 +9,8 @@ from burmester.functions.generator import Generator
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.function_generation import coupler_synthesis
 from burmester.tasks.function_task import FunctionTask
+from burmester.tasks.requirements import Requirements
+from burmester.verdicts.judged_linkage import JudgedLinkage
 from tests.oracles import function_loops, witness
 from tests.oracles.generators import drawn
 
@@ -71,6 +73,20 @@ def test_pairs_on_two_branches_are_told():
     outputs[2] = other.outputs(inputs)[0, 2]
     (found,) = found_generators(one, FunctionTask(inputs, outputs), exact=True)
     assert [each.message for each in found.defects] == ["meets pair 3 on another branch"]
+
+
+def test_what_a_generator_does_not_keep_stands_beside_its_defects():
+    """As of every linkage that is judged: it has none of its own where it does what is wanted."""
+    one, inputs, outputs = drawn(1)
+    asked = Requirements(transmission_deg=89.9, types=frozenset({"change-point", "double-crank"}))
+    (free,) = found_generators(one, FunctionTask(inputs, outputs), exact=True)
+    (found,) = found_generators(one, FunctionTask(inputs, outputs, requirements=asked), exact=True)
+    assert isinstance(found, JudgedLinkage)
+    assert free.usable
+    assert (found.usable, found.defects) == (False, ())
+    assert [each.kind for each in found.faults] == ["transmission", "type"]
+    assert found.type in found.violations[1].message
+    assert found.faults == found.violations
 
 
 @pytest.mark.parametrize("seed", range(3))
