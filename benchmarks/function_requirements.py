@@ -172,8 +172,7 @@ def witnessed(task, starts, rng, *, every=1):
     same = same[np.isfinite(same.sizes).all(axis=-1)]
     same = same.with_better_side(task.inputs, task.outputs)
     wanted = task.requirements
-    asked = wanted.transmission, wanted.link_ratio, task.types
-    same = concatenate([same, FurtherStarts.of(task).near(*asked, 16)])
+    same = concatenate([same, FurtherStarts.of(task).near(wanted.bounds, 16)])
     begins = [
         (np.array([np.log(g.input_link), np.log(g.coupler), np.log(g.output_link), g.input_phase,
                    g.output_phase]), float(g.side))

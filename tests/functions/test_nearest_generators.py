@@ -14,6 +14,9 @@ from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import KeptRequirements
 from burmester.functions.nearest_generators import FurtherStarts
 from burmester.numerics.bundles import concatenate
+from burmester.requirements.links import LINK_RATIO
+from burmester.requirements.transmission import TRANSMISSION
+from burmester.requirements.types import TYPE
 from burmester.synthesis.function_generation import generate_function
 from burmester.tasks.function_task import FunctionTask
 from tests.oracles import function_loops
@@ -84,7 +87,7 @@ def test_types_are_searched_for_and_not_only_sorted_out():
     found = generate_function(task)
     assert found.usable
     assert {each.type for each in found.usable} <= types
-    drawn_ones = FurtherStarts.of(task).near(0.0, np.inf, task.types, 20)
+    drawn_ones = FurtherStarts.of(task).near({TYPE: task.types}, 20)
     of_drawn = np.abs(drawn_ones.error(task.inputs, task.outputs)).max(axis=1)
     assert found.usable[0].max_error < 0.7 * of_drawn.min()
 
@@ -133,7 +136,7 @@ def test_constraints_are_what_they_say_and_so_are_their_derivatives(types):
     values, slopes = kept.constraints(every, 0.0, 1.2)
     keeps = (every.least_transmission(0.0, 1.2) >= 35 * DEG) & (every.link_ratio <= 3.0)
     if types:
-        keeps &= np.isin(every.types, list(types))
+        keeps &= [every[k].linkage().type in types for k in range(20)]
     assert ((values.max(axis=1) <= 0) == keeps).all()
     assert 0 < keeps.sum() < 20 or types
     x = np.concatenate(
@@ -150,12 +153,14 @@ def test_constraints_are_what_they_say_and_so_are_their_derivatives(types):
 
 def test_further_starts_keep_what_is_asked():
     task = task_of(np.sqrt, (1, 4), 80, 80, output_phase=0.4)
-    starts = FurtherStarts.of(task).near(40 * DEG, 5.0, frozenset({"triple-rocker"}), 10)
+    starts = FurtherStarts.of(task).near(
+        {TRANSMISSION: 40, LINK_RATIO: 5.0, TYPE: frozenset({"triple-rocker"})}, 10
+    )
     assert len(starts) == 10
     assert (starts.output_phase == 0.4).all()
     assert (starts.least_transmission(*task.input_ends) >= 40 * DEG).all()
     assert (starts.link_ratio <= 5).all()
-    assert set(starts.types) == {"triple-rocker"}
+    assert {starts[k].linkage().type for k in range(10)} == {"triple-rocker"}
 
 
 @pytest.mark.parametrize(("noise", "first"), [(1e-4, "nearest"), (8e-3, "sound")])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.instantaneous import crossing_angle
-from burmester.fourbar.linkage import TYPES, Linkage, Links, grashof_numbers
+from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.numerics.bundles import take
 
@@ -60,13 +60,6 @@ class Generator:
     def link_ratio(self) -> FloatArray:
         """The longest of the four links over the shortest, (*,)."""
         return np.asarray(self.sizes.max(axis=-1) / self.sizes.min(axis=-1))
-
-    @property
-    def types(self) -> NDArray[np.str_]:
-        """Grashof's types (*,), by the names of `Linkage.type`; the input link drives."""
-        one = np.ones_like(self.input_link)
-        links = Links(one, self.input_link, self.coupler, self.output_link)
-        return np.asarray(np.array(TYPES)[grashof_numbers(links)])
 
     def first_apart(self, distance: float, most: int, *, phases_only: bool) -> NDArray[np.intp]:
         """The indices of the first generators (k,) of which none is near an earlier one.

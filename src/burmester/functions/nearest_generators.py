@@ -16,16 +16,21 @@ from dataclasses import replace
 from typing import Final, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import MOST_SIZE, KeptRequirements
 from burmester.functions.refinement import SAME_GENERATOR, refined
-from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.numerics.arrays import wrapped_angle
 from burmester.numerics.bundles import concatenate
 from burmester.numerics.counted_draws import uniform_draws
+from burmester.requirements.figures import Figures
 from burmester.requirements.links import LINK_RATIO
+from burmester.requirements.requirement import Bounds
+from burmester.requirements.table import keeps
+from burmester.requirements.transmission import TRANSMISSION
+from burmester.requirements.types import TYPE
 from burmester.tasks.function_task import FunctionTask
+from burmester.verdicts.requirement_check import figures_of
 
 DRAWN: Final = 20_000
 SEED: Final = 20_001
@@ -48,6 +53,13 @@ class _Level(NamedTuple):
     ratio: float
     types: frozenset[str] | None
     most: int
+
+    @property
+    def bounds(self) -> Bounds:
+        """The same as requirements."""
+        angle = math.degrees(self.transmission)
+        asked = {} if self.types is None else {TYPE: self.types}
+        return {TRANSMISSION: angle, LINK_RATIO: self.ratio, **asked}
 
 
 def nearest_generators(optima: Generator, task: FunctionTask) -> Generator:
@@ -81,7 +93,7 @@ def _searched(
     found: dict[_Level, Generator] = {}
     for types in dict.fromkeys(each.types for each in levels):
         some = [each for each in levels if each.types == types]
-        starts = [[optima, further.near(*each[:3], FURTHER_STARTS)] for each in some]
+        starts = [[optima, further.near(each.bounds, FURTHER_STARTS)] for each in some]
         every = [concatenate(each) for each in starts]
         for minimax in (False, True) if task.minimax else (False,):
             every = _descended(every, some, task, minimax=minimax)
@@ -110,15 +122,10 @@ def _descended(
 
 
 class FurtherStarts(NamedTuple):
-    """Generators (k,) that go through the range of a task, those with the least errors first.
-
-    transmission: (k,), radians; ratio: (k,); type: (k,), names.
-    """
+    """Generators (k,) that go through the range of a task, those with the least errors first."""
 
     generators: Generator
-    transmission: FloatArray
-    ratio: FloatArray
-    type: NDArray[np.str_]
+    figures: Figures
 
     @classmethod
     def of(cls, task: FunctionTask) -> FurtherStarts:
@@ -140,15 +147,10 @@ class FurtherStarts(NamedTuple):
         error = (wrapped_angle(made - second[:, None]) ** 2).sum(axis=1)
         order = np.argsort(error, kind="stable")
         found = replace(drawn, output_phase=second)[order]
-        return cls(found, found.least_transmission(low, high), found.link_ratio, found.types)
+        return cls(found, figures_of(found.linkage(), found.least_transmission(low, high), True))
 
-    def near(
-        self, transmission: float, ratio: float, types: frozenset[str] | None, most: int
-    ) -> Generator:
+    def near(self, asked: Bounds, most: int) -> Generator:
         """At most so many of the nearest that keep what is asked, none close to another."""
-        keeps = (self.transmission >= transmission) & (self.ratio <= ratio)
-        if types is not None:
-            keeps &= np.isin(self.type, list(types))
-        at = np.flatnonzero(keeps)[:MOST_LOOKED_AT]
+        at = np.flatnonzero(keeps(asked, self.figures))[:MOST_LOOKED_AT]
         g = self.generators[at]
         return g[g.first_apart(CLOSE, most, phases_only=False)]
