@@ -58,10 +58,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     weights = json.loads(WEIGHTS.read_text())
     layers = tomllib.loads((FOLDER / "layers.toml").read_text())
     samples: dict[str, int | list[str]] = layers["sample"]
+    nightly: dict[str, list[str]] = layers["nightly"]
     campaigns = {*layers["campaign"], *samples}
     drawn: dict[tuple[str, ...], list[pytest.Item]] = defaultdict(list)
+    left_out: set[pytest.Item] = set()
     for item in items:
         name, by = _function(item), getattr(item, "callspec", None)
+        if not EVERY and by is not None and by.id in nightly.get(name, ()):
+            left_out.add(item)
         params = {} if by is None else by.params
         if name in campaigns or not DRAWN.isdisjoint(params):
             item.add_marker("campaign")
@@ -69,12 +73,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             drawn[name, *sorted(others)].append(item)
         else:
             item.add_marker("cross" if weights.get(name, 0.0) > LIGHT_S else "unit")
-    left_out: set[pytest.Item] = set()
     for (name, *_), cases in drawn.items():
-        cases.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
-        kept = samples.get(name, share(len(cases)))
         if EVERY:
             continue
+        cases.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
+        kept = samples.get(name, share(len(cases)))
         if isinstance(kept, int):
             left_out.update(cases[kept:])
         else:

@@ -8,6 +8,8 @@ somebody listens to or ends by the clock is always found anew.
 import atexit
 import functools
 import importlib
+import io
+import marshal
 import math
 import os
 import pickle
@@ -18,6 +20,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from hashlib import sha256
 from pathlib import Path
+from types import FunctionType
 
 import pytest
 
@@ -27,6 +30,10 @@ SOLVERS = (
     "synthesis.motion_generation.synthesize",
     "synthesis.function_generation.generate_function",
     "synthesis.six_bars.synthesize_six_bars",
+    "synthesis.judgement.judge_linkage",
+    "synthesis.judgement.judged_again",
+    "synthesis.six_bar_judgement.judge_six_bar",
+    "synthesis.six_bar_judgement.judged_at_poses",
 )
 FOLDER = "BURMESTER_SOLVED"  # a variable that names the folder with the answers of all workers
 
@@ -49,7 +56,7 @@ def once(solve: Callable[..., object]) -> Callable[..., object]:
         lacks = sorted(name for name, module in sys.modules.items() if module is None)
         patches = sorted(each for names in _patched.values() for each in names)
         try:
-            asked = pickle.dumps((solve.__qualname__, given, more, lacks, patches))
+            asked = _asked((solve.__qualname__, given, more, lacks, patches))
         except NOT_PICKLED:
             return solve(*given, **more)
         key = sha256(asked).digest()
@@ -59,6 +66,22 @@ def once(solve: Callable[..., object]) -> Callable[..., object]:
         return _kept[key]
 
     return remembered
+
+
+class _Pickler(pickle.Pickler):
+    """One that knows functions within functions, by their code and what they hold."""
+
+    def reducer_override(self, given: object) -> object:
+        if isinstance(given, FunctionType) and "<locals>" in given.__qualname__:
+            held = [cell.cell_contents for cell in given.__closure__ or ()]
+            return tuple, ((marshal.dumps(given.__code__), given.__defaults__, held),)
+        return NotImplemented
+
+
+def _asked(given: object) -> bytes:
+    out = io.BytesIO()
+    _Pickler(out).dump(given)
+    return out.getvalue()
 
 
 def _from_folder(key: bytes, solve: Callable[..., object], given: tuple, more: dict) -> object:
@@ -80,8 +103,10 @@ def install() -> None:
         atexit.register(shutil.rmtree, os.environ[FOLDER], ignore_errors=True)
     for name in SOLVERS:
         module, _, function = name.rpartition(".")
-        home = importlib.import_module(f"burmester.{module}")
-        setattr(home, function, once(getattr(home, function)))
+        plain = getattr(importlib.import_module(f"burmester.{module}"), function)
+        for home, each in list(sys.modules.items()):
+            if home.startswith("burmester") and vars(each).get(function) is plain:
+                setattr(each, function, once(plain))
     pytest.MonkeyPatch.setattr = _noting(pytest.MonkeyPatch.setattr)
     pytest.MonkeyPatch.undo = _forgetting(pytest.MonkeyPatch.undo)
 

@@ -389,12 +389,12 @@ def test_cases_are_listed_and_printed():
 
 
 def test_reproduce_prints_every_table_and_its_verdicts():
-    done = process("reproduce")
+    done = run("reproduce")
     assert done.returncode == 0
     for title in ("Table 3", "Table 4", "Table 6", "Table 7", "Table 8", "Eqs. (19) to (21)"):
         assert title in done.stdout
     assert "0 differs" in " ".join(done.stdout.split())
-    data = json.loads(process("reproduce", "--json").stdout)
+    data = json.loads(run("reproduce", "--json").stdout)
     verdicts = [row["verdict"] for section in data["sections"] for row in section["rows"]]
     assert verdicts.count("differs") == 0
     assert verdicts.count("misprint") == 12

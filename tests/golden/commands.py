@@ -87,7 +87,8 @@ SCENES = {
     "ten poses": Scene({"poses.json": CASES / "ge2012-approximate.json"}, (
         "synthesize poses.json -o result.json", "check poses.json",
         "report poses.json -o page.html")),
-    "noisy poses": _poses(NOISY, SOLVE + " --norm worst --tolerance 0.1", *_exports("urdf", "pdf")),
+    "noisy poses": _poses(NOISY, SOLVE + " --norm worst", *_exports("urdf", "pdf")),
+    "built amiss": _poses(FIVE, "synthesize poses.csv --tolerance 0.01"),
     "rounded": _poses(NOISY, "synthesize poses.csv --round 1 --stock 20,30,40,60,80"),
     "tolerances": _poses(NOISY, "synthesize poses.csv --pose-tolerance 2,2,1.5 --any-order",
                          "synthesize poses.csv --within 2 --min-transmission 40 --driver crank"),

@@ -1893,7 +1893,7 @@ def follow(case, help, run, broken):
         assert f"[{case.code}]" not in done.out
         return
     # Once the input is usable, what a long search of it finds has nothing to do with the message.
-    brief = " --time-limit 0.5" if case.files is FEW and case.exit > 1 else ""
+    brief = " --time-limit 0.05" if case.files is FEW and case.exit > 1 else ""
     done = run(f"{line} --json{brief}")
     assert done.exit in (0, 1), done.err
     data = json.loads(done.out)

@@ -31,6 +31,7 @@ from tests.oracles import recordings
 from tests.oracles.recordings import GROUND, LINKS, crank_rocker, recording
 from tests.oracles.refusals import refusal
 from tests.oracles.simulation import driven_either_way
+from tests.samples import samples
 
 Read = Callable[..., Task]
 
@@ -486,8 +487,8 @@ def test_a_recorded_four_bar_is_found_again_and_driven_through_its_motion(read: 
 
 def test_recorded_four_bars_are_found_again() -> None:
     with tempfile.TemporaryDirectory() as folder:
-        outcomes = list(campaign.campaign(2, 5, folder))
-    assert [name for name, _ in outcomes] == ["driven"] * 2
+        outcomes = list(campaign.campaign(len(samples(2, 1)), 5, folder))
+    assert {name for name, _ in outcomes} == {"driven"}
     # the whole campaign: 100 of 100 driven, 1.3 times the noise in the median, 9 at the worst
     worst = [distance / campaign.NOISE for _, distance in outcomes]
     assert np.median(worst) < 3
