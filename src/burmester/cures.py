@@ -1,7 +1,7 @@
 """What helps, as arguments with their values, and in the words of those who are told.
 
 A text of `Help` speaks to the command line.  Its parts are kept, so that Python and the studio say
-the same in their own words: `--link-ratio 8`, `link_ratio=8`, "a link ratio of 8".
+the same in their own words: `--within 8`, `within=8`, "a position error of at most 8".
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class Cure:
 
 
 def for_command(cures: Sequence[Cure]) -> str:
-    """Cures on the command line: "--link-ratio 8 --driver any"."""
+    """Cures on the command line: "--within 8 --driver any"."""
     return " ".join(map(_option, cures))
 
 
@@ -41,7 +41,7 @@ def _option(cure: Cure) -> str:
 
 
 def for_python(cures: Sequence[Cure]) -> str:
-    """Cures as arguments in Python: 'link_ratio=8, driver="any"'."""
+    """Cures as arguments in Python: 'within=8, driver="any"'."""
     return ", ".join(map(_argument, cures))
 
 
@@ -54,7 +54,7 @@ def _argument(cure: Cure) -> str:
 
 
 def for_page(cures: Sequence[Cure]) -> str:
-    """Cures on a page, which has no options: "a link ratio of 8 and either driver"."""
+    """Cures on a page, which has no options: "a position error of at most 8 and any driver"."""
     return listed([each.words or _named(each) for each in cures])
 
 

@@ -103,6 +103,13 @@ def test_option_key_verdict_and_cure(run):
     assert "error[E134]: a least length of -1 is impossible" in wrong.stderr
 
 
+def test_the_schema_of_task_files_has_it(run):
+    schema = json.loads(run("new", "--schema").stdout)
+    asked = schema["properties"]["requirements"]["properties"]["least_length"]
+    assert (asked["type"], asked["minimum"]) == ("number", 0)
+    assert asked["description"] == "Length of the shortest link, at least."
+
+
 def test_the_standard_asks_for_it_where_the_task_does_not(run):
     data = json.loads(run("synthesize", "poses.csv", "--json", standard="5.0").stdout)
     assert data["outcome"]["code"] == "R300"
