@@ -44,6 +44,8 @@ def sketch(found: FoundLinkage, columns: int) -> list[str] | None:
     canvas = _Canvas.around(np.array([*origins, *near]), columns)
     for k, scene in scenes.items():
         for role, points in scene.shapes:
+            if role in ("spring", "hand"):
+                continue
             ends = np.vstack([points, points[:1]]) if role == "body" else points
             for line in pairwise(ends):
                 canvas.draw(*line, every=1 if k == first else SPARSE)

@@ -7,7 +7,7 @@ from typing import NamedTuple, final
 
 import numpy as np
 
-from burmester.loads.drive_in_time import course_through
+from burmester.loads.drive_in_time import course_of, course_through
 from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
 from burmester.loads.swing import swing
 from burmester.numerics.arrays import FloatArray
@@ -117,6 +117,14 @@ def load_curves(linkage: LoadedLinkage, shares: FloatArray) -> LoadCurves:
         _springs(at),
         None if drive is None else _moving(at, drive),
     )
+
+
+def curves_in_time(
+    linkage: LoadedLinkage, drive: Drive, count: int
+) -> tuple[FloatArray, MovingCurves]:
+    """The driver (n,), and the linkage, at so many times, evenly from beginning to end."""
+    at = linkage.at_driver(course_of(drive, count).share)
+    return _counted(at, at.drive), _moving(at, drive)
 
 
 def swing_from(linkage: LoadedLinkage, pose: int, seconds: float) -> SwingCurves:

@@ -46,6 +46,10 @@ if TYPE_CHECKING:
     from burmester.fourbar.linkage import Linkage
 
 FAINT = "#aab3bd"
+MARKS: dict[str, dict[str, Any]] = {  # lines beside the linkage: springs, and the arrow of a hand
+    "spring": {"color": PURPLE, "lw": 1.2},
+    "hand": {"color": ORANGE, "lw": 1.8},
+}
 PLATES = (ORANGE, GREEN, PURPLE)  # colours of plates beside the body
 SYMBOL_SIZE = 0.045  # of the linkage's size: a ground pivot or a block
 MOST_PLACES = 12  # at which a linkage is drawn; a path has too many
@@ -140,9 +144,10 @@ def draw(
         blocks = [each.block for each in scene.pivots if each.block is not None]
         ground += [_block(ax, at, along, size) for at, along in blocks]
     for role, points in scene.shapes:
-        if role in ("body", "plate"):
+        if role in ("body", "plate") or (faint and role in MARKS):
             continue
         style: dict[str, Any] = {"color": FAINT if faint else BLACK, "lw": width}
+        style |= MARKS.get(role, {})
         if role == "rail":
             style["lw"] = width * 0.7
         elif role == "slot" and not faint:  # a bar that is open inside

@@ -15,6 +15,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
+from burmester.scene.load_marks import drawn_springs, hand_arrow
 from burmester.synthesis.result import Candidate
 from burmester.verdicts.found_linkage import FoundLinkage
 
@@ -27,9 +28,9 @@ REACH = 1.2  # sizes of what is drawn beside it, from which on a path is cut off
 
 
 class Shape(NamedTuple):
-    """A polygon, of the body or another plate; or a line, of a link, a rail or a slot: (n, 2)."""
+    """A polygon, of the body or another plate; or a line, of whatever else: (n, 2)."""
 
-    role: Literal["body", "plate", "link", "rail", "slot"]
+    role: Literal["body", "plate", "link", "rail", "slot", "spring", "hand"]
     points: FloatArray
 
 
@@ -65,8 +66,16 @@ class Scene(NamedTuple):
 def scene_of(chosen: Candidate, place: Displacement, drive: float, travel: Displacement) -> Scene:
     """A linkage with its body at a place (), and its driver at an angle; travel: see below."""
     if isinstance(chosen, FoundLinkage):
-        return scene_with(chosen.driver_first, place, travel)
-    return _of_skeleton(chosen, drive)
+        scene = scene_with(chosen.driver_first, place, travel)
+    else:
+        scene = _of_skeleton(chosen, drive)
+    if chosen.loads is None:
+        return scene
+    places = chosen.bodies_at(np.asarray(drive), place)
+    marks = [Shape("spring", each) for each in drawn_springs(chosen, places, scene.size)]
+    arrow = hand_arrow(chosen, places, scene.size)
+    marks += [] if arrow is None else [Shape("hand", arrow)]
+    return scene._replace(shapes=(*scene.shapes, *marks))
 
 
 def scene_at(chosen: Candidate, pose: int) -> Scene:

@@ -35,6 +35,7 @@ from burmester.verdicts.tolerance_words import share_texts
 from burmester.web.branches import Branches, branches_of
 from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of
+from burmester.web.loads_data import loads_of, loads_report
 from burmester.web.pivot_map import pivot_map
 from burmester.wording import figure, least_angle
 
@@ -74,6 +75,7 @@ def report_data(synthesis: Synthesis, face: Face = for_command) -> dict[str, Any
         "path": None if task.path is None else {"closed": task.path.closed},
         "body": None if task.body is None else task.body.vertices.tolist(),
         "keep_out": _keep_out(task),
+        "loads": loads_report(task),
         "scene": scene,
         "motion": None
         if synthesis.motion is None
@@ -232,6 +234,7 @@ def _linkage(
         "said": said,
         "pose_errors": _pose_errors(synthesis, found, branches),
         "ways": branches.ways,
+        "loads": loads_of(found, branches.ways, branches.at),
         "space": space_of(found.driver_first, _poses_taken(task, found), _places(branches), chart),
     }
 

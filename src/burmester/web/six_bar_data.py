@@ -19,6 +19,7 @@ from burmester.synthesis.result import Synthesis
 from burmester.tasks.notation import length_of
 from burmester.web.data import poses_report, scene_of, transmission_limit
 from burmester.web.image_space import chart_of
+from burmester.web.loads_data import loads_of, loads_report
 from burmester.wording import figure, least_angle
 
 if TYPE_CHECKING:
@@ -52,6 +53,7 @@ def six_bar_report(synthesis: Synthesis) -> dict[str, Any]:
         "unit": task.length_unit,
         "poses": poses_report(task),
         "body": None if task.body is None else task.body.vertices.tolist(),
+        "loads": loads_report(task),
         "scene": scene,
         "whole": True,
         "chart": chart_of(task.poses, synthesis.length or scene),
@@ -120,6 +122,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar, scene: float) -> dict[str
         "ground": {name: _pair(at) for name, at in ground.items()},
         **_drawn(found),
         "ways": [way],
+        "loads": loads_of(found, [way], [(0, each) for each in frame]),
         "loops": [f"{name}at {tip}" for name, tip in zip(which, tips, strict=False)],
         "pose_errors": [
             {

@@ -1,8 +1,9 @@
 """A linkage at one of its poses as a still drawing: SVG as text, without any library.
 
 Ground and links are dark, the coupler is blue, the poses are red frames, the way of the body's
-origin is dashed; points, whose angle is free, are red dots; the body's outline is
-green, regions to keep out of are grey.  Colours are chosen for light and dark pages alike.
+origin is dashed; points, whose angle is free, are red dots; the body's outline is green, regions to
+keep out of are grey; springs are violet, the arrow of a hand is orange.  Colours are chosen for
+light and dark pages alike.
 """
 
 from __future__ import annotations
@@ -21,12 +22,15 @@ SIZE_PX = 420.0  # the longer side of the picture
 MARGIN = 0.07  # share of the drawing's size that stays free on each side
 LINK, COUPLER, POSE, CURVE = "#5d6b7a", "#3f86d8", "#d0493c", "#8796a8"
 BODY, KEEP_OUT = "#2f9583", "#8a8f98"
+SPRING, HAND = "#8a63c9", "#c9771f"
 FILLED = 'fill="{0}" fill-opacity=".15" stroke="{0}" stroke-width="2"'
 STYLES = {
     "body": FILLED.format(COUPLER),
     "plate": FILLED.format(LINK),
     "path": f'fill="none" stroke="{CURVE}" stroke-width="1.5" stroke-dasharray="2 4"',
     "line": f'fill="none" stroke="{LINK}" stroke-width="4"',
+    "spring": f'fill="none" stroke="{SPRING}" stroke-width="1.6"',
+    "hand": f'fill="none" stroke="{HAND}" stroke-width="2.2"',
 }
 
 
@@ -48,6 +52,7 @@ def still(chosen: Candidate, title: str) -> str:
     plates = [(STYLES[role], at) for role, at in scene.shapes if role in ("body", "plate")]
     shapes = [*_body(task, places[there], places[pose]), *plates, *frames]
     shapes += [(STYLES["line"], points) for points in scene.of("link", "rail", "slot")]
+    shapes += [(STYLES[role], at) for role in ("spring", "hand") for at in scene.of(role)]
     seen = np.concatenate([points for _, points in shapes])
     path = [(STYLES["path"], piece) for piece in path_of(chosen, seen)]
     return _svg([*_keep_out(task), *path, *shapes], scene.pivots, title, points)

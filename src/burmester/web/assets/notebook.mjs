@@ -350,168 +350,177 @@ ood); }
 `;var widget_default='.bm {\n  --bm-bg: #f6f6f3; --bm-panel: #ffffff; --bm-ink: #1a1e25; --bm-muted: #5c6470; --bm-line: #dfe1dd; --bm-faint: #eeefec;\n  --bm-drive\
 r: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4;\n  --bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n  --bm-wanted: #6c75\
 80; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-accent: #1b5cb8; --bm-wash: #eaf1fb;\n  --bm-map-near: #5d9c8f; --bm-map-far: #f7f6ee; --bm-\
-body: #1c7a6c;\n  --bm-pair-low: #123570; --bm-pair-middle: #7b7b78; --bm-pair-high: #fde737;\n  --bm-pair-outside: #9fb4c7; --bm-pair-order: #d9bfa3; --bm-pair-b\
-ranch: #dfe2e6; --bm-pair-circuit: #f6f6f4;\n  container-type: inline-size; background: var(--bm-bg); color: var(--bm-ink); font: 15px/1.5 system-ui, -apple-syst\
-em, "Segoe UI", Roboto, "Helvetica Neue", sans-serif; min-height: 100vh;\n  font-variant-numeric: tabular-nums;\n}\n@media (prefers-color-scheme: dark) {\n  .bm {\n \
-   --bm-bg: #121418; --bm-panel: #1a1d23; --bm-ink: #e8eaed; --bm-muted: #a0a8b4; --bm-line: #30353e; --bm-faint: #22262d;\n    --bm-driver: #79aefa; --bm-follow\
-er: #eda469; --bm-coupler: #b6c1cf; --bm-plate: #353e4a;\n    --bm-driver-solid: #4d86d2; --bm-follower-solid: #cd8548;\n    --bm-wanted: #98a2af; --bm-error: #ff\
-7db9; --bm-good: #63cb90; --bm-bad: #ff9277; --bm-accent: #79aefa; --bm-wash: #1f2a3b;\n    --bm-map-near: #4f9c8c; --bm-map-far: #1d2128; --bm-body: #55c4b0;\n  \
-  --bm-pair-low: #3f74d8; --bm-pair-middle: #a39f92; --bm-pair-high: #fde737;\n    --bm-pair-outside: #46586a; --bm-pair-order: #6a5644; --bm-pair-branch: #30363\
-f; --bm-pair-circuit: #1f232a;\n  }\n}\n.bm *, .bm *::before { box-sizing: border-box; }\n.bm h1, .bm h2, .bm p, .bm dl, .bm dd, .bm ul, .bm fieldset { margin: 0; p\
-adding: 0; }\n.bm h1 { font-size: 1.3rem; line-height: 1.2; font-weight: 650; letter-spacing: -0.01em; overflow-wrap: anywhere; }\n.bm h2 { font-size: 0.98rem; li\
-ne-height: 1.35; font-weight: 650; }\n.bm :focus { outline: none; }\n.bm :focus-visible { outline: 2.5px solid var(--bm-accent); outline-offset: 2px; border-radiu\
-s: 4px; }\n\n.bm-head { max-width: 1760px; margin: 0 auto; padding: clamp(12px, 1.4cqw, 20px) clamp(14px, 2.4cqw, 36px) 2px; display: grid; gap: 4px; }\n.bm .bm-ov\
-erline { color: var(--bm-muted); font-size: 0.78rem; letter-spacing: 0.04em; }\n.bm-outcome { display: flex; gap: 9px; align-items: baseline; font-size: 1.08rem;\
- max-width: 80rem; }\n.bm-sign { flex: none; width: 1.45em; height: 1.45em; border-radius: 50%; display: inline-grid; place-items: center; font-size: 0.8em; font\
--weight: 700; color: var(--bm-panel); background: currentColor; }\n.bm-outcome.bm-good .bm-sign { background: var(--bm-good); }\n.bm-outcome.bm-bad .bm-sign { bac\
-kground: var(--bm-bad); }\n.bm-outcome.bm-open .bm-sign { background: var(--bm-accent); }\n.bm-code { font-size: 0.78em; color: var(--bm-muted); border: 1px solid\
- var(--bm-line); border-radius: 4px; padding: 0 5px; white-space: nowrap; }\n.bm-best, .bm-why { max-width: 68rem; }\n.bm-best { color: var(--bm-ink); }\n.bm-why {\
- color: var(--bm-muted); overflow-wrap: anywhere; }\n.bm-why b { font-weight: 600; color: var(--bm-ink); }\n.bm-about summary { cursor: pointer; color: var(--bm-a\
-ccent); font-size: 0.9rem; width: fit-content; }\n.bm-about[open] { display: grid; gap: 4px; padding-bottom: 8px; }\n.bm-found { max-width: 68rem; overflow-wrap: \
-anywhere; }\n.bm .bm-warnings { list-style: none; display: grid; gap: 8px; margin-top: 6px; }\n.bm-warnings li { border-left: 3px solid var(--bm-follower); paddin\
-g: 2px 0 2px 12px; max-width: 68rem; }\n\n.bm-body { max-width: 1760px; margin: 0 auto; padding: 12px clamp(14px, 2.4cqw, 36px) 24px; display: grid; gap: 16px; gr\
-id-template-columns: minmax(0, 1fr); }\n.bm-main { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; align-content: start; }\n.bm-car\
-d { background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 10px; padding: 14px 16px 16px; min-width: 0; }\n.bm-story { color: var(--bm-mut\
-ed); font-size: 0.9rem; margin-top: 2px; }\n.bm .bm-card > .bm-story { margin: 2px 0 8px; }\n.bm .bm-stage > .bm-story { min-height: 1.5em; }\n.bm .bm-stage > .bm-\
-drawing { margin-bottom: 10px; }\n.bm-fill { margin-top: 8px; min-width: 0; }\n\n.bm-list > h2 { padding: 0 2px 8px; }\n.bm-choices { display: flex; align-items: fl\
-ex-start; gap: 10px; overflow-x: auto; padding: 3px 3px 10px; margin: -3px; scroll-snap-type: x proximity; scrollbar-width: thin; }\n.bm-choice { flex: 0 0 250px\
-; scroll-snap-align: start; display: flex; flex-direction: column; gap: 3px; text-align: left; font: inherit; font-size: 0.86rem; color: inherit; background: va\
-r(--bm-panel); border: 1px solid var(--bm-line); border-radius: 10px; padding: 10px 12px; cursor: pointer; }\n.bm-choice:hover { border-color: var(--bm-muted); }\
-\n.bm-choice[aria-pressed="true"] { border-color: var(--bm-accent); background: var(--bm-wash); box-shadow: inset 4px 0 0 var(--bm-accent); }\n.bm-choice-head { f\
-ont-size: 1rem; }\n.bm-choice-head b { font-weight: 700; }\n.bm-verdict { font-weight: 600; }\n.bm-quiet { color: var(--bm-muted); font-size: 0.78rem; }\n.bm-good .\
-bm-verdict { color: var(--bm-good); }\n.bm-bad .bm-verdict { color: var(--bm-bad); }\n.bm-choice dl { display: grid; grid-template-columns: auto 1fr; gap: 0 10px;\
- }\n.bm-choice dd.bm-links { display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 0 6px; font-size: 0.82rem; line-height: 1.6; }\n.bm-choice dt { color\
-: var(--bm-muted); }\n.bm-choice dd { text-align: right; }\n.bm-whole-word { display: inline-block; white-space: pre; }\n.bm-reason, .bm-story, .bm-outcome, .bm-be\
-st, .bm-now { overflow-wrap: anywhere; }\n.bm-reason { color: var(--bm-muted); font-size: 0.82rem; line-height: 1.38; border-top: 1px solid var(--bm-line); paddi\
-ng-top: 5px; margin-top: 3px; }\n\n.bm .bm-ways { border: 0; display: flex; flex-wrap: wrap; gap: 6px 8px; margin: 0 0 8px; align-items: center; font-size: 0.86re\
-m; }\n.bm-ways legend { float: left; padding: 0; margin-right: 6px; color: var(--bm-muted); line-height: 30px; }\n.bm-ways label { position: relative; display: in\
-line-flex; align-items: center; gap: 7px; border: 1px solid var(--bm-line); border-radius: 8px; padding: 4px 11px 4px 9px; cursor: pointer; }\n.bm-ways label:has\
-(:checked) { border-color: var(--bm-accent); background: var(--bm-wash); }\n.bm-ways label:has(:focus-visible) { outline: 2.5px solid var(--bm-accent); outline-o\
-ffset: 2px; }\n.bm-ways input { margin: 0; accent-color: var(--bm-accent); outline: none; flex: none; }\n.bm-ways b { font-weight: 600; }\n.bm-ways b::first-letter\
- { text-transform: uppercase; }\n\n.bm svg { display: block; max-width: 100%; }\n.bm text { font: 12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif; fi\
-ll: var(--bm-ink); font-variant-numeric: tabular-nums; }\n.bm-drawing { border: 1px solid var(--bm-faint); border-radius: 8px; overflow: hidden; }\n.bm-plane { wi\
-dth: 100%; touch-action: pan-y; }\n.bm .bm-plane:focus-visible, .bm .bm-space:focus-visible, .bm .bm-scroll:focus-visible { outline-offset: -3px; border-radius: \
-8px; }\n.bm-grid path { stroke: var(--bm-faint); fill: none; }\n.bm .bm-grid text { fill: var(--bm-muted); font-size: 11px; }\n.bm-ghost { fill: var(--bm-body); fi\
-ll-opacity: 0.06; stroke: var(--bm-body); stroke-width: 1.1; stroke-linejoin: round; }\n.bm-body-outline { fill: var(--bm-body); fill-opacity: 0.2; stroke: var(-\
--bm-body); stroke-width: 2; stroke-linejoin: round; }\n.bm-hatch { fill: none; stroke: var(--bm-muted); stroke-width: 1.1; }\n.bm-region-plain { fill: var(--bm-mu\
-ted); fill-opacity: 0.1; }\n.bm-region-edge { stroke: var(--bm-muted); stroke-width: 1.5; stroke-linejoin: round; }\n.bm .bm-region-name { font-weight: 600; paint\
--order: stroke; stroke: var(--bm-panel); stroke-width: 4px; }\n.bm-curve { fill: none; stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-curve.bm-beyond { stro\
-ke-width: 1; opacity: 0.5; }\n.bm-curve.bm-same { stroke-dasharray: 6 4; opacity: 0.7; }\n.bm-curve.bm-other { stroke-dasharray: 1.5 4; opacity: 0.75; }\n.bm-pivot\
--path { fill: none; stroke-width: 1; opacity: 0.42; }\n.bm-pivot-path.bm-side0 { stroke: var(--bm-driver); }\n.bm-pivot-path.bm-side1 { stroke: var(--bm-follower)\
-; }\n.bm-pivot-path.bm-side-inner { stroke: var(--bm-coupler); }\n.bm-solid { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.5; stroke-linejoin\
-: round; }\n.bm-ground { stroke: var(--bm-coupler); stroke-width: 1.4; fill: none; }\n.bm-thin { opacity: 0.55; }\n.bm .bm-name { font-weight: 600; paint-order: st\
-roke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm text.bm-side0, .bm b.bm-side0, .bm th.bm-side0 { fill: var(--bm-driver); color: var(--bm-driver); }\n.bm \
-text.bm-side1, .bm b.bm-side1, .bm th.bm-side1 { fill: var(--bm-follower); color: var(--bm-follower); }\n.bm-wanted path { fill: none; stroke: var(--bm-wanted); \
-stroke-width: 1.3; stroke-dasharray: 3.5 2.5; }\n.bm-wanted circle { fill: none; stroke: var(--bm-wanted); stroke-width: 1.4; }\n.bm-wanted-path { fill: none; str\
-oke: var(--bm-wanted); stroke-width: 1.2; stroke-dasharray: 5 4; stroke-linejoin: round; opacity: 0.75; }\n.bm-achieved path { fill: none; stroke: var(--bm-ink);\
- stroke-width: 1.1; }\n.bm-achieved circle { fill: var(--bm-ink); }\n.bm-elsewhere { opacity: 0.38; }\n.bm-errors path { fill: none; stroke: var(--bm-error); strok\
-e-width: 1.8; stroke-linejoin: round; stroke-linecap: round; }\n.bm .bm-pose-names text { font-weight: 600; fill: var(--bm-muted); paint-order: stroke; stroke: v\
-ar(--bm-panel); stroke-width: 3px; }\n.bm-bar { stroke-width: 11; stroke-linecap: round; fill: none; }\n.bm-core { stroke-width: 7.5; stroke-linecap: round; fill:\
- none; }\n.bm-link.bm-side0 .bm-bar { stroke: var(--bm-driver); }\n.bm-link.bm-side0 .bm-core { stroke: var(--bm-driver-solid); }\n.bm-link.bm-side1 .bm-bar { stro\
-ke: var(--bm-follower); }\n.bm-link.bm-side1 .bm-core { stroke: var(--bm-panel); }\n.bm-inner .bm-bar { stroke: var(--bm-coupler); }\n.bm-inner .bm-core { stroke: \
-var(--bm-panel); }\n.bm-carried .bm-bar { stroke: var(--bm-coupler); stroke-width: 17; opacity: 0.9; }\n.bm-carried .bm-core { stroke: var(--bm-plate); stroke-wid\
-th: 14; }\n.bm-key .bm-carried .bm-bar { stroke-width: 13; }\n.bm-key .bm-carried .bm-core { stroke-width: 10; }\n.bm-ternary { opacity: 0.86; }\n.bm-ternary path {\
- stroke-linejoin: round; }\n.bm-ternary.bm-side0 .bm-core { fill: var(--bm-driver-solid); fill-opacity: 0.45; }\n.bm-ternary.bm-side1 .bm-core { fill: var(--bm-fo\
-llower); fill-opacity: 0.12; }\n.bm-ternary.bm-inner .bm-core { fill: var(--bm-coupler); fill-opacity: 0.12; }\n.bm-ternary.bm-carried .bm-core { fill: var(--bm-p\
-late); }\n.bm-plate-rim { fill: none; stroke: var(--bm-coupler); stroke-width: 17; stroke-linejoin: round; stroke-linecap: round; opacity: 0.9; }\n.bm-plate { fil\
-l: var(--bm-plate); stroke: var(--bm-plate); stroke-width: 14; stroke-linejoin: round; stroke-linecap: round; }\n.bm-coupler { opacity: 0.86; }\n.bm-slot-rim { st\
-roke: var(--bm-coupler); stroke-width: 21; stroke-linecap: round; }\n.bm-slot-plate { stroke: var(--bm-plate); stroke-width: 18; stroke-linecap: round; }\n.bm-slo\
-t-edge { stroke: var(--bm-coupler); stroke-width: 12.5; }\n.bm-slot { stroke: var(--bm-panel); stroke-width: 10; }\n.bm-block rect { stroke-width: 1.6; }\n.bm-bloc\
-k.bm-side0 rect { fill: var(--bm-driver-solid); stroke: var(--bm-driver); }\n.bm-block.bm-side1 rect { fill: var(--bm-panel); stroke: var(--bm-follower); }\n.bm-p\
-in { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-origin { fill: var(--bm-ink); }\n.bm-body-frame { fill: none; stroke: var(--bm-ink); \
-stroke-width: 1.8; }\n.bm .bm-letter { font-weight: 700; font-style: italic; }\n.bm-far-mark { fill: none; stroke-width: 2.4; stroke-linecap: round; stroke-linejo\
-in: round; }\n.bm-far-mark.bm-side0 { stroke: var(--bm-driver); }\n.bm-far-mark.bm-side1 { stroke: var(--bm-follower); }\n.bm-drive-mark { fill: none; stroke: var(\
---bm-driver); stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }\n\n.bm-controls { display: grid; gap: 6px; margin: 0 0 10px; }\n.bm-row { display\
-: flex; flex-wrap: wrap; gap: 8px; align-items: flex-start; }\n.bm-button { font: inherit; font-size: 0.9rem; color: inherit; background: var(--bm-panel); border\
-: 1px solid var(--bm-line); border-radius: 8px; padding: 5px 11px; min-height: 34px; cursor: pointer; display: inline-flex; gap: 7px; align-items: center; white\
--space: nowrap; }\n.bm-button:hover { border-color: var(--bm-muted); }\n.bm-button:disabled { opacity: 0.45; cursor: default; }\n.bm-play { background: var(--bm-ac\
-cent); border-color: var(--bm-accent); color: var(--bm-panel); min-width: 92px; justify-content: center; font-weight: 600; }\n.bm-play svg { fill: currentColor; \
-}\n.bm-whole { display: inline-flex; gap: 6px; align-items: center; min-height: 34px; font-size: 0.9rem; white-space: nowrap; cursor: pointer; }\n.bm-whole input,\
- .bm-far-pivots input { accent-color: var(--bm-accent); margin: 0; }\n.bm-whole:has(:disabled) { opacity: 0.45; cursor: default; }\n.bm-track { min-width: 0; }\n.b\
-m-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-color: var(--bm-accent); }\n.bm-stops { width: 100%; overflow: visible; }\n.bm-stops\
- path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3p\
-x; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { display: inline-block; max-width: 100%; }\n.bm-under { display: flex; flex\
--wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-top: 10px; }\n.bm-choose { display: flex; flex-wrap: wrap; gap: 4px 18p\
-x; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden], .bm-ways[hidden] { display: none; }\n.bm-fa\
-ctor { white-space: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel); \
-border: 1px solid var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: \
-1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-aside\
- { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: fle\
-x; justify-content: space-between; gap: 14px; border-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd \
-{ text-align: right; }\n.bm-note-text { font-size: 0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px;\
- scrollbar-width: thin; }\n.bm table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; o\
-verflow: hidden; clip-path: inset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-pat\
-h: none; text-align: left; font-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--b\
-m-faint); vertical-align: top; white-space: nowrap; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space:\
- normal; vertical-align: bottom; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkage\
-s td.bm-words, .bm .bm-pose-table td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-\
-child(3), .bm .bm-linkages td:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywh\
-ere; }\n.bm .bm-pose-table tbody th { position: sticky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash);\
- }\n.bm-scroll:has(.bm-pose-table) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { \
-background: var(--bm-wash); }\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-\
-numbers .bm-scroll { margin-top: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th {\
- white-space: normal; }\n.bm-every { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { displ\
-ay: grid; gap: 6px 28px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: p\
-an-y; }\n.bm-panel { fill: none; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharra\
-y: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\
-\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-\
-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); s\
-troke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fil\
-l: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-\
-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 1\
-00%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-\
-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill:\
- var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm\
--side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { displ\
-ay: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\
-\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: c\
-rosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius:\
- 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-in\
-k); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: \
-6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { f\
-ill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-w\
-idth: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1;\
- }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-w\
-idth: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { \
-stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pa\
-ir-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; border: 1px s\
-olid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-h\
-igh)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm\
--pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n\
-.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; hei\
-ght: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near {\
- background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border-radius:\
- 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg \
-{ position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behin\
-d { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width\
-: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point \
-{ fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-or\
-der: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n\
-.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-wi\
-dth: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside { order: -3; }\n  .bm-choices { align\
--items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@con\
-tainer (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th {\
- padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem\
-; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); wi\
-dth: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbo\
-dy th, .bm .bm-stacks td { display: flex; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-widt\
-h: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { con\
-tent: attr(data-head); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-al\
-ign: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@containe\
-r (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has\
-(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-dir\
-ection: column; padding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { \
-flex: none; }\n  .bm-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage, .bm-aside, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { gri\
-d-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@cont\
-ainer (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); al\
-ign-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; \
---bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-s\
-olid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #\
-1c7a6c;\n    font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display:\
- none !important; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-car\
-d { border: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .b\
-m .bm-scroll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-insi\
-de: avoid; }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+body: #1c7a6c; --bm-spring: #6b43ab; --bm-hand: #9a5a00;\n  --bm-pair-low: #123570; --bm-pair-middle: #7b7b78; --bm-pair-high: #fde737;\n  --bm-pair-outside: #9fb\
+4c7; --bm-pair-order: #d9bfa3; --bm-pair-branch: #dfe2e6; --bm-pair-circuit: #f6f6f4;\n  container-type: inline-size; background: var(--bm-bg); color: var(--bm-i\
+nk); font: 15px/1.5 system-ui, -apple-system, "Segoe UI", Roboto, "Helvetica Neue", sans-serif; min-height: 100vh;\n  font-variant-numeric: tabular-nums;\n}\n@medi\
+a (prefers-color-scheme: dark) {\n  .bm {\n    --bm-bg: #121418; --bm-panel: #1a1d23; --bm-ink: #e8eaed; --bm-muted: #a0a8b4; --bm-line: #30353e; --bm-faint: #222\
+62d;\n    --bm-driver: #79aefa; --bm-follower: #eda469; --bm-coupler: #b6c1cf; --bm-plate: #353e4a;\n    --bm-driver-solid: #4d86d2; --bm-follower-solid: #cd8548;\
+\n    --bm-wanted: #98a2af; --bm-error: #ff7db9; --bm-good: #63cb90; --bm-bad: #ff9277; --bm-accent: #79aefa; --bm-wash: #1f2a3b;\n    --bm-map-near: #4f9c8c; --b\
+m-map-far: #1d2128; --bm-body: #55c4b0; --bm-spring: #b795ef; --bm-hand: #f0b04a;\n    --bm-pair-low: #3f74d8; --bm-pair-middle: #a39f92; --bm-pair-high: #fde737\
+;\n    --bm-pair-outside: #46586a; --bm-pair-order: #6a5644; --bm-pair-branch: #30363f; --bm-pair-circuit: #1f232a;\n  }\n}\n.bm *, .bm *::before { box-sizing: bord\
+er-box; }\n.bm h1, .bm h2, .bm p, .bm dl, .bm dd, .bm ul, .bm fieldset { margin: 0; padding: 0; }\n.bm h1 { font-size: 1.3rem; line-height: 1.2; font-weight: 650;\
+ letter-spacing: -0.01em; overflow-wrap: anywhere; }\n.bm h2 { font-size: 0.98rem; line-height: 1.35; font-weight: 650; }\n.bm :focus { outline: none; }\n.bm :focu\
+s-visible { outline: 2.5px solid var(--bm-accent); outline-offset: 2px; border-radius: 4px; }\n\n.bm-head { max-width: 1760px; margin: 0 auto; padding: clamp(12px\
+, 1.4cqw, 20px) clamp(14px, 2.4cqw, 36px) 2px; display: grid; gap: 4px; }\n.bm .bm-overline { color: var(--bm-muted); font-size: 0.78rem; letter-spacing: 0.04em;\
+ }\n.bm-outcome { display: flex; gap: 9px; align-items: baseline; font-size: 1.08rem; max-width: 80rem; }\n.bm-sign { flex: none; width: 1.45em; height: 1.45em; b\
+order-radius: 50%; display: inline-grid; place-items: center; font-size: 0.8em; font-weight: 700; color: var(--bm-panel); background: currentColor; }\n.bm-outcom\
+e.bm-good .bm-sign { background: var(--bm-good); }\n.bm-outcome.bm-bad .bm-sign { background: var(--bm-bad); }\n.bm-outcome.bm-open .bm-sign { background: var(--b\
+m-accent); }\n.bm-code { font-size: 0.78em; color: var(--bm-muted); border: 1px solid var(--bm-line); border-radius: 4px; padding: 0 5px; white-space: nowrap; }\n\
+.bm-best, .bm-why { max-width: 68rem; }\n.bm-best { color: var(--bm-ink); }\n.bm-why { color: var(--bm-muted); overflow-wrap: anywhere; }\n.bm-why b { font-weight:\
+ 600; color: var(--bm-ink); }\n.bm-about summary { cursor: pointer; color: var(--bm-accent); font-size: 0.9rem; width: fit-content; }\n.bm-about[open] { display: \
+grid; gap: 4px; padding-bottom: 8px; }\n.bm-found { max-width: 68rem; overflow-wrap: anywhere; }\n.bm .bm-warnings { list-style: none; display: grid; gap: 8px; ma\
+rgin-top: 6px; }\n.bm-warnings li { border-left: 3px solid var(--bm-follower); padding: 2px 0 2px 12px; max-width: 68rem; }\n\n.bm-body { max-width: 1760px; margin\
+: 0 auto; padding: 12px clamp(14px, 2.4cqw, 36px) 24px; display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); }\n.bm-main { display: grid; gap: 16px; \
+grid-template-columns: minmax(0, 1fr); min-width: 0; align-content: start; }\n.bm-card { background: var(--bm-panel); border: 1px solid var(--bm-line); border-ra\
+dius: 10px; padding: 14px 16px 16px; min-width: 0; }\n.bm-story { color: var(--bm-muted); font-size: 0.9rem; margin-top: 2px; }\n.bm .bm-card > .bm-story { margin\
+: 2px 0 8px; }\n.bm .bm-stage > .bm-story { min-height: 1.5em; }\n.bm .bm-stage > .bm-drawing { margin-bottom: 10px; }\n.bm-fill { margin-top: 8px; min-width: 0; }\
+\n\n.bm-list > h2 { padding: 0 2px 8px; }\n.bm-choices { display: flex; align-items: flex-start; gap: 10px; overflow-x: auto; padding: 3px 3px 10px; margin: -3px; \
+scroll-snap-type: x proximity; scrollbar-width: thin; }\n.bm-choice { flex: 0 0 250px; scroll-snap-align: start; display: flex; flex-direction: column; gap: 3px;\
+ text-align: left; font: inherit; font-size: 0.86rem; color: inherit; background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 10px; paddin\
+g: 10px 12px; cursor: pointer; }\n.bm-choice:hover { border-color: var(--bm-muted); }\n.bm-choice[aria-pressed="true"] { border-color: var(--bm-accent); backgroun\
+d: var(--bm-wash); box-shadow: inset 4px 0 0 var(--bm-accent); }\n.bm-choice-head { font-size: 1rem; }\n.bm-choice-head b { font-weight: 700; }\n.bm-verdict { font\
+-weight: 600; }\n.bm-quiet { color: var(--bm-muted); font-size: 0.78rem; }\n.bm-good .bm-verdict { color: var(--bm-good); }\n.bm-bad .bm-verdict { color: var(--bm-\
+bad); }\n.bm-choice dl { display: grid; grid-template-columns: auto 1fr; gap: 0 10px; }\n.bm-choice dd.bm-links { display: flex; flex-wrap: wrap; justify-content:\
+ flex-end; gap: 0 6px; font-size: 0.82rem; line-height: 1.6; }\n.bm-choice dt { color: var(--bm-muted); }\n.bm-choice dd { text-align: right; }\n.bm-whole-word { d\
+isplay: inline-block; white-space: pre; }\n.bm-reason, .bm-story, .bm-outcome, .bm-best, .bm-now { overflow-wrap: anywhere; }\n.bm-reason { color: var(--bm-muted)\
+; font-size: 0.82rem; line-height: 1.38; border-top: 1px solid var(--bm-line); padding-top: 5px; margin-top: 3px; }\n\n.bm .bm-ways { border: 0; display: flex; fl\
+ex-wrap: wrap; gap: 6px 8px; margin: 0 0 8px; align-items: center; font-size: 0.86rem; }\n.bm-ways legend { float: left; padding: 0; margin-right: 6px; color: va\
+r(--bm-muted); line-height: 30px; }\n.bm-ways label { position: relative; display: inline-flex; align-items: center; gap: 7px; border: 1px solid var(--bm-line); \
+border-radius: 8px; padding: 4px 11px 4px 9px; cursor: pointer; }\n.bm-ways label:has(:checked) { border-color: var(--bm-accent); background: var(--bm-wash); }\n.\
+bm-ways label:has(:focus-visible) { outline: 2.5px solid var(--bm-accent); outline-offset: 2px; }\n.bm-ways input { margin: 0; accent-color: var(--bm-accent); ou\
+tline: none; flex: none; }\n.bm-ways b { font-weight: 600; }\n.bm-ways b::first-letter { text-transform: uppercase; }\n\n.bm svg { display: block; max-width: 100%; \
+}\n.bm text { font: 12px system-ui, -apple-system, "Segoe UI", Roboto, sans-serif; fill: var(--bm-ink); font-variant-numeric: tabular-nums; }\n.bm-drawing { borde\
+r: 1px solid var(--bm-faint); border-radius: 8px; overflow: hidden; }\n.bm-plane { width: 100%; touch-action: pan-y; }\n.bm .bm-plane:focus-visible, .bm .bm-space\
+:focus-visible, .bm .bm-scroll:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-grid path { stroke: var(--bm-faint); fill: none; }\n.bm .bm-grid t\
+ext { fill: var(--bm-muted); font-size: 11px; }\n.bm-ghost { fill: var(--bm-body); fill-opacity: 0.06; stroke: var(--bm-body); stroke-width: 1.1; stroke-linejoin\
+: round; }\n.bm-body-outline { fill: var(--bm-body); fill-opacity: 0.2; stroke: var(--bm-body); stroke-width: 2; stroke-linejoin: round; }\n.bm-hatch { fill: none\
+; stroke: var(--bm-muted); stroke-width: 1.1; }\n.bm-region-plain { fill: var(--bm-muted); fill-opacity: 0.1; }\n.bm-region-edge { stroke: var(--bm-muted); stroke\
+-width: 1.5; stroke-linejoin: round; }\n.bm .bm-region-name { font-weight: 600; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 4px; }\n.bm-curve { fi\
+ll: none; stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-curve.bm-beyond { stroke-width: 1; opacity: 0.5; }\n.bm-curve.bm-same { stroke-dasharray: 6 4; opac\
+ity: 0.7; }\n.bm-curve.bm-other { stroke-dasharray: 1.5 4; opacity: 0.75; }\n.bm-pivot-path { fill: none; stroke-width: 1; opacity: 0.42; }\n.bm-pivot-path.bm-side\
+0 { stroke: var(--bm-driver); }\n.bm-pivot-path.bm-side1 { stroke: var(--bm-follower); }\n.bm-pivot-path.bm-side-inner { stroke: var(--bm-coupler); }\n.bm-solid { \
+fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.5; stroke-linejoin: round; }\n.bm-ground { stroke: var(--bm-coupler); stroke-width: 1.4; fill: \
+none; }\n.bm-thin { opacity: 0.55; }\n.bm .bm-name { font-weight: 600; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm text.bm-side0, .bm b\
+.bm-side0, .bm th.bm-side0 { fill: var(--bm-driver); color: var(--bm-driver); }\n.bm text.bm-side1, .bm b.bm-side1, .bm th.bm-side1 { fill: var(--bm-follower); c\
+olor: var(--bm-follower); }\n.bm-wanted path { fill: none; stroke: var(--bm-wanted); stroke-width: 1.3; stroke-dasharray: 3.5 2.5; }\n.bm-wanted circle { fill: no\
+ne; stroke: var(--bm-wanted); stroke-width: 1.4; }\n.bm-wanted-path { fill: none; stroke: var(--bm-wanted); stroke-width: 1.2; stroke-dasharray: 5 4; stroke-line\
+join: round; opacity: 0.75; }\n.bm-achieved path { fill: none; stroke: var(--bm-ink); stroke-width: 1.1; }\n.bm-achieved circle { fill: var(--bm-ink); }\n.bm-elsew\
+here { opacity: 0.38; }\n.bm-errors path { fill: none; stroke: var(--bm-error); stroke-width: 1.8; stroke-linejoin: round; stroke-linecap: round; }\n.bm .bm-pose-\
+names text { font-weight: 600; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-bar { stroke-width: 11; stroke-line\
+cap: round; fill: none; }\n.bm-core { stroke-width: 7.5; stroke-linecap: round; fill: none; }\n.bm-link.bm-side0 .bm-bar { stroke: var(--bm-driver); }\n.bm-link.bm\
+-side0 .bm-core { stroke: var(--bm-driver-solid); }\n.bm-link.bm-side1 .bm-bar { stroke: var(--bm-follower); }\n.bm-link.bm-side1 .bm-core { stroke: var(--bm-pane\
+l); }\n.bm-inner .bm-bar { stroke: var(--bm-coupler); }\n.bm-inner .bm-core { stroke: var(--bm-panel); }\n.bm-carried .bm-bar { stroke: var(--bm-coupler); stroke-w\
+idth: 17; opacity: 0.9; }\n.bm-carried .bm-core { stroke: var(--bm-plate); stroke-width: 14; }\n.bm-key .bm-carried .bm-bar { stroke-width: 13; }\n.bm-key .bm-carr\
+ied .bm-core { stroke-width: 10; }\n.bm-ternary { opacity: 0.86; }\n.bm-ternary path { stroke-linejoin: round; }\n.bm-ternary.bm-side0 .bm-core { fill: var(--bm-dr\
+iver-solid); fill-opacity: 0.45; }\n.bm-ternary.bm-side1 .bm-core { fill: var(--bm-follower); fill-opacity: 0.12; }\n.bm-ternary.bm-inner .bm-core { fill: var(--b\
+m-coupler); fill-opacity: 0.12; }\n.bm-ternary.bm-carried .bm-core { fill: var(--bm-plate); }\n.bm-plate-rim { fill: none; stroke: var(--bm-coupler); stroke-width\
+: 17; stroke-linejoin: round; stroke-linecap: round; opacity: 0.9; }\n.bm-plate { fill: var(--bm-plate); stroke: var(--bm-plate); stroke-width: 14; stroke-linejo\
+in: round; stroke-linecap: round; }\n.bm-coupler { opacity: 0.86; }\n.bm-spring { fill: none; stroke: var(--bm-spring); stroke-width: 2; stroke-linejoin: round; }\
+\n.bm-springs [data-spring="gas"] .bm-spring { fill: var(--bm-panel); fill-opacity: 0.75; }\n.bm-spring-end { fill: var(--bm-spring); }\n.bm-hand { fill: none; str\
+oke: var(--bm-hand); stroke-width: 3; stroke-linecap: round; stroke-linejoin: round; }\n.bm-slot-rim { stroke: var(--bm-coupler); stroke-width: 21; stroke-lineca\
+p: round; }\n.bm-slot-plate { stroke: var(--bm-plate); stroke-width: 18; stroke-linecap: round; }\n.bm-slot-edge { stroke: var(--bm-coupler); stroke-width: 12.5; \
+}\n.bm-slot { stroke: var(--bm-panel); stroke-width: 10; }\n.bm-block rect { stroke-width: 1.6; }\n.bm-block.bm-side0 rect { fill: var(--bm-driver-solid); stroke: \
+var(--bm-driver); }\n.bm-block.bm-side1 rect { fill: var(--bm-panel); stroke: var(--bm-follower); }\n.bm-pin { fill: var(--bm-panel); stroke: var(--bm-ink); strok\
+e-width: 1.8; }\n.bm-origin { fill: var(--bm-ink); }\n.bm-body-frame { fill: none; stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm .bm-letter { font-weight: 700; \
+font-style: italic; }\n.bm-far-mark { fill: none; stroke-width: 2.4; stroke-linecap: round; stroke-linejoin: round; }\n.bm-far-mark.bm-side0 { stroke: var(--bm-dr\
+iver); }\n.bm-far-mark.bm-side1 { stroke: var(--bm-follower); }\n.bm-drive-mark { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; stroke-linecap: round; \
+stroke-linejoin: round; }\n\n.bm-controls { display: grid; gap: 6px; margin: 0 0 10px; }\n.bm-row { display: flex; flex-wrap: wrap; gap: 8px; align-items: flex-sta\
+rt; }\n.bm-button { font: inherit; font-size: 0.9rem; color: inherit; background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 8px; padding:\
+ 5px 11px; min-height: 34px; cursor: pointer; display: inline-flex; gap: 7px; align-items: center; white-space: nowrap; }\n.bm-button:hover { border-color: var(-\
+-bm-muted); }\n.bm-button:disabled { opacity: 0.45; cursor: default; }\n.bm-play { background: var(--bm-accent); border-color: var(--bm-accent); color: var(--bm-p\
+anel); min-width: 92px; justify-content: center; font-weight: 600; }\n.bm-play svg { fill: currentColor; }\n.bm-whole { display: inline-flex; gap: 6px; align-item\
+s: center; min-height: 34px; font-size: 0.9rem; white-space: nowrap; cursor: pointer; }\n.bm-whole input, .bm-far-pivots input { accent-color: var(--bm-accent); \
+margin: 0; }\n.bm-whole:has(:disabled) { opacity: 0.45; cursor: default; }\n.bm-track { min-width: 0; }\n.bm-slider { display: block; width: 100%; margin: 0 0 2px;\
+ height: 18px; accent-color: var(--bm-accent); }\n.bm-stops { width: 100%; overflow: visible; }\n.bm-stops path { stroke: var(--bm-muted); }\n.bm .bm-stops text { \
+font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-now { display: block; font-size: 0.88rem; min-h\
+eight: 1.5em; }\n.bm-now span { display: inline-block; max-width: 100%; }\n.bm-under { display: flex; flex-wrap: wrap; gap: 8px 18px; justify-content: space-betwe\
+en; align-items: flex-end; margin-top: 10px; }\n.bm-choose { display: flex; flex-wrap: wrap; gap: 4px 18px; }\n.bm-far-pivots { display: inline-flex; gap: 6px; al\
+ign-items: center; cursor: pointer; }\n.bm-far-pivots[hidden], .bm-ways[hidden] { display: none; }\n.bm-factor { white-space: nowrap; font-size: 0.86rem; color: v\
+ar(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 6px; pa\
+dding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: 1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\
+\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-aside { display: grid; gap: 16px; grid-template-columns: minm\
+ax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content: space-between; gap: 14px; border-bot\
+tom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-note-text { font-size: 0.82re\
+m; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm table { border-collapse: c\
+ollapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: now\
+rap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; font-weight: 600; padding: 6p\
+x 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top; white-space: nowrap; font\
+-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-align: bottom; }\n.bm tbody th { text-a\
+lign: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-table td.bm-words { white-sp\
+ace: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td:nth-child(4) { white-space\
+: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbody th { position: sticky; l\
+eft: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-table) { max-height: 34rem; o\
+verflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\n.bm .bm-dimensions td { pa\
+dding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-top: 0; }\n.bm-numbers .bm-fa\
+cts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-every { margin-top: 12px; fo\
+nt-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid-template-columns: repeat(a\
+uto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: none; stroke: var(--bm-line); \
+}\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11px; fi\
+ll: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted);\
+ }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-s\
+ize: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: var(--bm\
+-follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve2 { stroke: var(--bm-error); }\n.\
+bm-line.bm-curve3 { stroke: var(--bm-good); stroke-dasharray: 6 4; }\n.bm-line.bm-curve4 { stroke: var(--bm-coupler); }\n.bm-line.bm-curve5 { stroke: var(--bm-bod\
+y); stroke-dasharray: 6 4; }\n.bm-line.bm-curve6 { stroke: var(--bm-muted); }\n.bm .bm-title tspan { font-weight: 700; fill: var(--bm-driver); }\n.bm .bm-title .bm\
+-curve1 { fill: var(--bm-follower); }\n.bm .bm-title .bm-curve2 { fill: var(--bm-error); }\n.bm .bm-title .bm-curve3 { fill: var(--bm-good); }\n.bm .bm-title .bm-c\
+urve4 { fill: var(--bm-coupler); }\n.bm .bm-title .bm-curve5 { fill: var(--bm-body); }\n.bm .bm-title .bm-curve6 { fill: var(--bm-muted); }\n.bm-dot.bm-loop0 { fil\
+l: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: va\
+r(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden\
+; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:\
+focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-\
+ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 {\
+ stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-p\
+anel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-\
+map { position: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; i\
+nset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { bor\
+der: 1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width:\
+ 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill\
+: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm\
+-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline \
+{ fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-in\
+k); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: s\
+troke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { str\
+oke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.\
+bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-bl\
+ock; width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair\
+-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outs\
+ide); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair\
+-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swa\
+tch { display: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-sw\
+atch.bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; bord\
+er: 1px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor:\
+ grabbing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-\
+width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fi\
+ll: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidd\
+en { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.b\
+m .bm-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error);\
+ stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-mute\
+d); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .\
+bm-aside, .bm-main > .bm-loaded { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice d\
+l dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { f\
+ont-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-na\
+med tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  \
+.bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6p\
+x 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: flex; justify-content: space-between; gap: 14px; border:\
+ 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; wh\
+ite-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .b\
+m .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right\
+: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2,\
+ minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; t\
+op: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: str\
+etch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage,\
+ .bm-aside, .bm-loaded, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr\
+)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start\
+; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / \
+-1; }\n  .bm-main:has(.bm-loaded) { grid-template-rows: auto 1fr; }\n  .bm-main:has(.bm-loaded) .bm-aside { grid-row: span 2; }\n  .bm-loaded { grid-column: span 6\
+; align-self: start; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-d\
+river: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #\
+6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c; --bm-spring: #6b43ab; --bm-hand: #9a5a00;\n    font-size\
+: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !important; }\n \
+ .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border: 0; paddin\
+g: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scroll { overfl\
+ow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid; }\n  .bm th\
+, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -552,8 +561,8 @@ slice(index+1).findIndex(pose=>Number.isFinite(pose[key]))+index+1;const[a,b]=[p
 return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,y,angle}=poses[index];if(Number.isFinite(x)&&Number.isFinite(
 y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,index,"y"),angle:component(poses,index,"angle")}}var poseName2=({
 poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var Events=class{heard;on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
-for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],scene:1,unit:null,dyads:[],
-linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,transmission_limit:{
+for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],loads:null,scene:1,unit:null,
+dyads:[],linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,transmission_limit:{
 deg:40,said:"40°, a usual limit"},keys:[],table:null,best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;
 this.data={...NOTHING};this.linkages=[];this.gone=[];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());
 store.on("document",()=>this.takePoses());store.on("chosen",()=>this.emit("shown"));store.on("placed",()=>this.takePlaced());this.takePoses();if(store.solved)this.
@@ -604,10 +613,29 @@ a:catmullRom(way.angle,i,share,way.round)};return project(linkage.led,place,leng
 ...ground};for(const[name,[x,y]]of Object.entries(way.joints))joints[name]=[at(x),at(y)];return{x:at(way.x),y:at(way.y),a:at(way.angle),joints}}function smooth(values,u){
 const count=Math.min(6,values.length),first=clamp(Math.floor(u)-2,0,values.length-count);let sum=0;for(let j=0;j<count;j+=1){let weight=1;for(let k=0;k<count;k+=
 1)if(k!==j)weight*=(u-first-k)/(j-k);sum+=weight*values[first+j]}return sum}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===
-null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems},at){
+null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems=false},at){
 const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){
 let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=
-wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
+wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var BARB=[9,4.5];function springPath(kind,[x,y],[u,v]){const length=Math.
+hypot(u-x,v-y)||1,across=[-HALF_WIDTH*(v-y)/length,HALF_WIDTH*(u-x)/length];const at=(share,side)=>`${px(x+share*(u-x)+side*across[0])} ${px(y+share*(v-y)+side*
+across[1])}`;if(kind==="constant")return`M${at(0,0)}L${at(1,0)}`;if(kind==="gas")return`M${at(0,1)}L${at(BARREL,1)}L${at(BARREL,-1)}L${at(0,-1)}ZM${at(BARREL,0)}\
+L${at(1,0)}`;const teeth=Array.from({length:2*COILS+1},(_,k)=>at(LEAD+(1-2*LEAD)*k/(2*COILS),k%(2*COILS)?k%2?1:-1:0));return`M${[at(0,0),...teeth,at(1,0)].join(
+"L")}`}function markPoints({loads},places){if(!loads)return[];const ends=loads.springs.flatMap(spring=>spring.ends),on=name=>ends.filter(({link})=>link===name).
+map(({point})=>point);return[...on("ground"),...places.flatMap(place=>[...on("body"),...loads.hand?[loads.hand]:[]].map(point=>act(place,point)))]}function arrowPath([
+x,y],angle,length){const c=Math.cos(angle),d=-Math.sin(angle),tip=[x+length*c,y+length*d];const barb=side=>`${px(tip[0]-BARB[0]*c-side*BARB[1]*d)} ${px(tip[1]-BARB[0]*
+d+side*BARB[1]*c)}`;return`M${px(x)} ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`}var LoadMarks=class{constructor(){this.springs=
+s("g",{class:"bm-springs"});this.hand=s("path",{class:"bm-hand"});this.group=s("g",{class:"bm-loads"},this.springs,this.hand)}shape(data,linkage,view){this.view=
+view;this.loads=data.loads??null;this.known=linkage.loads??null;const springs=this.loads?.springs??[];while(this.springs.children.length>springs.length)this.springs.
+lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),s("circle",{class:"bm-spring-en\
+d",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind},k)=>put(this.springs.children[k],"data-spring",kind))}show(place,drive){const{loads,
+view}=this;if(!loads||!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,drive)),group=this.
+springs.children[k];put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",springPath(kind,at[0],at[1]));
+at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});const pushes=this.known?.hand,angle=pushes&&drive!==null?valueAt(
+pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+(LONGEST_ARROW-
+LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}seen([x,y]){const{view}=this;return view?
+[view.X(x),view.Y(y)]:[0,0]}endOf({link,point},spring,end,place,drive){if(link==="ground")return this.seen(point);if(link==="body")return this.seen(act(place,point));
+const known=this.known?.moved.find(each=>each.spring===spring&&each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):[null];return at.
+some(each=>each===null)?null:this.seen(at)}};function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
 x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(
 a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3}\
  16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){
@@ -623,43 +651,43 @@ blocks=s("g");this.pins=s("g");this.coupler=s("g",{class:"bm-coupler"});this.arr
 tter","text-anchor":"middle"},"M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.
 map((dyad,side)=>new PARTS[dyad.kind](this,side));if(links.length)this.parts.push(...links.map(link=>new JointedLink(this,link)),new Joints(this,ground,names));
 this.coupler.append(s("path",{class:"bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.
-append(part.pin);this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,links.length?null:this.letter)}fits({led}){return kindsOf(
-led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(
-data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.
-moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).
-map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of linkage.drawn?[]:this.plates)put(plate,"d",d);for(const part of this.parts.slice(linkage.led.
-length))part.shape(view);this.shapeArrow()}show(place){const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.
-hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,
-"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)}\
- translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 \
-5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(
-y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[
-x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`b\
-m-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"\
-data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("pa\
-th",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("ci\
-rcle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(
-stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){
-const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};
-var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){
-this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(
-this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));
-this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(
-...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(
-dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].
-map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dy\
-ad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.
-fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};var JointedLink=class{constructor({links},{joints,kind}){this.
-joints=[...joints];this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];links.append(s("g",{class:`bm-link bm-${kind}${joints.length>2?" bm-ter\
-nary":""}`,"data-link":joints.replace("M","")},this.strokes))}shape(view){this.view=view}show(place){const d=`M${this.joints.map(joint=>inGround(place.joints[joint]??
-[place.x,place.y],this.view).map(px).join(" ")).join("L")}${this.joints.length>2?"Z":""}`;for(const stroke of this.strokes)put(stroke,"d",d)}};var Joints=class{constructor({
-pins},ground,names){this.pins=[...Object.keys(ground),...Object.keys(names)].map(joint=>{const pin=s("circle",{class:`bm-pin${joint in ground?" bm-fixed-pin":""}`,
-r:4.5,"data-joint":joint});return{joint,pin,link:[...names[joint]??""],name:joint in ground?null:s("text",{class:"bm-name","text-anchor":"middle"},joint)}});pins.
-append(...this.pins.map(({pin})=>pin),...this.pins.flatMap(({name})=>name??[]))}shape(view){this.view=view}show({joints}){for(const{joint,pin,link,name}of this.
-pins){const[x,y]=inGround(joints[joint],this.view);put(pin,"cx",px(x));put(pin,"cy",px(y));if(!name)continue;const[u,v]=outwards(link.map(each=>inGround(joints[each],
-this.view)),[x,y]);put(name,"x",px(x+NAME*u));put(name,"y",px(y+NAME*v+4))}}};function outwards(corners,[x,y]){const middle2=[0,1].map(k=>corners.reduce((sum,corner)=>sum+
-corner[k],0)/corners.length);const u=x-middle2[0],v=y-middle2[1],size2=Math.hypot(u,v);return size2>1?[u/size2,v/size2]:[0,-1]}var Nothing=class{shape(){}show(){}};
-var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing,crank:Nothing};var ANGLES={"°":1,deg:1,degree:1,degrees:1,rad:180/Math.PI,mrad:.18/Math.PI};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var button=(text,onclick,attributes={})=>h("button",{type:"button",class:"bm-button",onclick,...attributes},text);var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
+append(part.pin);this.marks=new LoadMarks;this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,this.marks.group,links.
+length?null:this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=Boolean(data.
+body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.remove()}const corners=[
+[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(dyad,view,places);if(more)
+corners.push(more)});const d=`M${hull(corners).map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate of linkage.drawn?[]:this.plates)put(plate,"d",
+d);for(const part of this.parts.slice(linkage.led.length))part.shape(view);this.marks.shape(data,linkage,view);this.shapeArrow()}show(place,drive=null){const{view}=this,
+at=transform(view.X(place.x),view.Y(place.y),place.a);this.marks.show(place,drive);put(this.coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",
+at);for(const part of this.parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transform",`translate(${px(view.
+X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){
+const{arrow:arrow2,view}=this,[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[
+x,y]=driver.fixed_pivot;put(arrow2,"d",TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.
+map(dyad=>dyad.kind).join();var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(
+dyad);return transform(view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/
+2,width,height,rx:2}));function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),
+view.Y(y)];var Bar=class{constructor({links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-\
+side${side}`},this.strokes);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.
+append(this.ground)}shape(dyad,view){this.dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(
+this.ground,inGround(dyad.fixed_pivot,view),dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,
+[x,y]=act(place,dyad.moving_pivot);put(this.bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){
+this.block=block(side,...BLOCK);this.pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,
+"data-dyad",dyad.id);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({
+blocks,pins,coupler},side){this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.
+block=block(side,...BLOCK_IN_SLOT);this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(
+this.ground)}shape(dyad,view,places){this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.
+scale;const seen2=along2=>inBody(pointOnLine(dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.
+strokes)put(stroke,"d",d);for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2(
+(low+high)/2)}show(place){const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.
+a+Math.atan2(nx,-ny)))}};var JointedLink=class{constructor({links},{joints,kind}){this.joints=[...joints];this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"\
+bm-core"})];links.append(s("g",{class:`bm-link bm-${kind}${joints.length>2?" bm-ternary":""}`,"data-link":joints.replace("M","")},this.strokes))}shape(view){this.
+view=view}show(place){const d=`M${this.joints.map(joint=>inGround(place.joints[joint]??[place.x,place.y],this.view).map(px).join(" ")).join("L")}${this.joints.length>
+2?"Z":""}`;for(const stroke of this.strokes)put(stroke,"d",d)}};var Joints=class{constructor({pins},ground,names){this.pins=[...Object.keys(ground),...Object.keys(
+names)].map(joint=>{const pin=s("circle",{class:`bm-pin${joint in ground?" bm-fixed-pin":""}`,r:4.5,"data-joint":joint});return{joint,pin,link:[...names[joint]??
+""],name:joint in ground?null:s("text",{class:"bm-name","text-anchor":"middle"},joint)}});pins.append(...this.pins.map(({pin})=>pin),...this.pins.flatMap(({name})=>name??
+[]))}shape(view){this.view=view}show({joints}){for(const{joint,pin,link,name}of this.pins){const[x,y]=inGround(joints[joint],this.view);put(pin,"cx",px(x));put(
+pin,"cy",px(y));if(!name)continue;const[u,v]=outwards(link.map(each=>inGround(joints[each],this.view)),[x,y]);put(name,"x",px(x+NAME*u));put(name,"y",px(y+NAME*
+v+4))}}};function outwards(corners,[x,y]){const middle2=[0,1].map(k=>corners.reduce((sum,corner)=>sum+corner[k],0)/corners.length);const u=x-middle2[0],v=y-middle2[1],
+size2=Math.hypot(u,v);return size2>1?[u/size2,v/size2]:[0,-1]}var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing,crank:Nothing};var ANGLES={"°":1,deg:1,degree:1,degrees:1,rad:180/Math.PI,mrad:.18/Math.PI};var stepOf=(event,step)=>step*(event.shiftKey?10:event.altKey?.1:1);var stepped=(value,by)=>Number((value+by).toPrecision(12));var button=(text,onclick,attributes={})=>h("button",{type:"button",class:"bm-button",onclick,...attributes},text);var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
 text.length+4)/2,places=[],count=few?8:16;for(let ring=0;ring<(few?1:3);ring+=1){for(let k=0;k<count;k+=1){const turn=(k%2?1:-1)*Math.ceil(k/2)*(2*Math.PI/count),
 angle=toward+turn,away=distance+9*ring;places.push([(away+half-5)*Math.cos(angle),away*Math.sin(angle),3*Math.abs(turn)+14*ring])}}return places}function along(up,width){
 const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{timer;constructor(scene){
@@ -880,7 +908,7 @@ scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*dat
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
-p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){this.answers=answers;this.playing=playing;
+p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW2=1.5;var LiveLinkage=class{constructor(answers,playing,scene){this.answers=answers;this.playing=playing;
 this.scene=scene;this.factor=0;this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"b\
 m-curve bm-here"});this.pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.
 others,this.beyond,...this.pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(
@@ -888,38 +916,39 @@ side=>s("g",{class:`bm-rail bm-side${side}`},s("path",{class:"bm-ground"}),s("pa
 arrows=s("path",{});this.names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"\
 bs-mechanism"},...this.rails,...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer(
 "paths").append(this.paths);scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("s\
-hape",()=>this.shape());playing.on("place",({place})=>this.mechanism?.show(place));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.
-redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<
-3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.
-led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving].filter(near2)}obstacles(){
-const{playing:{linkage},scene:{view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.
-X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<
-UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();
-if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path}=playing,{view}=scene;
-const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;
-const places=path?framesOf(path):[];this.enlarge();this.curves(linkage,path,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path){this.
-mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.
-holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path,places,view){const set=(element,list2,closed2)=>put(
-element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path);put(this.others,"d",
-others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path?pathOf2(path,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];
-if(!path||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path.round)});if(!path){put(
-this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,
-path,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path.x[k],path.y[k]]);list.push(end(high));set(this.here,list,path.round&&
-high-low>path.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],
-this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(
-name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"trans\
-form",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(
-dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.
-id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>
-24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("pat\
-h",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.
-size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,
-"display","inline");put(group.children[0],"display",data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),
-radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.
-factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.
-x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.
-x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)}\
- ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`all ${noun}s`:
+hape",()=>this.shape());playing.on("place",({place,drive})=>this.mechanism?.show(place,drive));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());
+this.redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.
+y)<3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(
+row=>linkage.led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving,...markPoints(
+data,[])].filter(near2)}obstacles(){const{playing:{linkage},scene:{view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.
+map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&
+!(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.
+factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place,this.playing.here.drive)}shape(){const{
+playing,answers,scene}=this,{linkage,path}=playing,{view}=scene;const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.labels])
+put(part,"visibility",there?"visible":"hidden");if(!there)return;const places=path?framesOf(path):[];this.enlarge();this.curves(linkage,path,places,view);this.ground(
+linkage,places,view);this.atPoses(linkage,view);if(!path){this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.
+group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path,places,view){
+const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(
+way=>way!==path);put(this.others,"d",others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path?pathOf2(path,view):"");this.pivotPaths.forEach((element,side)=>{
+const dyad=linkage.led[side];if(!path||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),
+path.round)});if(!path){put(this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[
+place.x,place.y])(placeAt(linkage,path,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path.x[k],path.y[k]]);list.push(end(high));
+set(this.here,list,path.round&&high-low>path.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[
+this.rails[side],this.feet[side],this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.
+fixed_pivot?"inline":"none");put(name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);
+({x,y}=drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.
+fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,
+x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.
+length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(
+s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.
+size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"\
+display","none");continue}put(group,"display","inline");put(group.children[0],"display",data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(
+view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(
+view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(
+Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*
+(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW2))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(
+x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(
+-1)}`}function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`all ${noun}s`:
 way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:`no ${noun}`;const dead=way.dead.filter(Boolean).length;const ends=way.round?"tu\
 rns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\

@@ -101,10 +101,29 @@ a:catmullRom(way.angle,i,share,way.round)};return project(linkage.led,place,leng
 ...ground};for(const[name,[x,y]]of Object.entries(way.joints))joints[name]=[at(x),at(y)];return{x:at(way.x),y:at(way.y),a:at(way.angle),joints}}function smooth(values,u){
 const count=Math.min(6,values.length),first=clamp(Math.floor(u)-2,0,values.length-count);let sum=0;for(let j=0;j<count;j+=1){let weight=1;for(let k=0;k<count;k+=
 1)if(k!==j)weight*=(u-first-k)/(j-k);sum+=weight*values[first+j]}return sum}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===
-null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems},at){
+null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems=false},at){
 const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){
 let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=
-wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.
+wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var BARB=[9,4.5];function springPath(kind,[x,y],[u,v]){const length=Math.
+hypot(u-x,v-y)||1,across=[-HALF_WIDTH*(v-y)/length,HALF_WIDTH*(u-x)/length];const at=(share,side)=>`${px(x+share*(u-x)+side*across[0])} ${px(y+share*(v-y)+side*
+across[1])}`;if(kind==="constant")return`M${at(0,0)}L${at(1,0)}`;if(kind==="gas")return`M${at(0,1)}L${at(BARREL,1)}L${at(BARREL,-1)}L${at(0,-1)}ZM${at(BARREL,0)}\
+L${at(1,0)}`;const teeth=Array.from({length:2*COILS+1},(_,k)=>at(LEAD+(1-2*LEAD)*k/(2*COILS),k%(2*COILS)?k%2?1:-1:0));return`M${[at(0,0),...teeth,at(1,0)].join(
+"L")}`}function markPoints({loads},places){if(!loads)return[];const ends=loads.springs.flatMap(spring=>spring.ends),on=name=>ends.filter(({link})=>link===name).
+map(({point:point2})=>point2);return[...on("ground"),...places.flatMap(place=>[...on("body"),...loads.hand?[loads.hand]:[]].map(point2=>act(place,point2)))]}function arrowPath([
+x,y],angle,length){const c=Math.cos(angle),d=-Math.sin(angle),tip=[x+length*c,y+length*d];const barb=side=>`${px(tip[0]-BARB[0]*c-side*BARB[1]*d)} ${px(tip[1]-BARB[0]*
+d+side*BARB[1]*c)}`;return`M${px(x)} ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`}var LoadMarks=class{constructor(){this.springs=
+s("g",{class:"bm-springs"});this.hand=s("path",{class:"bm-hand"});this.group=s("g",{class:"bm-loads"},this.springs,this.hand)}shape(data,linkage,view){this.view=
+view;this.loads=data.loads??null;this.known=linkage.loads??null;const springs=this.loads?.springs??[];while(this.springs.children.length>springs.length)this.springs.
+lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),s("circle",{class:"bm-spring-en\
+d",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind},k)=>put(this.springs.children[k],"data-spring",kind))}show(place,drive){const{loads,
+view}=this;if(!loads||!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,drive)),group=this.
+springs.children[k];put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",springPath(kind,at[0],at[1]));
+at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});const pushes=this.known?.hand,angle=pushes&&drive!==null?valueAt(
+pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+(LONGEST_ARROW-
+LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}seen([x,y]){const{view}=this;return view?
+[view.X(x),view.Y(y)]:[0,0]}endOf({link,point:point2},spring,end,place,drive){if(link==="ground")return this.seen(point2);if(link==="body")return this.seen(act(
+place,point2));const known=this.known?.moved.find(each=>each.spring===spring&&each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):
+[null];return at.some(each=>each===null)?null:this.seen(at)}};var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.
 y[u],a:way.angle[u]}:placeAt(linkage,way,u,data.chart.length));function placesAlong(data,{low,high},at){const places=[at(low)];let before=low;const goTo=u=>{const next=at(
 u),last=places[places.length-1];const count=Math.min(MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=
 count;k+=1)places.push(at(before+k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){
@@ -117,17 +136,17 @@ dyad.kind==="RP"&&places.length?travelOf(dyad,places).map(end=>pointOnLine(dyad,
 at:act(place,point2)})}for(const{joints}of places)for(const at of Object.values(joints??{}))found.push({fixed:false,at});return found}function boundsOf(data,linkage,places,far){
 const isFar=farFrom(data),box=[Infinity,Infinity,-Infinity,-Infinity];const include=([x,y])=>{if(!Number.isFinite(x+y)||!far&&isFar([x,y]))return;box[0]=Math.min(
 box[0],x);box[1]=Math.min(box[1],y);box[2]=Math.max(box[2],x);box[3]=Math.max(box[3],y)};for(const pose of data.poses)include([pose.x,pose.y]);if(linkage){for(const row of linkage.
-pose_errors)if(row.x!==null)include([row.x,row.y]);for(const place of places)include([place.x,place.y]);for(const{at}of pivotsAt(linkage,places))include(at)}const least2=.25*
-data.scene;for(const k of[0,1]){const lack=least2-(box[k+2]-box[k]);if(lack>0){box[k]-=lack/2;box[k+2]+=lack/2}}return box}function viewOf(box,width,height,margin){
-const scale=Math.min((width-2*margin)/(box[2]-box[0]),(height-2*margin)/(box[3]-box[1]));const left=width/2-scale*(box[0]+box[2])/2;const top=height/2+scale*(box[1]+
-box[3])/2;return{scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y}}var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))}\
-)`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3} 16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),
-s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head}\
- ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function polyline(points,view){let path2="",pen="M";for(const[x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(
-y)){pen="M";continue}path2+=`${pen}${px(view.X(x))} ${px(view.Y(y))}`;pen="L"}return path2}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||
-p[1]-q[1]);const half=list=>{const kept=[];for(const point2 of list){while(kept.length>1){const[a,b]=kept.slice(-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*
-(point2[0]-a[0])>0)break;kept.pop()}kept.push(point2)}return kept.slice(0,-1)};const corners=[...half(sorted),...half(sorted.reverse())];return corners.length?corners:
-sorted.slice(0,1)}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
+pose_errors)if(row.x!==null)include([row.x,row.y]);for(const place of places)include([place.x,place.y]);for(const{at}of pivotsAt(linkage,places))include(at);for(const at of markPoints(
+data,places))include(at)}const least2=.25*data.scene;for(const k of[0,1]){const lack=least2-(box[k+2]-box[k]);if(lack>0){box[k]-=lack/2;box[k+2]+=lack/2}}return box}
+function viewOf(box,width,height,margin){const scale=Math.min((width-2*margin)/(box[2]-box[0]),(height-2*margin)/(box[3]-box[1]));const left=width/2-scale*(box[0]+
+box[2])/2;const top=height/2+scale*(box[1]+box[3])/2;return{scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y}}var transform=(x,y,angle)=>`translat\
+e(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3} 16l-6 7`;return s("g",{class:"bm-fo\
+ot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){const l=length,head=Math.max(4,
+.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function polyline(points,view){let path2="",pen="M";for(const[
+x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(y)){pen="M";continue}path2+=`${pen}${px(view.X(x))} ${px(view.Y(y))}`;pen="L"}return path2}function hull(points){
+const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point2 of list){while(kept.length>1){const[a,b]=kept.slice(
+-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*(point2[0]-a[0])>0)break;kept.pop()}kept.push(point2)}return kept.slice(0,-1)};const corners=[...half(sorted),...half(
+sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
 var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
 ...list.slice(0,index),value,...list.slice(index)];var withList=(document2,key,list)=>withKeys(document2,{[key]:list.length?list:void 0});var filled=table3=>Object.
 keys(table3).length?table3:void 0;var EXACT={x:0,y:0,angle_deg:0};var FEWEST_TRACED=10;var isFree=(pose,key)=>Boolean(pose?.free?.includes(key))||pose?.tolerance?.[key]===
@@ -230,27 +249,28 @@ led,drawn:links=[],ground,names}){this.kinds=kindsOf(led);this.outline=s("path",
 this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middle"},"\
 M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.
 kind](this,side));if(links.length)this.parts.push(...links.map(link=>new JointedLink(this,link)),new Joints(this,ground,names));this.coupler.append(s("path",{class:"\
-bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.group=s("g",
-{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,links.length?null:this.letter)}fits({led}){return kindsOf(led)===this.kinds}shape(data,linkage,view,places){
-this.view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(data,view));if(!this.outline.parentNode)this.
-group.prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.moving_pivot)corners.push(inBody(dyad.moving_pivot,
-view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).map(corner=>corner.map(px).join(" ")).join("L")}\
-Z`;for(const plate2 of linkage.drawn?[]:this.plates)put(plate2,"d",d);for(const part of this.parts.slice(linkage.led.length))part.shape(view);this.shapeArrow()}show(place){
-const{view}=this,at=transform(view.X(place.x),view.Y(place.y),place.a);put(this.coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.
-parts)part.show(place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);
-const[driver]=this.led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,
-[driver]=this.led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(
-arrow2,"d",TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();
-var inBody=([x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(
-view.X(x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));
-function setPin(pin,[x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({
-links,pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=
-s("circle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.
-dyad=dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),
-dyad);setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.
-bar,"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.
-pin=s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.
-pin,inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){
+bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.marks=new LoadMarks;
+this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,this.marks.group,links.length?null:this.letter)}fits({led}){return kindsOf(
+led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(
+data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.
+moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).
+map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate2 of linkage.drawn?[]:this.plates)put(plate2,"d",d);for(const part of this.parts.slice(linkage.
+led.length))part.shape(view);this.marks.shape(data,linkage,view);this.shapeArrow()}show(place,drive=null){const{view}=this,at=transform(view.X(place.x),view.Y(place.
+y),place.a);this.marks.show(place,drive);put(this.coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(
+place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.
+led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.
+led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",
+TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([
+x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(
+x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[
+x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,
+pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("c\
+ircle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=
+dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);
+setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,
+"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=
+s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,
+inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){
 this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);
 this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){
 this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(
@@ -759,8 +779,8 @@ this.scene,{shape,name:`footprint ${shape}`,place:()=>GROUND,done:points=>{store
 points);return[(x+u)/2,upper?v:y]}function widthOf(points){const[x,,u]=bounds(points);return Number.isFinite(u-x)?u-x:0}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of root.querySelectorAll("details:not([open])")){part.open=true;part.
 dataset.opened=""}},{signal});window.addEventListener("afterprint",()=>{for(const part of root.querySelectorAll("details[data-opened]")){part.open=false;delete part.
 dataset.opened}},{signal})}var Events=class{heard;on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
-for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME4=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],scene:1,unit:null,dyads:[],
-linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,transmission_limit:{
+for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME4=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],loads:null,scene:1,unit:null,
+dyads:[],linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,transmission_limit:{
 deg:40,said:"40°, a usual limit"},keys:[],table:null,best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;
 this.data={...NOTHING};this.linkages=[];this.gone=[];this.byId=new Map;this.placed=null;store.on("solved",()=>this.takeSolved());store.on("followed",()=>this.takeFollowed());
 store.on("document",()=>this.takePoses());store.on("chosen",()=>this.emit("shown"));store.on("placed",()=>this.takePlaced());this.takePoses();if(store.solved)this.
@@ -867,12 +887,12 @@ where";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(v
 {class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.x),y=view.
 Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.min(7,
 .5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;arrows.
-append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});return arrows}show(place){
-this.moving?.show(place)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
+append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});return arrows}show(place,drive){
+this.moving?.show(place,drive)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
-p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW=1.5;var LiveLinkage=class{constructor(answers,playing,scene){this.answers=answers;this.playing=playing;
+p,q]}return d}var MOST_ACHIEVED=240;var OFF=27;var FOOT=11;var LEAST_ARROW2=1.5;var LiveLinkage=class{constructor(answers,playing,scene){this.answers=answers;this.playing=playing;
 this.scene=scene;this.factor=0;this.beyond=s("path",{class:"bm-curve bm-beyond"});this.others=s("path",{class:"bm-curve bm-other"});this.here=s("path",{class:"b\
 m-curve bm-here"});this.pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-path bm-side${side}`}));this.paths=s("g",{class:"bs-paths","aria-hidden":"true"},this.
 others,this.beyond,...this.pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(
@@ -880,38 +900,39 @@ side=>s("g",{class:`bm-rail bm-side${side}`},s("path",{class:"bm-ground"}),s("pa
 arrows=s("path",{});this.names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"\
 bs-mechanism"},...this.rails,...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer(
 "paths").append(this.paths);scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("s\
-hape",()=>this.shape());playing.on("place",({place})=>this.mechanism?.show(place));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.
-redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.y)<
-3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(row=>linkage.
-led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving].filter(near2)}obstacles(){
-const{playing:{linkage},scene:{view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.
-X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<
-UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();
-if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place)}shape(){const{playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;
-const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;
-const places=path2?framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){
-this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);
-this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(
-element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",
-others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];
-if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(
-this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,
-path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&
-high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],
-this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(
-name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"trans\
-form",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(
-dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.
-id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>
-24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("pat\
-h",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.
-size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,
-"display","inline");put(group.children[0],"display",data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),
-radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.
-factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.
-x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.
-x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)}\
- ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+hape",()=>this.shape());playing.on("place",({place,drive})=>this.mechanism?.show(place,drive));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());
+this.redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.
+y)<3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(
+row=>linkage.led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving,...markPoints(
+data,[])].filter(near2)}obstacles(){const{playing:{linkage},scene:{view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.
+map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&
+!(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.
+factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place,this.playing.here.drive)}shape(){const{
+playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.
+labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;const places=path2?framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,view);
+this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){
+this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){
+const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(
+way=>way!==path2);put(this.others,"d",others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{
+const dyad=linkage.led[side];if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),
+path2.round)});if(!path2){put(this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[
+place.x,place.y])(placeAt(linkage,path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(
+high));set(this.here,list,path2.round&&high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,
+at,name]=[this.rails[side],this.feet[side],this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"d\
+isplay",dyad.fixed_pivot?"inline":"none");put(name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,
+places,view);({x,y}=drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.
+fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,
+x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.
+length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(
+s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.
+size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"\
+display","none");continue}put(group,"display","inline");put(group.children[0],"display",data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(
+view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(
+view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(
+Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*
+(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW2))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(
+x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(
+-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
 led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
 point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
 [null,point2&&point2[key]]:[point2?.[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
@@ -952,61 +973,82 @@ button",class:"bs-card-main","aria-pressed":String(Boolean(chosen)),onclick:()=>
 ([name,value])=>[h("dt",{},name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){const{store,of,
 known}=this;if(k)store.takeCognate(known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.show();this.cards.
 children[k]?.querySelector("button").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var ONLY=150;var GAP=28;var MANY_POSES=40;var HEADROOM=1.32;var NO_ERROR=1e-7;var TITLE="Errors a\
-nd transmission angle";var INSET=8;var LONGEST_NAME5=16;var NAME_WIDTH=11;var Plots=class{top;count;marks;way;width;X;stretch;across;constructor(data,parent,scrub){
+nd transmission angle";var INSET=8;var LONGEST_NAME5=16;var NAME_WIDTH=11;var Plots=class{top=TOP;count;marks;way;width;X;stretch;across;constructor(data,parent,scrub){
 this.data=data;this.parent=parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":TITLE});parent.append(this.svg);const go=event=>{if(!this.way)return;
-const box=this.svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);scrub(frameAt(this.way.drive,this.low+clamp(
-at,0,1)*(this.high-this.low)))};this.svg.addEventListener("pointerdown",event=>{this.svg.setPointerCapture(event.pointerId);go(event)});this.svg.addEventListener(
-"pointermove",event=>event.buttons&1&&go(event))}build(linkage,index,stretch){const{data,svg}=this,way=linkage.ways[index];this.linkage=linkage;this.way=way;svg.
-replaceChildren();this.cursor=null;if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: ${TITLE.toLowerCase()} along the driver`);const width=this.width=
-Math.max(260,this.parent.clientWidth);const poses=linkage.pose_errors.map((row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.
-some(({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*
-longest+6:0);const count=this.count=linkage.panels?linkage.panels.length+1:way.loops?1:nounOf(data)==="point"?2:3;const height=this.top+(count>1?count*PANEL+(count-
-1)*GAP:ONLY)+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);const[driver]=linkage.led,slides=driver.kind==="PR";this.
-stretch=stretch;this.low=linear(way.drive,stretch.low);this.high=linear(way.drive,stretch.high);this.X=drive=>LEFT+INSET+(drive-this.low)/(this.high-this.low)*(width-
-LEFT-RIGHT-2*INSET);this.across=slides?ticks(this.low,this.high,width/90):angleTicks(this.low,this.high,Math.max(3,width/70));const rows=poses.map(row=>({...row,
-drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";this.marks=[];const base=this.panels(rows,unit2);if(upright)this.uprightNames(rows);
-const title=way.told?`${way.told[0].name} (°)`:slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;svg.append(s("text",{class:"\
-bm-title",x:(LEFT+width-RIGHT)/2,y:height-6,"text-anchor":"middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.cursor.
-append(...this.marks.map(({mark})=>mark));svg.append(this.cursor)}panels(rows,unit2){this.linkage.panels?.forEach((each,k)=>this.values(k,each));if(this.linkage.
-panels||this.count===1)return this.transmission(this.count-1,rows);this.errors(0,`position error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);if(nounOf(
-this.data)==="point")return this.transmission(1,rows);this.errors(1,"angle error (°)",rows.filter(({pose})=>!isPoint2(pose)),row=>row.turned_deg,1e-9);return this.
-transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const greatest=Math.max(1e-300,...rows.map(row=>value(
-row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*greatest:1;const Y=v=>base-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(
-s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, up to rounding":`no ${nounOf(this.data)} is on this assembly`))}else{for(const{at}of ticks(
-0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT-6,y:base+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].
-sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):
-base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s("circle",{class:"bm-dot",cx:x,cy:y,r:3.5},s("title",{},`${calledOf(row.pose)}: ${figure(value(
-row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.length<=MANY_POSES||greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-
-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{svg,way,width,X}=this,y0=this.top+k*(PANEL+GAP),base=y0+(this.count>1?PANEL:ONLY);const Y=v=>base-
-v/90*(base-y0);this.panel("transmission angle (°)",y0,base,true);for(const at of[0,30,60,90])this.rule(Y(at),at);const{deg:limit,said}=this.data.transmission_limit;
-svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}H${width-RIGHT}`}));const below=limit>15&&(linear(way.transmission,this.stretch.high)??90)>limit;
-const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-4,y:px(Y(limit))+(below?12:-4),"text-anchor":"end"},said);(way.loops??[way.transmission]).forEach(
-(values,loop)=>{this.mark(drive=>linear(values,frameAt(way.drive,drive)),Y);const kind=way.loops?` bm-loop${loop}`:"";this.curve(values,Y,`bm-line${kind}`);for(const row of rows){
-const value=way.loops?row.loops[loop]:row.transmission_deg;if(value!==null)svg.append(s("circle",{class:`bm-dot${kind}`,cx:px(X(row.drive)),cy:px(Y(value)),r:3}))}});
-svg.append(limitName2);return base}mark(value,Y){this.marks.push({mark:s("circle",{r:4.5}),value,Y})}values(k,curve){const{title,x,y,dots,stems}=curve,{svg,low,
-high}=this,y0=this.top+k*(PANEL+GAP),base=y0+PANEL;const shown2=[...x.keys()].filter(i=>y[i]!==null&&x[i]>=low&&x[i]<=high).map(i=>[x[i],y[i]]);const all=[...shown2,
-...dots].map(([,value])=>value),least2=Math.min(...all),most=Math.max(...all),room=.08*(most-least2);this.panel(title,y0,base);if(!(Math.max(Math.abs(least2),Math.
-abs(most))>NO_ERROR)){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},shown2.length?"exact, up to rounding":"it cannot be assembled"));return}const Y=v=>base-
-(v-least2+room)/(most-least2+2*room)*PANEL;const at=point2=>`${px(this.X(point2[0]))} ${px(Y(point2[1]))}`;for(const{at:value,text}of ticks(least2,most,4))this.
-rule(Y(value),text);if(least2<0&&most>0)svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));if(stems)for(const[a,b]of shown2)svg.
-append(s("path",{class:"bm-stem",d:`M${at([a,0])}L${at([a,b])}`}));else svg.append(s("path",{class:"bm-line",d:`M${shown2.map(at).join("L")}`}));for(const[a,b]of dots)
-svg.append(s("circle",{class:"bm-dot",cx:px(this.X(a)),cy:px(Y(b)),r:3.5},s("title",{},`${figure(b)}°`)));this.mark(drive=>valueAt(curve,drive),Y)}curve(values,Y,name){
-const{low,high}=this.stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const value=linear(
-values,u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen="L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){
-let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=this.X(row.drive),y=this.top-20;if(x-last<NAME_WIDTH)continue;last=x;const text=s("\
-text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});text.append(shortened(poseName2(row.pose),LONGEST_NAME5));this.svg.
-append(s("g",{},s("title",{},poseName2(row.pose)),text))}}panel(title,y0,base,labelled3=false){const{svg,width}=this;svg.append(s("rect",{class:"bm-panel",x:LEFT,
-y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));let last=-99;for(const{at,text}of this.across){const x=px(this.X(
-at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled3&&x-last>34){svg.append(s("text",{class:"bm-tick",x,y:base+15,"text-anchor":"mi\
-ddle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-6,y:px(
-y)+4,"text-anchor":"end"},text))}show(drive){if(!this.cursor)return;this.cursor.setAttribute("transform",`translate(${px(this.X(drive))} 0)`);for(const{mark,value,
-Y}of this.marks){const at=value(drive);put(mark,"visibility",at===null?"hidden":"inherit");if(at!==null)put(mark,"cy",px(Y(at)))}}};var Charts=class{constructor(answers,playing){this.playing=playing;const fill=h("div",{class:"bm-fill"});this.plots=new Plots(answers.data,fill,u=>playing.player.
-go(u));this.nothing=h("p",{class:"bs-quiet",hidden:true},"No linkage is there whose motion could be shown.");this.element=h("div",{},this.nothing,fill);this.pace=
-new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive,transmission})=>{if(this.isFresh&&isSeen(fill))this.
-plots.show(drive)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);watch(fill,()=>this.pace.ask())}build(){const{
-playing,plots}=this,{linkage,path:path2,player}=playing;give(this.nothing,"hidden",Boolean(linkage&&path2&&!linkage.gone));if(!linkage||!path2||linkage.gone||linkage.
-pose_errors.length!==plots.data.poses.length){plots.svg.replaceChildren();plots.way=plots.cursor=null;return}plots.build(linkage,player.way,player.stretch);this.
-isFresh=true;if(playing.here)plots.show(playing.here.drive)}};var stopsOf=(linkage,index)=>linkage.pose_errors.map((row,k)=>({k,way:row.way,frame:row.frame})).filter(stop=>stop.way===index).sort((a,b)=>a.frame-b.frame);function stageOf(linkage,index,u){
+const box=this.svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);const drive=this.driveAt(this.low+clamp(
+at,0,1)*(this.high-this.low));if(drive!==null)scrub(frameAt(this.way.drive,drive))};this.svg.addEventListener("pointerdown",event=>{this.svg.setPointerCapture(event.
+pointerId);go(event)});this.svg.addEventListener("pointermove",event=>event.buttons&1&&go(event))}build(linkage,index,stretch){const{data,svg}=this,way=linkage.
+ways[index];this.linkage=linkage;this.way=way;svg.replaceChildren();this.cursor=null;if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: ${TITLE.toLowerCase()}\
+ along the driver`);const poses=linkage.pose_errors.map((row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.some(
+({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+
+6:0);const count=linkage.panels?linkage.panels.length+1:way.loops?1:nounOf(data)==="point"?2:3;const[driver]=linkage.led,slides=driver.kind==="PR";this.stretch=
+stretch;const rows=poses.map(row=>({...row,drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";const title=way.told?`${way.told[0].name}\
+ (°)`:slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;this.frame(count,linear(way.drive,stretch.low),linear(way.drive,stretch.
+high),!slides,title,()=>{this.panels(rows,unit2);if(upright)this.uprightNames(rows)})}frame(count,low,high,turns,title,draw){const{svg}=this,width=this.width=Math.
+max(260,this.parent.clientWidth);this.count=count;this.low=low;this.high=high;const base=this.top+(count>1?count*PANEL+(count-1)*GAP:ONLY),height=base+BOTTOM;svg.
+setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);this.X=at=>LEFT+INSET+(at-low)/(high-low)*(width-LEFT-RIGHT-2*INSET);this.across=
+turns?angleTicks(low,high,Math.max(3,width/70)):ticks(low,high,width/90);this.marks=[];draw();svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/2,y:height-
+6,"text-anchor":"middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.cursor.append(...this.marks.map(({mark})=>mark));
+svg.append(this.cursor)}heights(k){const y0=this.top+k*(PANEL+GAP);return[y0,y0+(this.count>1?PANEL:ONLY)]}placeOf(drive){return drive}driveAt(place){return place}panels(rows,unit2){
+this.linkage.panels?.forEach((each,k)=>this.values(k,each));if(this.linkage.panels||this.count===1){this.transmission(this.count-1,rows);return}this.errors(0,`p\
+osition error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);if(nounOf(this.data)==="point"){this.transmission(1,rows);return}this.errors(1,"angle er\
+ror (°)",rows.filter(({pose})=>!isPoint2(pose)),row=>row.turned_deg,1e-9);this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,[y0,base]=this.
+heights(k);const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*greatest:1;const Y=v=>base-
+v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, up to rounding":`no ${nounOf(
+this.data)} is on this assembly`))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT-6,y:base+
+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[...rows].sort((a,b)=>a.
+drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s("circle",{class:"bm-do\
+t",cx:x,cy:y,r:3.5},s("title",{},`${calledOf(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.length<=MANY_POSES||
+greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{svg,way,width,X}=this,
+[y0,base]=this.heights(k);const Y=v=>base-v/90*(base-y0);this.panel("transmission angle (°)",y0,base,true);for(const at of[0,30,60,90])this.rule(Y(at),at);const{
+deg:limit,said}=this.data.transmission_limit;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}H${width-RIGHT}`}));const below=limit>15&&(linear(
+way.transmission,this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-4,y:px(Y(limit))+(below?12:-4),"text-anchor":"en\
+d"},said);(way.loops??[way.transmission]).forEach((values,loop)=>{this.mark(drive=>linear(values,frameAt(way.drive,drive)),Y);const kind=way.loops?` bm-loop${loop}`:
+"";this.curve(values,Y,`bm-line${kind}`);for(const row of rows){const value=way.loops?row.loops[loop]:row.transmission_deg;if(value!==null)svg.append(s("circle",
+{class:`bm-dot${kind}`,cx:px(X(row.drive)),cy:px(Y(value)),r:3}))}});svg.append(limitName2)}mark(value,Y){this.marks.push({mark:s("circle",{r:4.5}),value,Y})}values(k,curve){
+const{title,x,y,dots,stems}=curve,{svg,low,high}=this,[y0,base]=this.heights(k);const shown2=[...x.keys()].filter(i=>y[i]!==null&&x[i]>=low&&x[i]<=high).map(i=>[
+x[i],y[i]]);const all=[...shown2,...dots].map(([,value])=>value),least2=Math.min(...all),most=Math.max(...all),room=.08*(most-least2);this.panel(title,y0,base);
+if(!(Math.max(Math.abs(least2),Math.abs(most))>NO_ERROR)){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},shown2.length?"exact, up to rounding":"it \
+cannot be assembled"));return}const Y=v=>base-(v-least2+room)/(most-least2+2*room)*PANEL;const at=point2=>`${px(this.X(point2[0]))} ${px(Y(point2[1]))}`;for(const{
+at:value,text}of ticks(least2,most,4))this.rule(Y(value),text);if(least2<0&&most>0)svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));
+if(stems)for(const[a,b]of shown2)svg.append(s("path",{class:"bm-stem",d:`M${at([a,0])}L${at([a,b])}`}));else svg.append(s("path",{class:"bm-line",d:`M${shown2.map(
+at).join("L")}`}));for(const[a,b]of dots)svg.append(s("circle",{class:"bm-dot",cx:px(this.X(a)),cy:px(Y(b)),r:3.5},s("title",{},`${figure(b)}°`)));this.mark(drive=>valueAt(
+curve,drive),Y)}curve(values,Y,name){const{low,high}=this.stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",
+pen="M";for(const u of frames){const value=linear(values,u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen=
+"L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=this.X(row.drive),
+y=this.top-20;if(x-last<NAME_WIDTH)continue;last=x;const text=s("text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});
+text.append(shortened(poseName2(row.pose),LONGEST_NAME5));this.svg.append(s("g",{},s("title",{},poseName2(row.pose)),text))}}panel(title,y0,base,labelled3=false){
+const{svg,width}=this;svg.append(s("rect",{class:"bm-panel",x:LEFT,y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));
+let last=-99;for(const{at,text}of this.across){const x=px(this.X(at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled3&&x-last>34){svg.
+append(s("text",{class:"bm-tick",x,y:base+15,"text-anchor":"middle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}\
+H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-6,y:px(y)+4,"text-anchor":"end"},text))}show(drive){if(!this.cursor)return;const at=this.placeOf(drive);
+put(this.cursor,"visibility",at===null?"hidden":"visible");if(at===null)return;this.cursor.setAttribute("transform",`translate(${px(this.X(at))} 0)`);for(const{
+mark,value,Y}of this.marks){const known=value(at);put(mark,"visibility",known===null?"hidden":"inherit");if(known!==null)put(mark,"cy",px(Y(known)))}}};var TITLE2="Loads";var fieldsets=0;var LoadPlots=class extends Plots{own=null;timed=null;drive;overTime=false;constructor(data,parent,scrub){super(data,parent,scrub);
+const name=`bm-over-${fieldsets+=1}`;const one=(text,overTime)=>h("label",{},h("input",{type:"radio",name,checked:!overTime,onchange:()=>this.take(overTime)}),h(
+"span",{},text));this.choice=h("fieldset",{class:"bm-ways bm-over",hidden:true},one("Over the driver",false),one("Over time",true));this.nothing=h("p",{class:"b\
+m-note-text",hidden:true},"Loads are known from the first pose to the last, of a linkage that leads through all of them.");parent.prepend(this.choice,this.nothing)}take(overTime){
+this.overTime=overTime;this.draw();if(this.drive!==void 0)this.show(this.drive)}build(linkage,index){this.linkage=linkage;const loads=linkage?.loads,here=Boolean(
+loads)&&loads.way===index&&Boolean(linkage.ways[index]);this.own=here?loads:null;this.way=here?linkage.ways[index]:null;this.choice.hidden=!this.own?.timed;this.
+nothing.hidden=here;this.draw()}draw(){const{svg,own,data}=this;svg.replaceChildren();svg.removeAttribute("height");this.cursor=null;if(!own)return;const timed=this.
+overTime&&own.timed?own.timed:null,panels=(timed??own).panels,{x}=panels[0];this.timed=timed;const[driver]=this.linkage.led,slides=driver.kind==="PR";const title=timed?
+"time (s)":slides?`place of ${driver.id} on its line (${data.unit})`:`driver angle (${driver.id})`;svg.setAttribute("aria-label",`${this.linkage.id}: ${TITLE2.toLowerCase()}\
+ over ${timed?"time":"the driver"}`);this.frame(panels.length,x[0],x[x.length-1],!slides&&!timed,title,()=>{panels.forEach((each,k)=>this.lines(k,each,k+1===panels.
+length))})}lines(k,{title,x,lines},last){const all=lines.flatMap(({y})=>y.filter(each=>each!==null)),[y0,base]=this.heights(k);const least2=Math.min(0,...all),most=Math.
+max(0,...all),room=.08*(most-least2||1);this.panel(title,y0,base,last);const Y=v=>base-(v-least2+room)/(most-least2+2*room)*(base-y0);for(const{at,text}of ticks(
+least2,most,4))this.rule(Y(at),text);if(least2<0&&most>0)this.svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(
+({y},line2)=>{let d="",pen="M";x.forEach((at,i)=>{if(y[i]===null)pen="M";else{d+=`${pen}${px(this.X(at))} ${px(Y(y[i]))}`;pen="L"}});this.svg.append(s("path",{class:`\
+bm-line bm-curve${line2}`,d}));this.mark(at=>valueAt({x,y},at),Y)});if(lines.length>1){const names=s("text",{class:"bm-title",x:this.width-RIGHT,y:y0-7,"text-an\
+chor":"end"});lines.forEach(({name},line2)=>names.append(s("tspan",{class:`bm-curve${line2}`,dx:line2?7:0},name)));this.svg.append(names)}}placeOf(drive){const{
+own,timed}=this;if(timed)return valueAt(timed.time,drive);const{x}=own.panels[0];return drive<x[0]-1e-6||drive>x[x.length-1]+1e-6?null:drive}driveAt(at){if(!this.
+timed)return at;const{x,y}=this.timed.time;return y[0]<=y[y.length-1]?valueAt({x:y,y:x},at):valueAt({x:[...y].reverse(),y:[...x].reverse()},at)}show(drive){this.
+drive=drive;super.show(drive)}};var NO_MOTION="No linkage is there whose motion could be shown.";var Curves=class{constructor(answers,playing,Kind){this.playing=playing;const fill=h("div",{class:"\
+bm-fill"});this.plots=new Kind(answers.data,fill,u=>playing.player.go(u));this.nothing=h("p",{class:"bs-quiet",hidden:true},NO_MOTION);this.element=h("div",{},this.
+nothing,fill);this.pace=new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive})=>{if(this.isFresh&&isSeen(
+fill))this.plots.show(drive)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);watch(fill,()=>this.pace.ask())}build(){
+const{playing,plots}=this,{linkage,path:path2,player}=playing;give(this.nothing,"hidden",Boolean(linkage&&path2&&!linkage.gone));if(!linkage||!path2||linkage.gone||
+linkage.pose_errors.length!==plots.data.poses.length){plots.svg.replaceChildren();plots.way=plots.cursor=null;return}plots.build(linkage,player.way,player.stretch);
+this.isFresh=true;if(playing.here)plots.show(playing.here.drive)}};var Charts=class extends Curves{constructor(answers,playing){super(answers,playing,Plots)}};var LoadCharts=class extends Curves{constructor(answers,playing){
+super(answers,playing,LoadPlots)}};var stopsOf=(linkage,index)=>linkage.pose_errors.map((row,k)=>({k,way:row.way,frame:row.frame})).filter(stop=>stop.way===index).sort((a,b)=>a.frame-b.frame);function stageOf(linkage,index,u){
 const stops=stopsOf(linkage,index);if(!stops.length)return null;if(stops.length===1)return{from:stops[0].k,to:stops[0].k,share:0};let at=0;while(at+2<stops.length&&
 stops[at+1].frame<=u)at+=1;const[a,b]=[stops[at],stops[at+1]],step=b.frame-a.frame;const share=step>0?(u-a.frame)/step:0;return{from:a.k,to:b.k,share:Math.min(Math.
 max(share,-1),2)}}function frameAtStage(linkage,stage){if(!stage)return null;const[a,b]=[stage.from,stage.to].map(k=>linkage.pose_errors[k]);const there=row=>Boolean(
@@ -1675,18 +1717,20 @@ dyads?.length)return placed.dyads;return linkage?.led??[]}build(quick){const{ans
 return;const box=linkage?.space??data.space;const quadrics=dyads.map(dyad=>quadricOf(dyad,data.chart,box));if(quadrics.length===1)quadrics.push(quadrics[0]);const shown2={
 ...linkage&&!linkage.gone?linkage:{ways:[],led:dyads},space:{...box,quadrics}};const key=dyads.map(dyad=>dyad.id).join();if(key!==this.told){this.told=key;this.
 story.replaceChildren(...spaceStory(data,linkage&&dyads.length===2?{id:linkage.id,led:dyads}:null))}space.build(shown2,playing.player.way,quick);if(playing.path&&
-playing.here)space.show(playing.here.place);else space.hide()}};var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("summary",{},h("h2",{},title)),content);
-function addResults(store,scene,{player,results,panels}){const answers=new Answers(store),playing=new Playing(store,answers);const live=new LiveLinkage(answers,
-playing,scene),surface=new PivotSurface(store,answers,playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(answers,playing,
-scene);const cards=new Results(store,answers),charts=new Charts(answers,playing),space=new SpacePanel(answers,playing);const cognates=new CognatePanel(store,answers);
-const compare=new Compare(store,answers,playing),facts=new FactsTable(store,answers,playing,curves);player.append(playing.element,h("div",{class:"bs-player-tool\
-s"},centrodes.element,curves.element));results.append(cards.element);const ofAngles=[panel("pivots","Put a pivot somewhere",true,surface.element),panel("space",
-"Image space",true,space.element)];const ofCurve=panel("cognates","The same curve by three linkages",true,cognates.element);const fold=()=>{const{document:document2}=store;
-for(const each of ofAngles)give(each,"hidden",document2.poses.some(isPoint));give(ofCurve,"hidden",!isOfPoints(document2))};store.on("document",fold);fold();panels.
-append(ofCurve,...ofAngles,panel("charts","Errors and transmission",true,charts.element),panel("compare","Compare two linkages",false,compare.element),panel("fa\
-cts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(new Event("resize")));unfoldForPrint(
-panels,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(prefers-color-scheme: dark)").addEventListener(
-"change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,cards,charts,space,cognates,compare,facts}}var FEW2=40;var PointFields=class{constructor({name,options,step,set}){this.name=name;this.options=options;this.step=step;this.set=set;this.fields=[];this.shape=
+playing.here)space.show(playing.here.place);else space.hide()}};var LOADS=["loads","springs","drive"];var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("\
+summary",{},h("h2",{},title)),content);function addResults(store,scene,{player,results,panels}){const answers=new Answers(store),playing=new Playing(store,answers);
+const live=new LiveLinkage(answers,playing,scene),surface=new PivotSurface(store,answers,playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(
+answers,playing,scene);const cards=new Results(store,answers),charts=new Charts(answers,playing),space=new SpacePanel(answers,playing);const cognates=new CognatePanel(
+store,answers);const compare=new Compare(store,answers,playing),facts=new FactsTable(store,answers,playing,curves);player.append(playing.element,h("div",{class:"\
+bs-player-tools"},centrodes.element,curves.element));results.append(cards.element);const ofAngles=[panel("pivots","Put a pivot somewhere",true,surface.element),
+panel("space","Image space",true,space.element)];const loads=new LoadCharts(answers,playing),ofLoads=panel("loads","Loads along the motion",true,loads.element);
+const ofCurve=panel("cognates","The same curve by three linkages",true,cognates.element);const fold=()=>{const{document:document2}=store;for(const each of ofAngles)
+give(each,"hidden",document2.poses.some(isPoint));give(ofCurve,"hidden",!isOfPoints(document2));give(ofLoads,"hidden",!LOADS.some(key=>document2[key]))};store.on(
+"document",fold);fold();panels.append(ofCurve,...ofAngles,panel("charts","Errors and transmission",true,charts.element),ofLoads,panel("compare","Compare two lin\
+kages",false,compare.element),panel("facts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(
+new Event("resize")));unfoldForPrint(panels,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(\
+prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,cards,charts,loads,space,
+cognates,compare,facts}}var FEW2=40;var PointFields=class{constructor({name,options,step,set}){this.name=name;this.options=options;this.step=step;this.set=set;this.fields=[];this.shape=
 h("span",{class:"bs-hint"});this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.
 shape,this.pairs,this.more)}show(shape,points){const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];say(this.shape,shape);while(this.
 fields.length<count)this.fields.push(this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==

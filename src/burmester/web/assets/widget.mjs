@@ -319,7 +319,7 @@ function linear(values, u) {
   const value = values[i] + share * (values[i + 1] - values[i]);
   return Number.isNaN(value) ? null : value;
 }
-function valueAt({ x, y, stems }, at) {
+function valueAt({ x, y, stems = false }, at) {
   const here = x.findIndex((each) => Math.abs(each - at) < 1e-6);
   if (here >= 0) return y[here];
   return stems || !(at > x[0] && at < x[x.length - 1]) ? null : linear(y, frameAt(x, at));
@@ -336,6 +336,88 @@ function frameAt(values, wanted) {
   const step = values[high] - values[low];
   return low + (step > 0 ? (wanted - values[low]) / step : 0);
 }
+
+// src/burmester/web/widget/load_marks.mjs
+var COILS = 9;
+var LEAD = 0.15;
+var BARREL = 0.6;
+var HALF_WIDTH = 6;
+var LEAST_ARROW = 16;
+var LONGEST_ARROW = 62;
+var BARB = [9, 4.5];
+function springPath(kind, [x, y], [u, v]) {
+  const length = Math.hypot(u - x, v - y) || 1, across = [-HALF_WIDTH * (v - y) / length, HALF_WIDTH * (u - x) / length];
+  const at = (share, side) => `${px(x + share * (u - x) + side * across[0])} ${px(y + share * (v - y) + side * across[1])}`;
+  if (kind === "constant") return `M${at(0, 0)}L${at(1, 0)}`;
+  if (kind === "gas") return `M${at(0, 1)}L${at(BARREL, 1)}L${at(BARREL, -1)}L${at(0, -1)}ZM${at(BARREL, 0)}L${at(1, 0)}`;
+  const teeth = Array.from({ length: 2 * COILS + 1 }, (_, k) => at(LEAD + (1 - 2 * LEAD) * k / (2 * COILS), k % (2 * COILS) ? k % 2 ? 1 : -1 : 0));
+  return `M${[at(0, 0), ...teeth, at(1, 0)].join("L")}`;
+}
+function markPoints({ loads }, places) {
+  if (!loads) return [];
+  const ends = loads.springs.flatMap((spring) => spring.ends), on = (name) => ends.filter(({ link }) => link === name).map(({ point }) => point);
+  return [...on("ground"), ...places.flatMap((place) => [...on("body"), ...loads.hand ? [loads.hand] : []].map((point) => act(place, point)))];
+}
+function arrowPath([x, y], angle, length) {
+  const c = Math.cos(angle), d = -Math.sin(angle), tip = [x + length * c, y + length * d];
+  const barb = (side) => `${px(tip[0] - BARB[0] * c - side * BARB[1] * d)} ${px(tip[1] - BARB[0] * d + side * BARB[1] * c)}`;
+  return `M${px(x)} ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`;
+}
+var LoadMarks = class {
+  constructor() {
+    this.springs = s("g", { class: "bm-springs" });
+    this.hand = s("path", { class: "bm-hand" });
+    this.group = s("g", { class: "bm-loads" }, this.springs, this.hand);
+  }
+  /** @param {any} data @param {any} linkage @param {import("./types").View} view */
+  shape(data, linkage, view) {
+    this.view = view;
+    this.loads = data.loads ?? null;
+    this.known = linkage.loads ?? null;
+    const springs = this.loads?.springs ?? [];
+    while (this.springs.children.length > springs.length) this.springs.lastChild?.remove();
+    while (this.springs.children.length < springs.length) this.springs.append(s("g", {}, s("path", { class: "bm-spring" }), s("circle", { class: "bm-spring-end", r: 2.6 }), s("circle", { class: "bm-spring-end", r: 2.6 })));
+    springs.forEach(({ kind }, k) => put(this.springs.children[k], "data-spring", kind));
+  }
+  /** @param {import("./types").Place} place @param {number | null} drive */
+  show(place, drive) {
+    const { loads, view } = this;
+    if (!loads || !view) {
+      put(this.hand, "d", "");
+      return;
+    }
+    loads.springs.forEach(({ kind, ends }, k) => {
+      const at = ends.map((end, j) => this.endOf(end, k, j, place, drive)), group = this.springs.children[k];
+      put(group, "visibility", at.every(Boolean) ? "inherit" : "hidden");
+      if (!at.every(Boolean)) return;
+      put(group.children[0], "d", springPath(kind, at[0], at[1]));
+      at.forEach(([x, y], j) => {
+        put(group.children[j + 1], "cx", px(x));
+        put(group.children[j + 1], "cy", px(y));
+      });
+    });
+    const pushes = this.known?.hand, angle = pushes && drive !== null ? valueAt(pushes, drive) : null;
+    if (!loads.hand || angle === null) put(this.hand, "d", "");
+    else {
+      const force = valueAt({ x: pushes.x, y: pushes.force }, drive) ?? 0, size = LEAST_ARROW + (LONGEST_ARROW - LEAST_ARROW) * Math.abs(force);
+      put(this.hand, "d", arrowPath(this.seen(act(place, loads.hand)), force < 0 ? angle + Math.PI : angle, size));
+    }
+  }
+  /** A point of F in pixels.
+   * @param {any} point */
+  seen([x, y]) {
+    const { view } = this;
+    return view ? [view.X(x), view.Y(y)] : [0, 0];
+  }
+  /** An end of a spring in pixels; null where it is not known: on another link beyond the poses. */
+  endOf({ link, point }, spring, end, place, drive) {
+    if (link === "ground") return this.seen(point);
+    if (link === "body") return this.seen(act(place, point));
+    const known = this.known?.moved.find((each) => each.spring === spring && each.end === end);
+    const at = known && drive !== null ? known.at.map((each) => valueAt(each, drive)) : [null];
+    return at.some((each) => each === null) ? null : this.seen(at);
+  }
+};
 
 // src/burmester/web/widget/travel.mjs
 var LONGEST_STEP = 0.015;
@@ -404,6 +486,7 @@ function boundsOf(data, linkage, places, far) {
     for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
     for (const place of places) include([place.x, place.y]);
     for (const { at } of pivotsAt(linkage, places)) include(at);
+    for (const at of markPoints(data, places)) include(at);
   }
   const least = 0.25 * data.scene;
   for (const k of [0, 1]) {
@@ -510,6 +593,9 @@ function keyOf(data, hasLinkages) {
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M")
     );
   }
+  const { springs = [], hand = null } = data.loads ?? {};
+  if (springs.length) items.push(one(s("path", { class: "bm-spring", d: springs[0].kind === "gas" || springs[0].kind === "constant" ? springPath(springs[0].kind, [-2, -3], [28, -3]) : "M-2 -3H2L5 -9L9 3L13 -9L17 3L21 -9L24 -3H28" }), springs.length > 1 ? "springs" : `${springs[0].kind} spring`));
+  if (hand && hasLinkages) items.push(one(s("path", { class: "bm-hand", d: "M0 -3H22M15 -7L22 -3L15 1" }), "push of the hand"));
   const box = "M-2 6H26V-10H-2Z";
   if (data.body || data.linkages[0]?.drawn) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
   if (data.keep_out.length) items.push(one(s("g", {}, s("path", { class: "bm-region-edge", d: box, fill: "none" }), s("path", { class: "bm-hatch", d: "M-2 1L9 -10M2 6L18 -10M12 6L26 -8" })), "keep out"));
@@ -1610,6 +1696,353 @@ function listenToKeys(root, drawing, player, signal) {
   }, { signal });
 }
 
+// src/burmester/web/widget/plots.mjs
+var LEFT = 62;
+var RIGHT = 14;
+var TOP = 22;
+var BOTTOM = 44;
+var PANEL = 84;
+var ONLY = 150;
+var GAP = 28;
+var MANY_POSES2 = 40;
+var HEADROOM = 1.32;
+var NO_ERROR = 1e-7;
+var TITLE = "Errors and transmission angle";
+var INSET = 8;
+var LONGEST_NAME = 16;
+var NAME_WIDTH = 11;
+var Plots = class {
+  top = TOP;
+  /** @type {any} */
+  count;
+  /** @type {any} */
+  marks;
+  /** @type {any} */
+  way;
+  /** @type {any} */
+  width;
+  /** @type {any} */
+  X;
+  /** @type {any} */
+  stretch;
+  /** @type {any} */
+  across;
+  constructor(data, parent, scrub) {
+    this.data = data;
+    this.parent = parent;
+    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": TITLE });
+    parent.append(this.svg);
+    const go = (event) => {
+      if (!this.way) return;
+      const box = this.svg.getBoundingClientRect();
+      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
+      const drive = this.driveAt(this.low + clamp(at, 0, 1) * (this.high - this.low));
+      if (drive !== null) scrub(frameAt(this.way.drive, drive));
+    };
+    this.svg.addEventListener("pointerdown", (event) => {
+      this.svg.setPointerCapture(event.pointerId);
+      go(event);
+    });
+    this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && go(event));
+  }
+  /** Draw the panels of a linkage over a stretch of its way `index`. */
+  build(linkage, index, stretch) {
+    const { data, svg } = this, way = linkage.ways[index];
+    this.linkage = linkage;
+    this.way = way;
+    svg.replaceChildren();
+    this.cursor = null;
+    if (!way) return;
+    svg.setAttribute("aria-label", `${linkage.id}: ${TITLE.toLowerCase()} along the driver`);
+    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
+    const upright = poses.some(({ pose }) => pose.label !== pose.name);
+    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
+    this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
+    const count = linkage.panels ? linkage.panels.length + 1 : way.loops ? 1 : nounOf(data) === "point" ? 2 : 3;
+    const [driver] = linkage.led, slides = driver.kind === "PR";
+    this.stretch = stretch;
+    const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
+    const unit2 = data.unit ?? "unit of the poses";
+    const title = way.told ? `${way.told[0].name} (°)` : slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
+    this.frame(count, linear(way.drive, stretch.low), linear(way.drive, stretch.high), !slides, title, () => {
+      this.panels(rows, unit2);
+      if (upright) this.uprightNames(rows);
+    });
+  }
+  /** So many panels, which `draw` fills, over what goes from low to high; with the cursor. */
+  frame(count, low, high, turns, title, draw) {
+    const { svg } = this, width = this.width = Math.max(260, this.parent.clientWidth);
+    this.count = count;
+    this.low = low;
+    this.high = high;
+    const base = this.top + (count > 1 ? count * PANEL + (count - 1) * GAP : ONLY), height = base + BOTTOM;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    this.X = (at) => LEFT + INSET + (at - low) / (high - low) * (width - LEFT - RIGHT - 2 * INSET);
+    this.across = turns ? angleTicks(low, high, Math.max(3, width / 70)) : ticks(low, high, width / 90);
+    this.marks = [];
+    draw();
+    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
+    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
+    this.cursor.append(...this.marks.map(({ mark }) => mark));
+    svg.append(this.cursor);
+  }
+  /** Where panel k begins and ends. */
+  heights(k) {
+    const y0 = this.top + k * (PANEL + GAP);
+    return [y0, y0 + (this.count > 1 ? PANEL : ONLY)];
+  }
+  /** What the panels are over where the driver is at a place, and back; null where it is not known. */
+  placeOf(drive) {
+    return drive;
+  }
+  driveAt(place) {
+    return place;
+  }
+  /** Draw the panels. */
+  panels(rows, unit2) {
+    this.linkage.panels?.forEach((each, k) => this.values(k, each));
+    if (this.linkage.panels || this.count === 1) {
+      this.transmission(this.count - 1, rows);
+      return;
+    }
+    this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * this.data.scene);
+    if (nounOf(this.data) === "point") {
+      this.transmission(1, rows);
+      return;
+    }
+    this.errors(1, "angle error (°)", rows.filter(({ pose }) => !isPoint(pose)), (row) => row.turned_deg, 1e-9);
+    this.transmission(2, rows);
+  }
+  /** The errors of the poses as stems; below `rounding` they are zero. */
+  errors(k, title, rows, value, rounding) {
+    const { svg, X } = this, [y0, base] = this.heights(k);
+    const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
+    const visible = greatest > rounding;
+    const high = visible ? HEADROOM * greatest : 1;
+    const Y = (v) => base - v / high * PANEL;
+    this.panel(title, y0, base);
+    if (!visible) {
+      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : `no ${nounOf(this.data)} is on this assembly`));
+    } else {
+      for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
+      svg.append(s("text", { class: "bm-tick", x: LEFT - 6, y: base + 4, "text-anchor": "end" }, "0"));
+    }
+    const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
+    let last = -99;
+    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+      const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
+      svg.append(
+        s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
+        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `${calledOf(row.pose)}: ${figure(value(row))}`))
+      );
+      const { label: label2 } = row.pose;
+      if (x - last > 6 + 6.5 * label2.length && (rows.length <= MANY_POSES2 || greatestThree.has(row))) {
+        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label2));
+        last = x;
+      }
+    }
+  }
+  /** The transmission angle along the way, and at its poses. */
+  transmission(k, rows) {
+    const { svg, way, width, X } = this, [y0, base] = this.heights(k);
+    const Y = (v) => base - v / 90 * (base - y0);
+    this.panel("transmission angle (°)", y0, base, true);
+    for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
+    const { deg: limit, said } = this.data.transmission_limit;
+    svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
+    const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
+    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, said);
+    (way.loops ?? [way.transmission]).forEach((values, loop) => {
+      this.mark((drive) => linear(values, frameAt(way.drive, drive)), Y);
+      const kind = way.loops ? ` bm-loop${loop}` : "";
+      this.curve(values, Y, `bm-line${kind}`);
+      for (const row of rows) {
+        const value = way.loops ? row.loops[loop] : row.transmission_deg;
+        if (value !== null) svg.append(s("circle", { class: `bm-dot${kind}`, cx: px(X(row.drive)), cy: px(Y(value)), r: 3 }));
+      }
+    });
+    svg.append(limitName);
+  }
+  /** A dot on the cursor, at a value for the drive. */
+  mark(value, Y) {
+    this.marks.push({ mark: s("circle", { r: 4.5 }), value, Y });
+  }
+  /** A curve of its own over the drive, or stems from zero, with dots. */
+  values(k, curve) {
+    const { title, x, y, dots, stems } = curve, { svg, low, high } = this, [y0, base] = this.heights(k);
+    const shown = [...x.keys()].filter((i) => y[i] !== null && x[i] >= low && x[i] <= high).map((i) => [x[i], y[i]]);
+    const all = [...shown, ...dots].map(([, value]) => value), least = Math.min(...all), most = Math.max(...all), room = 0.08 * (most - least);
+    this.panel(title, y0, base);
+    if (!(Math.max(Math.abs(least), Math.abs(most)) > NO_ERROR)) {
+      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, shown.length ? "exact, up to rounding" : "it cannot be assembled"));
+      return;
+    }
+    const Y = (v) => base - (v - least + room) / (most - least + 2 * room) * PANEL;
+    const at = (point) => `${px(this.X(point[0]))} ${px(Y(point[1]))}`;
+    for (const { at: value, text } of ticks(least, most, 4)) this.rule(Y(value), text);
+    if (least < 0 && most > 0) svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(0))}H${this.width - RIGHT}` }));
+    if (stems) for (const [a, b] of shown) svg.append(s("path", { class: "bm-stem", d: `M${at([a, 0])}L${at([a, b])}` }));
+    else svg.append(s("path", { class: "bm-line", d: `M${shown.map(at).join("L")}` }));
+    for (const [a, b] of dots) svg.append(s("circle", { class: "bm-dot", cx: px(this.X(a)), cy: px(Y(b)), r: 3.5 }, s("title", {}, `${figure(b)}°`)));
+    this.mark((drive) => valueAt(curve, drive), Y);
+  }
+  /** Values along the way as a line over the drive. */
+  curve(values, Y, name) {
+    const { low, high } = this.stretch, frames = [low];
+    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
+    frames.push(high);
+    let line = "", pen = "M";
+    for (const u of frames) {
+      const value = linear(values, u);
+      if (value === null) continue;
+      line += `${pen}${px(this.X(linear(this.way.drive, u)))} ${px(Y(value))}`;
+      pen = "L";
+    }
+    this.svg.append(s("path", { class: name, d: line }));
+  }
+  /** Names of the poses over their stems, those that have room. */
+  uprightNames(rows) {
+    let last = -99;
+    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+      const x = this.X(row.drive), y = this.top - 20;
+      if (x - last < NAME_WIDTH) continue;
+      last = x;
+      const text = s("text", { class: "bm-dot-name bm-upright", transform: `translate(${px(x + 4)} ${px(y)}) rotate(-90)` });
+      text.append(shortened(poseName(row.pose), LONGEST_NAME));
+      this.svg.append(s("g", {}, s("title", {}, poseName(row.pose)), text));
+    }
+  }
+  /** An empty panel with its title and the lines of the drive. */
+  panel(title, y0, base, labelled = false) {
+    const { svg, width } = this;
+    svg.append(
+      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
+      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title)
+    );
+    let last = -99;
+    for (const { at, text } of this.across) {
+      const x = px(this.X(at));
+      svg.append(s("path", { class: "bm-rule", d: `M${x} ${y0}V${base}` }));
+      if (labelled && x - last > 34) {
+        svg.append(s("text", { class: "bm-tick", x, y: base + 15, "text-anchor": "middle" }, text));
+        last = x;
+      }
+    }
+  }
+  rule(y, text) {
+    this.svg.append(
+      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
+      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text)
+    );
+  }
+  show(drive) {
+    if (!this.cursor) return;
+    const at = this.placeOf(drive);
+    put(this.cursor, "visibility", at === null ? "hidden" : "visible");
+    if (at === null) return;
+    this.cursor.setAttribute("transform", `translate(${px(this.X(at))} 0)`);
+    for (const { mark, value, Y } of this.marks) {
+      const known = value(at);
+      put(mark, "visibility", known === null ? "hidden" : "inherit");
+      if (known !== null) put(mark, "cy", px(Y(known)));
+    }
+  }
+};
+
+// src/burmester/web/widget/load_plots.mjs
+var TITLE2 = "Loads";
+var fieldsets = 0;
+var LoadPlots = class extends Plots {
+  /** @type {any} */
+  own = null;
+  /** @type {any} */
+  timed = null;
+  /** @type {number | undefined} */
+  drive;
+  overTime = false;
+  constructor(data, parent, scrub) {
+    super(data, parent, scrub);
+    const name = `bm-over-${fieldsets += 1}`;
+    const one = (text, overTime) => h("label", {}, h("input", { type: "radio", name, checked: !overTime, onchange: () => this.take(overTime) }), h("span", {}, text));
+    this.choice = h("fieldset", { class: "bm-ways bm-over", hidden: true }, one("Over the driver", false), one("Over time", true));
+    this.nothing = h("p", { class: "bm-note-text", hidden: true }, "Loads are known from the first pose to the last, of a linkage that leads through all of them.");
+    parent.prepend(this.choice, this.nothing);
+  }
+  take(overTime) {
+    this.overTime = overTime;
+    this.draw();
+    if (this.drive !== void 0) this.show(this.drive);
+  }
+  /** Draw the panels of a linkage, if its loads are known along the way `index`. */
+  build(linkage, index) {
+    this.linkage = linkage;
+    const loads = linkage?.loads, here = Boolean(loads) && loads.way === index && Boolean(linkage.ways[index]);
+    this.own = here ? loads : null;
+    this.way = here ? linkage.ways[index] : null;
+    this.choice.hidden = !this.own?.timed;
+    this.nothing.hidden = here;
+    this.draw();
+  }
+  draw() {
+    const { svg, own, data } = this;
+    svg.replaceChildren();
+    svg.removeAttribute("height");
+    this.cursor = null;
+    if (!own) return;
+    const timed = this.overTime && own.timed ? own.timed : null, panels = (timed ?? own).panels, { x } = panels[0];
+    this.timed = timed;
+    const [driver] = this.linkage.led, slides = driver.kind === "PR";
+    const title = timed ? "time (s)" : slides ? `place of ${driver.id} on its line (${data.unit})` : `driver angle (${driver.id})`;
+    svg.setAttribute("aria-label", `${this.linkage.id}: ${TITLE2.toLowerCase()} over ${timed ? "time" : "the driver"}`);
+    this.frame(panels.length, x[0], x[x.length - 1], !slides && !timed, title, () => {
+      panels.forEach((each, k) => this.lines(k, each, k + 1 === panels.length));
+    });
+  }
+  /** A panel with one or more curves, which have their names in its title. */
+  lines(k, { title, x, lines }, last) {
+    const all = lines.flatMap(({ y }) => y.filter((each) => each !== null)), [y0, base] = this.heights(k);
+    const least = Math.min(0, ...all), most = Math.max(0, ...all), room = 0.08 * (most - least || 1);
+    this.panel(title, y0, base, last);
+    const Y = (v) => base - (v - least + room) / (most - least + 2 * room) * (base - y0);
+    for (const { at, text } of ticks(least, most, 4)) this.rule(Y(at), text);
+    if (least < 0 && most > 0) this.svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(0))}H${this.width - RIGHT}` }));
+    lines.forEach(({ y }, line) => {
+      let d = "", pen = "M";
+      x.forEach((at, i) => {
+        if (y[i] === null) pen = "M";
+        else {
+          d += `${pen}${px(this.X(at))} ${px(Y(y[i]))}`;
+          pen = "L";
+        }
+      });
+      this.svg.append(s("path", { class: `bm-line bm-curve${line}`, d }));
+      this.mark((at) => valueAt({ x, y }, at), Y);
+    });
+    if (lines.length > 1) {
+      const names = s("text", { class: "bm-title", x: this.width - RIGHT, y: y0 - 7, "text-anchor": "end" });
+      lines.forEach(({ name }, line) => names.append(s("tspan", { class: `bm-curve${line}`, dx: line ? 7 : 0 }, name)));
+      this.svg.append(names);
+    }
+  }
+  /** What the cursor is at: the driver, or the time at which it is there. */
+  placeOf(drive) {
+    const { own, timed } = this;
+    if (timed) return valueAt(timed.time, drive);
+    const { x } = own.panels[0];
+    return drive < x[0] - 1e-6 || drive > x[x.length - 1] + 1e-6 ? null : drive;
+  }
+  driveAt(at) {
+    if (!this.timed) return at;
+    const { x, y } = this.timed.time;
+    return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, at) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, at);
+  }
+  show(drive) {
+    this.drive = drive;
+    super.show(drive);
+  }
+};
+
 // src/burmester/web/widget/pivot_map.mjs
 var MAX_BANDS = 12;
 var PivotMap = class {
@@ -1793,7 +2226,7 @@ var PivotMap = class {
 // src/burmester/web/widget/outlines.mjs
 var HATCH = 9;
 var PALEST = 0.45;
-var LONGEST_NAME = 28;
+var LONGEST_NAME2 = 28;
 var LEAST_LINKAGE = 110;
 var MOST_PLACES = 400;
 var patterns = 0;
@@ -1840,7 +2273,7 @@ function keepOut(data, view) {
 }
 function keepOutNames(data, view, labels) {
   return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
-    const text = shortened(name, LONGEST_NAME);
+    const text = shortened(name, LONGEST_NAME2);
     labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
     return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
   });
@@ -1890,7 +2323,8 @@ var Mechanism = class {
     if (links.length) this.parts.push(...links.map((link) => new JointedLink(this, link)), new Joints(this, ground, names));
     this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
     for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
-    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, links.length ? null : this.letter);
+    this.marks = new LoadMarks();
+    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.marks.group, links.length ? null : this.letter);
   }
   /** Whether it can be given the dimensions of a linkage. */
   fits({ led }) {
@@ -1916,10 +2350,13 @@ var Mechanism = class {
     const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
     for (const plate2 of linkage.drawn ? [] : this.plates) put(plate2, "d", d);
     for (const part of this.parts.slice(linkage.led.length)) part.shape(view);
+    this.marks.shape(data, linkage, view);
     this.shapeArrow();
   }
-  show(place) {
+  /** drive: where the driver is, for what is known over it only. */
+  show(place, drive = null) {
     const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
+    this.marks.show(place, drive);
     put(this.coupler, "transform", at);
     if (this.hasBody) put(this.outline, "transform", at);
     for (const part of this.parts) part.show(place);
@@ -2323,8 +2760,8 @@ var Plane = class {
     });
     return arrows;
   }
-  show(place) {
-    this.moving?.show(place);
+  show(place, drive) {
+    this.moving?.show(place, drive);
   }
 };
 
@@ -2333,10 +2770,10 @@ var TURN_SECONDS = 7;
 var LEAST_STRETCH = 1e-6;
 var NAME_ROWS = 5;
 var NUMBER_ROWS = 2;
-var MANY_POSES2 = 100;
+var MANY_POSES3 = 100;
 var ROW = 13;
 var LONGEST_TICK = 18;
-var NO_ERROR = 1e-7;
+var NO_ERROR2 = 1e-7;
 var STEPS = 360;
 var Player = class {
   /** @type {any} */
@@ -2460,7 +2897,7 @@ var Player = class {
     const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
     const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
-    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES2 ? 1 : NUMBER_ROWS);
+    const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES3 ? 1 : NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
     const one = (k, pose, ...parts) => s("g", { "data-pose": k + 1 }, s("title", {}, calledOf(pose)), ...parts);
     rows.forEach(({ k, x, pose }, i) => stops.append(one(k, pose, s("path", { d: `M${px(x)} 0V${4 + ROW * Math.max(0, texts[i].at)}` }))));
@@ -2614,7 +3051,7 @@ var Player = class {
   /** A value along the way, and how far it is off where a panel says so. */
   toldOf({ name, digits, values, panel }) {
     const error = panel === void 0 ? null : valueAt(this.linkage.panels[panel], smooth(this.path.drive, this.u));
-    const off = error === null ? "" : `, off by ${Math.abs(error) < NO_ERROR ? "0" : figure(error)}°`;
+    const off = error === null ? "" : `, off by ${Math.abs(error) < NO_ERROR2 ? "0" : figure(error)}°`;
     return `${name} ${fixed(smooth(values, this.u), digits)}°${off}`;
   }
 };
@@ -2635,233 +3072,6 @@ function icon(pause) {
     s("path", { d: pause ? "M1 0h3.5v12H1zM7.5 0H11v12H7.5z" : "M1 0l11 6l-11 6z" })
   );
 }
-
-// src/burmester/web/widget/plots.mjs
-var LEFT = 62;
-var RIGHT = 14;
-var TOP = 22;
-var BOTTOM = 44;
-var PANEL = 84;
-var ONLY = 150;
-var GAP = 28;
-var MANY_POSES3 = 40;
-var HEADROOM = 1.32;
-var NO_ERROR2 = 1e-7;
-var TITLE = "Errors and transmission angle";
-var INSET = 8;
-var LONGEST_NAME2 = 16;
-var NAME_WIDTH = 11;
-var Plots = class {
-  /** @type {any} */
-  top;
-  /** @type {any} */
-  count;
-  /** @type {any} */
-  marks;
-  /** @type {any} */
-  way;
-  /** @type {any} */
-  width;
-  /** @type {any} */
-  X;
-  /** @type {any} */
-  stretch;
-  /** @type {any} */
-  across;
-  constructor(data, parent, scrub) {
-    this.data = data;
-    this.parent = parent;
-    this.svg = s("svg", { class: "bm-plots", role: "img", "aria-label": TITLE });
-    parent.append(this.svg);
-    const go = (event) => {
-      if (!this.way) return;
-      const box = this.svg.getBoundingClientRect();
-      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
-      scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
-    };
-    this.svg.addEventListener("pointerdown", (event) => {
-      this.svg.setPointerCapture(event.pointerId);
-      go(event);
-    });
-    this.svg.addEventListener("pointermove", (event) => event.buttons & 1 && go(event));
-  }
-  /** Draw the panels of a linkage over a stretch of its way `index`. */
-  build(linkage, index, stretch) {
-    const { data, svg } = this, way = linkage.ways[index];
-    this.linkage = linkage;
-    this.way = way;
-    svg.replaceChildren();
-    this.cursor = null;
-    if (!way) return;
-    svg.setAttribute("aria-label", `${linkage.id}: ${TITLE.toLowerCase()} along the driver`);
-    const width = this.width = Math.max(260, this.parent.clientWidth);
-    const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
-    const upright = poses.some(({ pose }) => pose.label !== pose.name);
-    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME2).length));
-    this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
-    const count = this.count = linkage.panels ? linkage.panels.length + 1 : way.loops ? 1 : nounOf(data) === "point" ? 2 : 3;
-    const height = this.top + (count > 1 ? count * PANEL + (count - 1) * GAP : ONLY) + BOTTOM;
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.setAttribute("height", height);
-    const [driver] = linkage.led, slides = driver.kind === "PR";
-    this.stretch = stretch;
-    this.low = linear(way.drive, stretch.low);
-    this.high = linear(way.drive, stretch.high);
-    this.X = (drive) => LEFT + INSET + (drive - this.low) / (this.high - this.low) * (width - LEFT - RIGHT - 2 * INSET);
-    this.across = slides ? ticks(this.low, this.high, width / 90) : angleTicks(this.low, this.high, Math.max(3, width / 70));
-    const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
-    const unit2 = data.unit ?? "unit of the poses";
-    this.marks = [];
-    const base = this.panels(rows, unit2);
-    if (upright) this.uprightNames(rows);
-    const title = way.told ? `${way.told[0].name} (°)` : slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
-    svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
-    this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
-    this.cursor.append(...this.marks.map(({ mark }) => mark));
-    svg.append(this.cursor);
-  }
-  /** Draw the panels; returns the base of the last one. */
-  panels(rows, unit2) {
-    this.linkage.panels?.forEach((each, k) => this.values(k, each));
-    if (this.linkage.panels || this.count === 1) return this.transmission(this.count - 1, rows);
-    this.errors(0, `position error (${unit2})`, rows, (row) => row.position, 1e-11 * this.data.scene);
-    if (nounOf(this.data) === "point") return this.transmission(1, rows);
-    this.errors(1, "angle error (°)", rows.filter(({ pose }) => !isPoint(pose)), (row) => row.turned_deg, 1e-9);
-    return this.transmission(2, rows);
-  }
-  /** The errors of the poses as stems; below `rounding` they are zero. */
-  errors(k, title, rows, value, rounding) {
-    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
-    const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
-    const visible = greatest > rounding;
-    const high = visible ? HEADROOM * greatest : 1;
-    const Y = (v) => base - v / high * PANEL;
-    this.panel(title, y0, base);
-    if (!visible) {
-      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, rows.length ? "exact, up to rounding" : `no ${nounOf(this.data)} is on this assembly`));
-    } else {
-      for (const { at } of ticks(0, high, 3).slice(1)) this.rule(Y(at), figure(at));
-      svg.append(s("text", { class: "bm-tick", x: LEFT - 6, y: base + 4, "text-anchor": "end" }, "0"));
-    }
-    const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
-    let last = -99;
-    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
-      const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
-      svg.append(
-        s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
-        s("circle", { class: "bm-dot", cx: x, cy: y, r: 3.5 }, s("title", {}, `${calledOf(row.pose)}: ${figure(value(row))}`))
-      );
-      const { label: label2 } = row.pose;
-      if (x - last > 6 + 6.5 * label2.length && (rows.length <= MANY_POSES3 || greatestThree.has(row))) {
-        svg.append(s("text", { class: "bm-dot-name", x, y: y - 7, "text-anchor": "middle" }, label2));
-        last = x;
-      }
-    }
-  }
-  /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
-  transmission(k, rows) {
-    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + (this.count > 1 ? PANEL : ONLY);
-    const Y = (v) => base - v / 90 * (base - y0);
-    this.panel("transmission angle (°)", y0, base, true);
-    for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
-    const { deg: limit, said } = this.data.transmission_limit;
-    svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
-    const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
-    const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, said);
-    (way.loops ?? [way.transmission]).forEach((values, loop) => {
-      this.mark((drive) => linear(values, frameAt(way.drive, drive)), Y);
-      const kind = way.loops ? ` bm-loop${loop}` : "";
-      this.curve(values, Y, `bm-line${kind}`);
-      for (const row of rows) {
-        const value = way.loops ? row.loops[loop] : row.transmission_deg;
-        if (value !== null) svg.append(s("circle", { class: `bm-dot${kind}`, cx: px(X(row.drive)), cy: px(Y(value)), r: 3 }));
-      }
-    });
-    svg.append(limitName);
-    return base;
-  }
-  /** A dot on the cursor, at a value for the drive. */
-  mark(value, Y) {
-    this.marks.push({ mark: s("circle", { r: 4.5 }), value, Y });
-  }
-  /** A curve of its own over the drive, or stems from zero, with dots. */
-  values(k, curve) {
-    const { title, x, y, dots, stems } = curve, { svg, low, high } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
-    const shown = [...x.keys()].filter((i) => y[i] !== null && x[i] >= low && x[i] <= high).map((i) => [x[i], y[i]]);
-    const all = [...shown, ...dots].map(([, value]) => value), least = Math.min(...all), most = Math.max(...all), room = 0.08 * (most - least);
-    this.panel(title, y0, base);
-    if (!(Math.max(Math.abs(least), Math.abs(most)) > NO_ERROR2)) {
-      svg.append(s("text", { class: "bm-note", x: LEFT + 8, y: y0 + PANEL / 2 }, shown.length ? "exact, up to rounding" : "it cannot be assembled"));
-      return;
-    }
-    const Y = (v) => base - (v - least + room) / (most - least + 2 * room) * PANEL;
-    const at = (point) => `${px(this.X(point[0]))} ${px(Y(point[1]))}`;
-    for (const { at: value, text } of ticks(least, most, 4)) this.rule(Y(value), text);
-    if (least < 0 && most > 0) svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(0))}H${this.width - RIGHT}` }));
-    if (stems) for (const [a, b] of shown) svg.append(s("path", { class: "bm-stem", d: `M${at([a, 0])}L${at([a, b])}` }));
-    else svg.append(s("path", { class: "bm-line", d: `M${shown.map(at).join("L")}` }));
-    for (const [a, b] of dots) svg.append(s("circle", { class: "bm-dot", cx: px(this.X(a)), cy: px(Y(b)), r: 3.5 }, s("title", {}, `${figure(b)}°`)));
-    this.mark((drive) => valueAt(curve, drive), Y);
-  }
-  /** Values along the way as a line over the drive. */
-  curve(values, Y, name) {
-    const { low, high } = this.stretch, frames = [low];
-    for (let i = Math.floor(low) + 1; i < high; i += 1) frames.push(i);
-    frames.push(high);
-    let line = "", pen = "M";
-    for (const u of frames) {
-      const value = linear(values, u);
-      if (value === null) continue;
-      line += `${pen}${px(this.X(linear(this.way.drive, u)))} ${px(Y(value))}`;
-      pen = "L";
-    }
-    this.svg.append(s("path", { class: name, d: line }));
-  }
-  /** Names of the poses over their stems, those that have room. */
-  uprightNames(rows) {
-    let last = -99;
-    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
-      const x = this.X(row.drive), y = this.top - 20;
-      if (x - last < NAME_WIDTH) continue;
-      last = x;
-      const text = s("text", { class: "bm-dot-name bm-upright", transform: `translate(${px(x + 4)} ${px(y)}) rotate(-90)` });
-      text.append(shortened(poseName(row.pose), LONGEST_NAME2));
-      this.svg.append(s("g", {}, s("title", {}, poseName(row.pose)), text));
-    }
-  }
-  /** An empty panel with its title and the lines of the drive. */
-  panel(title, y0, base, labelled = false) {
-    const { svg, width } = this;
-    svg.append(
-      s("rect", { class: "bm-panel", x: LEFT, y: y0, width: width - LEFT - RIGHT, height: base - y0 }),
-      s("text", { class: "bm-title", x: LEFT, y: y0 - 7 }, title)
-    );
-    let last = -99;
-    for (const { at, text } of this.across) {
-      const x = px(this.X(at));
-      svg.append(s("path", { class: "bm-rule", d: `M${x} ${y0}V${base}` }));
-      if (labelled && x - last > 34) {
-        svg.append(s("text", { class: "bm-tick", x, y: base + 15, "text-anchor": "middle" }, text));
-        last = x;
-      }
-    }
-  }
-  rule(y, text) {
-    this.svg.append(
-      s("path", { class: "bm-rule", d: `M${LEFT} ${px(y)}H${this.width - RIGHT}` }),
-      s("text", { class: "bm-tick", x: LEFT - 6, y: px(y) + 4, "text-anchor": "end" }, text)
-    );
-  }
-  show(drive) {
-    if (!this.cursor) return;
-    this.cursor.setAttribute("transform", `translate(${px(this.X(drive))} 0)`);
-    for (const { mark, value, Y } of this.marks) {
-      const at = value(drive);
-      put(mark, "visibility", at === null ? "hidden" : "inherit");
-      if (at !== null) put(mark, "cy", px(Y(at)));
-    }
-  }
-};
 
 // src/burmester/web/widget/printing.mjs
 function unfoldForPrint(root, signal) {
@@ -2885,7 +3095,7 @@ var DARK_SCHEME = "(prefers-color-scheme: dark)";
 var HIGHEST = 0.66;
 var LONGEST_NAME3 = 5;
 var section = (name, title, ...content) => h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
-var NOTHING = { unit: null, poses: [], path: null, body: null, keep_out: [], dyads: [] };
+var NOTHING = { unit: null, poses: [], path: null, body: null, keep_out: [], loads: null, dyads: [] };
 function label(poses) {
   const short = poses.every((pose) => pose.name.length <= LONGEST_NAME3);
   poses.forEach((pose, k) => pose.label = short ? pose.name : String(k + 1));
@@ -2926,6 +3136,8 @@ var Report = class {
   /** @type {any} */
   loops;
   /** @type {any} */
+  loads;
+  /** @type {any} */
   aside;
   /** @type {any} */
   plane;
@@ -2965,6 +3177,7 @@ var Report = class {
     body.append(main);
     main.append(this.stage());
     if (linkages.length) main.append(this.numbersAndPlots());
+    if (linkages.length && data.loads) main.append(this.loadPlots());
     const family = data.family_map ? this.familyMap() : null;
     const space = data.space ? this.imageSpace() : null;
     main.append(...(this.family?.isCurve ? [family, space] : [space, family]).filter(Boolean));
@@ -3026,6 +3239,12 @@ var Report = class {
       section("plotted", this.linkages[0].loops ? "Transmission over the driver" : "Errors and transmission", plots)
     );
     return this.aside;
+  }
+  /** What the linkage bears, and how it moves in time. */
+  loadPlots() {
+    const plots = h("div", { class: "bm-fill" });
+    this.loads = new LoadPlots(this.data, plots, (u) => this.player.go(u));
+    return section("loaded", "Loads along the motion", plots);
   }
   imageSpace() {
     const picture = h("div", { class: "bm-fill" });
@@ -3093,6 +3312,7 @@ var Report = class {
   draw() {
     const { linkage, player } = this, way = player?.way ?? 0, stretch = player?.stretch;
     this.plots?.build(linkage, way, stretch);
+    this.loads?.build(linkage, way);
     const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked);
     this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
     this.offerAll(linkage);
@@ -3114,9 +3334,10 @@ var Report = class {
   }
   /** What moves, at a place of the body; near: the index of the nearest pose. */
   show(place, drive, transmission, near) {
-    this.plane.show(place);
+    this.plane.show(place, drive);
     this.space?.show(place);
     this.plots.show(drive);
+    this.loads?.show(drive);
     const row = this.rows[near];
     if (row === this.current) return;
     this.current?.classList.remove("bm-current");

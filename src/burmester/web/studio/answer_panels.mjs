@@ -5,7 +5,7 @@ import { unfoldForPrint } from "../widget/printing.mjs";
 import { Answers } from "./answers.mjs";
 import { Centrodes } from "./centrodes.mjs";
 import { CognatePanel } from "./cognate_panel.mjs";
-import { Charts } from "./charts.mjs";
+import { Charts, LoadCharts } from "./charts.mjs";
 import { Compare } from "./compare.mjs";
 import { isOfPoints, isPoint } from "./document.mjs";
 import { CouplerCurves } from "./coupler_curve.mjs";
@@ -17,6 +17,8 @@ import { PivotSurface } from "./pivot_surface.mjs";
 import { Playing, playOnce } from "./playing.mjs";
 import { Results } from "./results.mjs";
 import { SpacePanel } from "./space_panel.mjs";
+
+const LOADS = ["loads", "springs", "drive"]; // what a task states of them
 
 /** A panel under the scene that folds. */
 const panel = (name, title, open, ...content) =>
@@ -34,11 +36,13 @@ export function addResults(store, scene, { player, results, panels }) {
   player.append(playing.element, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element));
   results.append(cards.element);
   const ofAngles = [panel("pivots", "Put a pivot somewhere", true, surface.element), panel("space", "Image space", true, space.element)];
+  const loads = new LoadCharts(answers, playing), ofLoads = panel("loads", "Loads along the motion", true, loads.element);
   const ofCurve = panel("cognates", "The same curve by three linkages", true, cognates.element);
   const fold = () => {
     const { document } = store;
     for (const each of ofAngles) give(each, "hidden", document.poses.some(isPoint)); // they tell of angles, which points leave free
     give(ofCurve, "hidden", !isOfPoints(document));
+    give(ofLoads, "hidden", !LOADS.some((key) => document[key]));
   };
   store.on("document", fold);
   fold();
@@ -46,6 +50,7 @@ export function addResults(store, scene, { player, results, panels }) {
     ofCurve,
     ...ofAngles,
     panel("charts", "Errors and transmission", true, charts.element),
+    ofLoads,
     panel("compare", "Compare two linkages", false, compare.element),
     panel("facts", "Every number in tables", false, facts.element),
   );
@@ -55,5 +60,5 @@ export function addResults(store, scene, { player, results, panels }) {
   listenToSpace(playing);
   playOnce(store, answers, playing);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
-  return { answers, playing, live, surface, centrodes, curves, cards, charts, space, cognates, compare, facts };
+  return { answers, playing, live, surface, centrodes, curves, cards, charts, loads, space, cognates, compare, facts };
 }

@@ -4,6 +4,7 @@
 import { put, s, say } from "../widget/dom.mjs";
 import { AXIS, axes, foot, transform } from "../widget/drawing.mjs";
 import { act, placeAt } from "../widget/kinematics.mjs";
+import { markPoints } from "../widget/load_marks.mjs";
 import { Mechanism } from "../widget/mechanism.mjs";
 import { px, radians } from "../widget/numbers.mjs";
 import { factorFor } from "../widget/plane.mjs";
@@ -45,7 +46,7 @@ export class LiveLinkage {
     scene.layer("labels").append(this.labels);
     scene.hold?.(() => this.points());
     playing.on("shape", () => this.shape());
-    playing.on("place", ({ place }) => this.mechanism?.show(place));
+    playing.on("place", ({ place, drive }) => this.mechanism?.show(place, drive));
     scene.on("view", () => this.redraw());
     scene.names?.avoid(() => this.obstacles());
     this.redraw();
@@ -58,7 +59,7 @@ export class LiveLinkage {
     const [pose] = data.poses, near = ([x, y]) => pose && Math.hypot(x - pose.x, y - pose.y) < 3 * data.scene;
     const pins = linkage.led.flatMap((dyad) => (dyad.fixed_pivot ? [dyad.fixed_pivot] : []));
     const moving = linkage.pose_errors.filter((row) => row.x !== null).flatMap((row) => linkage.led.filter((dyad) => dyad.moving_pivot).map((dyad) => act({ x: row.x, y: row.y, a: radians(row.angle_deg) }, dyad.moving_pivot)));
-    return [...pins, ...moving].filter(near);
+    return [...pins, ...moving, ...markPoints(data, [])].filter(near);
   }
 
   /** What names keep off: the feet of fixed pivots. */
@@ -77,7 +78,7 @@ export class LiveLinkage {
 
   redraw() {
     this.shape();
-    if (this.playing.here && this.playing.path) this.mechanism?.show(this.playing.here.place);
+    if (this.playing.here && this.playing.path) this.mechanism?.show(this.playing.here.place, this.playing.here.drive);
   }
 
   /** Everything but the place along the way. */

@@ -2,6 +2,7 @@
 
 import { s } from "./dom.mjs";
 import { act } from "./kinematics.mjs";
+import { markPoints } from "./load_marks.mjs";
 import { degrees, px } from "./numbers.mjs";
 import { pointOnLine, travelOf } from "./travel.mjs";
 
@@ -50,6 +51,7 @@ export function boundsOf(data, linkage, places, far) {
     for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
     for (const place of places) include([place.x, place.y]);
     for (const { at } of pivotsAt(linkage, places)) include(at);
+    for (const at of markPoints(data, places)) include(at);
   }
   const least = 0.25 * data.scene;
   for (const k of [0, 1]) {

@@ -131,7 +131,7 @@ export function linear(values, u) {
 }
 
 /** The value of a curve { x, y } at a place along x; null beyond its ends, and of single points between them. */
-export function valueAt({ x, y, stems }, at) {
+export function valueAt({ x, y, stems = false }, at) {
   const here = x.findIndex((each) => Math.abs(each - at) < 1e-6);
   if (here >= 0) return y[here];
   return stems || !(at > x[0] && at < x[x.length - 1]) ? null : linear(y, frameAt(x, at));

@@ -6,6 +6,7 @@
 import { put, s } from "./dom.mjs";
 import { AXIS, BLOCK, axes, hull, transform } from "./drawing.mjs";
 import { act, normalOf } from "./kinematics.mjs";
+import { LoadMarks } from "./load_marks.mjs";
 import { px } from "./numbers.mjs";
 import { bodyOutline } from "./outlines.mjs";
 import { pointOnLine, travelOf } from "./travel.mjs";
@@ -43,7 +44,8 @@ export class Mechanism {
     if (links.length) this.parts.push(...links.map((link) => new JointedLink(this, link)), new Joints(this, ground, names));
     this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
     for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
-    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, links.length ? null : this.letter);
+    this.marks = new LoadMarks();
+    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.marks.group, links.length ? null : this.letter);
   }
 
   /** Whether it can be given the dimensions of a linkage. */
@@ -71,11 +73,14 @@ export class Mechanism {
     const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
     for (const plate of linkage.drawn ? [] : this.plates) put(plate, "d", d);
     for (const part of this.parts.slice(linkage.led.length)) part.shape(view);
+    this.marks.shape(data, linkage, view);
     this.shapeArrow();
   }
 
-  show(place) {
+  /** drive: where the driver is, for what is known over it only. */
+  show(place, drive = null) {
     const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
+    this.marks.show(place, drive);
     put(this.coupler, "transform", at);
     if (this.hasBody) put(this.outline, "transform", at);
     for (const part of this.parts) part.show(place);

@@ -277,7 +277,7 @@ export class Plane {
     return arrows;
   }
 
-  show(place) {
-    this.moving?.show(place);
+  show(place, drive) {
+    this.moving?.show(place, drive);
   }
 }

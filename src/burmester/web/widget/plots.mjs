@@ -5,7 +5,7 @@ import { frameAt, linear, valueAt } from "./kinematics.mjs";
 import { angleTicks, clamp, figure, px, ticks } from "./numbers.mjs";
 import { calledOf, isPoint, nounOf, poseName, shortened } from "./tables.mjs";
 
-const LEFT = 62, RIGHT = 14; // pixels beside the panels
+export const LEFT = 62, RIGHT = 14; // pixels beside the panels
 const TOP = 22, BOTTOM = 44; // pixels over and under them
 const PANEL = 84, ONLY = 150, GAP = 28; // pixels: height of a panel, of one alone, distance between two
 const MANY_POSES = 40; // above this number only the three greatest errors are named
@@ -18,7 +18,7 @@ const NAME_WIDTH = 11; // pixels: what an upright name takes of the width
 
 /** An SVG element in `parent`; a pointer on it calls `scrub` with a frame of the way. */
 export class Plots {
-  /** @type {any} */ top;
+  top = TOP;
   /** @type {any} */ count;
   /** @type {any} */ marks;
   /** @type {any} */ way;
@@ -36,7 +36,8 @@ export class Plots {
       if (!this.way) return;
       const box = this.svg.getBoundingClientRect();
       const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
-      scrub(frameAt(this.way.drive, this.low + clamp(at, 0, 1) * (this.high - this.low)));
+      const drive = this.driveAt(this.low + clamp(at, 0, 1) * (this.high - this.low));
+      if (drive !== null) scrub(frameAt(this.way.drive, drive));
     };
     this.svg.addEventListener("pointerdown", (event) => {
       this.svg.setPointerCapture(event.pointerId);
@@ -54,49 +55,76 @@ export class Plots {
     this.cursor = null;
     if (!way) return;
     svg.setAttribute("aria-label", `${linkage.id}: ${TITLE.toLowerCase()} along the driver`);
-    const width = (this.width = Math.max(260, this.parent.clientWidth));
     // Long names stand upright, in a strip over the first panel.
     const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
     const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
-    const count = (this.count = linkage.panels ? linkage.panels.length + 1 : way.loops ? 1 : nounOf(data) === "point" ? 2 : 3);
-    const height = this.top + (count > 1 ? count * PANEL + (count - 1) * GAP : ONLY) + BOTTOM;
-    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    svg.setAttribute("height", height);
+    const count = linkage.panels ? linkage.panels.length + 1 : way.loops ? 1 : nounOf(data) === "point" ? 2 : 3;
     const [driver] = linkage.led, slides = driver.kind === "PR";
     this.stretch = stretch;
-    this.low = linear(way.drive, stretch.low);
-    this.high = linear(way.drive, stretch.high);
-    this.X = (drive) => LEFT + INSET + ((drive - this.low) / (this.high - this.low)) * (width - LEFT - RIGHT - 2 * INSET);
-    this.across = slides
-      ? ticks(this.low, this.high, width / 90)
-      : angleTicks(this.low, this.high, Math.max(3, width / 70));
     const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit = data.unit ?? "unit of the poses";
-    this.marks = [];
-    const base = this.panels(rows, unit);
-    if (upright) this.uprightNames(rows);
     const title = way.told ? `${way.told[0].name} (°)` : slides ? `place of ${driver.id} on its line (${unit})` : `driver angle (${driver.id})`;
+    this.frame(count, linear(way.drive, stretch.low), linear(way.drive, stretch.high), !slides, title, () => {
+      this.panels(rows, unit);
+      if (upright) this.uprightNames(rows);
+    });
+  }
+
+  /** So many panels, which `draw` fills, over what goes from low to high; with the cursor. */
+  frame(count, low, high, turns, title, draw) {
+    const { svg } = this, width = (this.width = Math.max(260, this.parent.clientWidth));
+    this.count = count;
+    this.low = low;
+    this.high = high;
+    const base = this.top + (count > 1 ? count * PANEL + (count - 1) * GAP : ONLY), height = base + BOTTOM;
+    svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    svg.setAttribute("height", height);
+    this.X = (at) => LEFT + INSET + ((at - low) / (high - low)) * (width - LEFT - RIGHT - 2 * INSET);
+    this.across = turns ? angleTicks(low, high, Math.max(3, width / 70)) : ticks(low, high, width / 90);
+    this.marks = [];
+    draw();
     svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
     this.cursor = s("g", { class: "bm-cursor" }, s("path", { d: `M0 ${this.top}V${base}` }));
     this.cursor.append(...this.marks.map(({ mark }) => mark));
     svg.append(this.cursor);
   }
 
-  /** Draw the panels; returns the base of the last one. */
+  /** Where panel k begins and ends. */
+  heights(k) {
+    const y0 = this.top + k * (PANEL + GAP);
+    return [y0, y0 + (this.count > 1 ? PANEL : ONLY)];
+  }
+
+  /** What the panels are over where the driver is at a place, and back; null where it is not known. */
+  placeOf(drive) {
+    return drive;
+  }
+
+  driveAt(place) {
+    return place;
+  }
+
+  /** Draw the panels. */
   panels(rows, unit) {
     this.linkage.panels?.forEach((each, k) => this.values(k, each));
-    if (this.linkage.panels || this.count === 1) return this.transmission(this.count - 1, rows);
+    if (this.linkage.panels || this.count === 1) {
+      this.transmission(this.count - 1, rows);
+      return;
+    }
     this.errors(0, `position error (${unit})`, rows, (row) => row.position, 1e-11 * this.data.scene);
-    if (nounOf(this.data) === "point") return this.transmission(1, rows);
+    if (nounOf(this.data) === "point") {
+      this.transmission(1, rows);
+      return;
+    }
     this.errors(1, "angle error (°)", rows.filter(({ pose }) => !isPoint(pose)), (row) => row.turned_deg, 1e-9);
-    return this.transmission(2, rows);
+    this.transmission(2, rows);
   }
 
   /** The errors of the poses as stems; below `rounding` they are zero. */
   errors(k, title, rows, value, rounding) {
-    const { svg, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
+    const { svg, X } = this, [y0, base] = this.heights(k);
     const greatest = Math.max(1e-300, ...rows.map((row) => value(row) ?? 0));
     const visible = greatest > rounding;
     const high = visible ? HEADROOM * greatest : 1;
@@ -124,9 +152,9 @@ export class Plots {
     }
   }
 
-  /** The transmission angle along the way, and at its poses.  Returns the panel's base. */
+  /** The transmission angle along the way, and at its poses. */
   transmission(k, rows) {
-    const { svg, way, width, X } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + (this.count > 1 ? PANEL : ONLY);
+    const { svg, way, width, X } = this, [y0, base] = this.heights(k);
     const Y = (v) => base - (v / 90) * (base - y0);
     this.panel("transmission angle (°)", y0, base, true);
     for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
@@ -145,7 +173,6 @@ export class Plots {
       }
     });
     svg.append(limitName);
-    return base;
   }
 
   /** A dot on the cursor, at a value for the drive. */
@@ -155,7 +182,7 @@ export class Plots {
 
   /** A curve of its own over the drive, or stems from zero, with dots. */
   values(k, curve) {
-    const { title, x, y, dots, stems } = curve, { svg, low, high } = this, y0 = this.top + k * (PANEL + GAP), base = y0 + PANEL;
+    const { title, x, y, dots, stems } = curve, { svg, low, high } = this, [y0, base] = this.heights(k);
     const shown = [...x.keys()].filter((i) => y[i] !== null && x[i] >= low && x[i] <= high).map((i) => [x[i], y[i]]);
     const all = [...shown, ...dots].map(([, value]) => value), least = Math.min(...all), most = Math.max(...all), room = 0.08 * (most - least);
     this.panel(title, y0, base);
@@ -228,11 +255,14 @@ export class Plots {
 
   show(drive) {
     if (!this.cursor) return;
-    this.cursor.setAttribute("transform", `translate(${px(this.X(drive))} 0)`);
+    const at = this.placeOf(drive);
+    put(this.cursor, "visibility", at === null ? "hidden" : "visible");
+    if (at === null) return;
+    this.cursor.setAttribute("transform", `translate(${px(this.X(at))} 0)`);
     for (const { mark, value, Y } of this.marks) {
-      const at = value(drive);
-      put(mark, "visibility", at === null ? "hidden" : "inherit");
-      if (at !== null) put(mark, "cy", px(Y(at)));
+      const known = value(at);
+      put(mark, "visibility", known === null ? "hidden" : "inherit");
+      if (known !== null) put(mark, "cy", px(Y(known)));
     }
   }
 }

@@ -7,6 +7,7 @@ import { FamilyMap } from "./family_map.mjs";
 import { header } from "./header.mjs";
 import { ImageSpace } from "./image_space.mjs";
 import { listenToKeys } from "./keyboard.mjs";
+import { LoadPlots } from "./load_plots.mjs";
 import { PivotMap } from "./pivot_map.mjs";
 import { FACTORS, Plane, factorFor, hasFarPivots } from "./plane.mjs";
 import { Player } from "./player.mjs";
@@ -24,7 +25,7 @@ const section = (name, title, ...content) =>
   h("section", { class: `bm-card bm-${name}`, "aria-label": title }, h("h2", {}, title), ...content);
 
 /** What a report may leave out. */
-const NOTHING = { unit: null, poses: [], path: null, body: null, keep_out: [], dyads: [] };
+const NOTHING = { unit: null, poses: [], path: null, body: null, keep_out: [], loads: null, dyads: [] };
 
 /** Where names are long, drawings have numbers instead, and tables both. */
 function label(poses) {
@@ -50,6 +51,7 @@ export class Report {
   /** @type {any} */ assemblies;
   /** @type {any} */ plots;
   /** @type {any} */ loops;
+  /** @type {any} */ loads;
   /** @type {any} */ aside;
   /** @type {any} */ plane;
   /** @type {any} */ spaceStory;
@@ -88,6 +90,7 @@ export class Report {
     body.append(main);
     main.append(this.stage());
     if (linkages.length) main.append(this.numbersAndPlots());
+    if (linkages.length && data.loads) main.append(this.loadPlots());
     const family = data.family_map ? this.familyMap() : null;
     const space = data.space ? this.imageSpace() : null;
     main.append(...(this.family?.isCurve ? [family, space] : [space, family]).filter(Boolean));
@@ -154,6 +157,13 @@ export class Report {
       section("plotted", this.linkages[0].loops ? "Transmission over the driver" : "Errors and transmission", plots),
     );
     return this.aside;
+  }
+
+  /** What the linkage bears, and how it moves in time. */
+  loadPlots() {
+    const plots = h("div", { class: "bm-fill" });
+    this.loads = new LoadPlots(this.data, plots, (u) => this.player.go(u));
+    return section("loaded", "Loads along the motion", plots);
   }
 
   imageSpace() {
@@ -230,6 +240,7 @@ export class Report {
   draw() {
     const { linkage, player } = this, way = player?.way ?? 0, stretch = player?.stretch;
     this.plots?.build(linkage, way, stretch);
+    this.loads?.build(linkage, way);
     const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked);
     this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
     this.offerAll(linkage);
@@ -253,9 +264,10 @@ export class Report {
 
   /** What moves, at a place of the body; near: the index of the nearest pose. */
   show(place, drive, transmission, near) {
-    this.plane.show(place);
+    this.plane.show(place, drive);
     this.space?.show(place);
     this.plots.show(drive);
+    this.loads?.show(drive);
     const row = this.rows[near];
     if (row === this.current) return;
     this.current?.classList.remove("bm-current");

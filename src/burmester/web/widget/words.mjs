@@ -2,6 +2,7 @@
 
 import { h, s } from "./dom.mjs";
 import { axes } from "./drawing.mjs";
+import { springPath } from "./load_marks.mjs";
 import { runs } from "./numbers.mjs";
 import { isPoint, nounOf } from "./tables.mjs";
 
@@ -54,6 +55,9 @@ export function keyOf(data, hasLinkages) {
       one(s("path", { class: "bm-curve bm-here", d: "M-2 2C6 -16 18 -10 28 -4" }), "path of the origin of M"),
     );
   }
+  const { springs = [], hand = null } = data.loads ?? {};
+  if (springs.length) items.push(one(s("path", { class: "bm-spring", d: springs[0].kind === "gas" || springs[0].kind === "constant" ? springPath(springs[0].kind, [-2, -3], [28, -3]) : "M-2 -3H2L5 -9L9 3L13 -9L17 3L21 -9L24 -3H28" }), springs.length > 1 ? "springs" : `${springs[0].kind} spring`));
+  if (hand && hasLinkages) items.push(one(s("path", { class: "bm-hand", d: "M0 -3H22M15 -7L22 -3L15 1" }), "push of the hand"));
   const box = "M-2 6H26V-10H-2Z";
   if (data.body || data.linkages[0]?.drawn) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
   if (data.keep_out.length) items.push(one(s("g", {}, s("path", { class: "bm-region-edge", d: box, fill: "none" }), s("path", { class: "bm-hatch", d: "M-2 1L9 -10M2 6L18 -10M12 6L26 -8" })), "keep out"));
