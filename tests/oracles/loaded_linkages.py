@@ -522,3 +522,11 @@ def loaded_linkage(kind, seed, loads=random_loads, unit=None):
     unit = unit or str(rng.choice(list(METRE)))
     chosen = linkage_of(kind, rng, loads, unit)
     return Model.of(chosen), LoadedLinkage.of(chosen)
+
+
+def driven_at(dyads, drives, loads, unit="mm", side=0, **more):
+    """A linkage under loads that goes through poses at given drives, with one way to close."""
+    where, phi = dyad_places(dyads, np.asarray(drives, float))
+    rows = np.column_stack([where[side].real, where[side].imag, np.unwrap(phi[side])])
+    task = Task(Displacement.from_poses(rows), length_unit=unit, loads=loads, **more)
+    return found(Linkage(*dyads), task, PoseError.at(task.poses, task.poses))

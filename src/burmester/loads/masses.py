@@ -84,19 +84,35 @@ def _of_body(body: Mass, outline: Polygon | None, metre: float) -> tuple[float, 
 
 
 def _plate(corners: FloatArray, plate: Plates, metre: float) -> tuple[float, FloatArray, float]:
-    """A plate with round ends about its pins: bars along its sides, each with half of each end."""
-    width, depth = plate.width * metre, plate.density * plate.thickness * metre
-    if len(corners) == 1:
-        return depth * np.pi * width**2 / 4, corners[0], depth * np.pi * width**4 / 32
-    sides = list(zip(corners, np.roll(corners, -1, axis=0), strict=True))
-    parts = []
-    for one, two in sides if len(corners) > 2 else sides[:1]:
-        length = float(np.linalg.norm(two - one))
-        bar = depth * length * width
-        parts.append((bar, (one + two) / 2, bar * (length**2 + width**2) / 12))
-    ends = depth * np.pi * width**2 / 4
-    parts += [(ends / 2, each, ends / 2 * width**2 / 8) for each in corners for _ in range(2)]
-    return _joined(parts)
+    """A plate as far about its pins as half its width: the polygon of the pins with a round rim."""
+    rim, weight = plate.width * metre / 2, plate.density * plate.thickness * metre
+    parts = list[tuple[float, FloatArray, float]]()
+    if len(corners) > 2:
+        corners = corners if _doubled_area(corners) > 0 else corners[::-1]
+        parts.append(moments(corners))
+    sides = np.roll(corners, -1, axis=0) - corners
+    lengths = np.hypot(*sides.T)
+    for corner, side, length in zip(corners, sides, lengths, strict=True):
+        if length > 0:
+            area, out = length * rim, np.array([side[1], -side[0]]) / length
+            middle = corner + side / 2 + out * rim / 2
+            parts.append((area, middle, area * (length**2 + rim**2) / 12))
+    headings = np.arctan2(sides[:, 1], sides[:, 0])
+    before = np.roll(headings, 1)
+    # At each corner the rim is a sector, from the normal of one side to that of the next one.
+    wide = np.mod(headings - before, 2 * np.pi) if len(corners) > 1 else np.array([2 * np.pi])
+    for corner, start, angle in zip(corners, before - np.pi / 2, wide, strict=True):
+        area = rim**2 * angle / 2
+        reach = 4 * rim * np.sin(angle / 2) / (3 * angle) if angle else 0.0
+        way = np.array([np.cos(start + angle / 2), np.sin(start + angle / 2)])
+        parts.append((area, corner + reach * way, area * (rim**2 / 2 - reach**2)))
+    area, centre, polar = _joined(parts)
+    return weight * area, centre, weight * polar
+
+
+def _doubled_area(corners: FloatArray) -> float:
+    x, y = (corners - corners[0]).T
+    return float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
 
 
 def _joined(parts: list[tuple[float, FloatArray, float]]) -> tuple[float, FloatArray, float]:
