@@ -232,6 +232,12 @@ def toml_poses(extra=""):
     return f'angle_unit = "deg"\nposes = [{rows}]\n{extra}'
 
 
+def loaded(tables, unit='length_unit = "mm"\n'):
+    """Three poses under loads."""
+    rows = "[[0, 0, 0], [-20, -10, 25], [-60, -5, 60]]"
+    return f'angle_unit = "deg"\n{unit}poses = {rows}\n{tables}'
+
+
 def poses(count, turn=0.3):
     """So many poses in general position."""
     k = np.arange(count)
@@ -1046,6 +1052,29 @@ CASES: dict[str, Case] = {
     ),
     "links of less than no width": Case(
         "E176", f"{S} --link-width -3", Args(f"{S} --link-width 3"), ALL
+    ),
+    "a mass without a centre": Case(
+        "E177",
+        "synthesize lid.toml",
+        Edit("lid.toml", "mass_kg = 4", "mass_kg = 4, center = [1, 2]"),
+        {"lid.toml": loaded("[loads]\nbody = { mass_kg = 4 }\n")},
+    ),
+    "loads without a unit": Case(
+        "E178",
+        "synthesize lid.toml",
+        Edit("lid.toml", 'angle_unit = "deg"', 'angle_unit = "deg"\nlength_unit = "mm"'),
+        {"lid.toml": loaded("[loads]\ntorque_Nm = 4\n", unit="")},
+    ),
+    "a spring that is too long": Case(
+        "E179",
+        "synthesize lid.toml",
+        Edit("lid.toml", "[0, 170]", "[0, 200]"),
+        {
+            "lid.toml": loaded(
+                '[[springs]]\nkind = "gas"\nground_point = [0, 0]\nbody_point = [0, 170]\n'
+                "force_N = 350\ncompressed_force_N = 480\nstroke = 100\nlength = 280\n"
+            )
+        },
     ),
     "an outline from a drawing": Case(
         "W218",

@@ -66,7 +66,11 @@ _SPRING_HELP = (
 
 
 def _gravity(node: Node) -> Any:
-    return node.text() if isinstance(node.value, str) else node.pair()
+    if node.value in ("down", "none"):
+        return node.value
+    if isinstance(node.value, str):
+        raise node.fault("E177", f"is {node.shown}")
+    return node.pair()
 
 
 _WHOLE: Final[Schema] = {"type": "integer", "minimum": 1}
