@@ -73,6 +73,12 @@ def test_values_of_every_kind():
     assert for_python([area]) == for_page([area]) == "footprint in the box from (0, 0) to (3, 4)"
     assert for_python([Cure("unit", "mm")]) == 'unit="mm"'
     assert for_page([Cure("every", 3)]) == "every 3"
+    for one in (1, 1.0):  # which are equal to True
+        assert for_command([Cure("pose", one)]) == "--pose 1"
+        assert for_python([Cure("pose", one)]) == "pose=1"
+        assert for_page([Cure("pose", one)]) == "pose 1"
+    assert for_command([Cure("force", True)]) == "--force"
+    assert for_python([Cure("force", True)]) == "force=True"
 
 
 def test_texts_keep_their_cures_when_joined_copied_and_sent():

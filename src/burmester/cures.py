@@ -29,6 +29,11 @@ class Cure:
     text: str = ""
     words: str = ""
 
+    @property
+    def is_name(self) -> bool:
+        """Whether the command and a page say its name alone."""
+        return self.value is None or self.value is True
+
 
 def for_command(cures: Sequence[Cure]) -> str:
     """Cures on the command line: "--within 8 --driver any"."""
@@ -37,7 +42,7 @@ def for_command(cures: Sequence[Cure]) -> str:
 
 def _option(cure: Cure) -> str:
     option = cure.option or f"--{cure.argument.replace('_', '-')}"
-    return option if cure.value in (None, True) else f"{option} {cure.text or _plain(cure.value)}"
+    return option if cure.is_name else f"{option} {cure.text or _plain(cure.value)}"
 
 
 def for_python(cures: Sequence[Cure]) -> str:
@@ -60,7 +65,7 @@ def for_page(cures: Sequence[Cure]) -> str:
 
 def _named(cure: Cure) -> str:
     name = cure.argument.replace("_", " ")
-    if cure.value in (None, True):
+    if cure.is_name:
         return name
     several = isinstance(cure.value, tuple | frozenset)
     return f"{name} {cure.text if several else _plain(cure.value)}"
