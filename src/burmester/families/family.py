@@ -22,10 +22,14 @@ from burmester.families.open_task import Conditions, OpenTask, Trials
 from burmester.families.pairing import promising_pairs
 from burmester.fourbar.dyad import RP, RR
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
-from burmester.numerics.arrays import FloatArray
+from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.bundles import concatenate, take, where
 from burmester.progress import time_for
 from burmester.refinement.target import Target
+from burmester.requirements.figures import Figures
+from burmester.requirements.loads import OF_LOADS
+from burmester.requirements.table import excess
 from burmester.tasks.option_table import Preference
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.assumptions import Assumptions, Bound
@@ -68,6 +72,8 @@ MOST_STARTS: Final = 300  # number of linkages among which starts are looked for
 PINNED: Final = frozenset({RR})  # the kinds of a linkage with pins alone
 SHOWN_APART: Final = 0.3  # motion sizes; least distance of those
 MOST_COMPARED: Final = 2000  # number of linkages that are compared with each other, about
+MOST_LOADED: Final = 60  # number of linkages that are loaded, where loads are held to bounds
+UNLOADED: Final = 10.0  # violation of a linkage that cannot be loaded
 VARIANTS: Final = 12  # number of draws of poses within their tolerances
 
 
@@ -79,7 +85,8 @@ class Family:
     rule: by which one is recommended, as a sentence.
     bounds: what was assumed.
     given_up: whether bounds that were only assumed had to be given up.
-    dyads, pairs: how many were drawn, and looked at.
+    dyads, pairs: how many were drawn, and looked at.  loaded: how many of those that work were
+    loaded, to see whether they bear what is asked.
     """
 
     rule: str
@@ -87,6 +94,7 @@ class Family:
     given_up: bool
     dyads: int
     pairs: int
+    loaded: int = 0
 
 
 class FoundFamily(NamedTuple):
@@ -111,6 +119,7 @@ class Pool(NamedTuple):
     value: Assessment
     dyads: int
     pairs: int
+    loaded: int = 0
 
 
 def best_of_family(problem: SynthesisProblem, target: Target) -> FoundFamily | None:
@@ -123,7 +132,7 @@ def best_of_family(problem: SynthesisProblem, target: Target) -> FoundFamily | N
         if first is not None and not time_for("looking again under looser assumptions"):
             break
         task = OpenTask.of(problem, target, assumed)
-        found = _searched(task, assumed)
+        found = _searched(task, assumed, Evaluation(problem, target))
         if found is not None and found.works:
             return found._replace(family=replace(found.family, given_up=given_up))
         first = first or found
@@ -132,7 +141,7 @@ def best_of_family(problem: SynthesisProblem, target: Target) -> FoundFamily | N
     return first._replace(family=replace(first.family, given_up=True))
 
 
-def _searched(task: OpenTask, assumed: Assumptions) -> FoundFamily | None:
+def _searched(task: OpenTask, assumed: Assumptions, evaluation: Evaluation) -> FoundFamily | None:
     """The best linkages of an open task, or the nearest to meeting its conditions."""
     rng = np.random.default_rng(0)
     kinds = task.conditions.kinds
@@ -149,7 +158,7 @@ def _searched(task: OpenTask, assumed: Assumptions) -> FoundFamily | None:
         pool = drawn_pool(task, pairs, counts, rng)
         if pool is not None:
             many = generations if pools or counts is PINS else MOST_GENERATIONS  # sliders alone
-            pools.append(_improved(pool, task, many, rng))
+            pools.append(_bearing(_improved(pool, task, many, rng), task, evaluation))
     if not pools:
         return None
     index = [_shown(pool, task) for pool in pools]
@@ -161,9 +170,10 @@ def _searched(task: OpenTask, assumed: Assumptions) -> FoundFamily | None:
         index[0] = index[0][: SHOWN - len(index[1])]
     chosen = [take(pool.trials, k) for pool, k in zip(pools, index, strict=True)]
     trials = concatenate(chosen)
-    dyads, pairs = (sum(getattr(pool, name) for pool in pools) for name in ("dyads", "pairs"))
+    names = ("dyads", "pairs", "loaded")
+    dyads, pairs, loaded = (sum(getattr(pool, name) for pool in pools) for name in names)
     return FoundFamily(
-        Family(rule_in_words(task.conditions), assumed.bounds, False, dyads, pairs),
+        Family(rule_in_words(task.conditions), assumed.bounds, False, dyads, pairs, loaded),
         driver_first(trials, task),
         np.zeros_like(trials.driver) if task.is_symmetric else trials.driver,
         task.rows(trials.offsets),
@@ -266,6 +276,36 @@ def _better_driven(pool: Pool, task: OpenTask) -> Pool:
         trials=replace(pool.trials, driver=np.where(better, other.driver, pool.trials.driver)),
         value=where(better, value, pool.value),
     )
+
+
+def _bearing(pool: Pool, task: OpenTask, evaluation: Evaluation) -> Pool:
+    """Of linkages that work, some, loaded: those that do not bear what is asked do not work."""
+    loads, good = evaluation.problem.given.loads, np.flatnonzero(pool.value.good)
+    if loads is None or not len(good):
+        return pool
+    asked = {
+        each: bound
+        for each, bound in evaluation.problem.given.requirements.bounds.items()
+        if each in OF_LOADS
+    }
+    if not (asked or loads.springs):
+        return pool
+    index = good[even_numbers(len(good), MOST_LOADED)]
+    trials, value = take(pool.trials, index), take(pool.value, index)
+    batch = driver_first(trials, task)
+    own = batch.from_canonical(evaluation.target.frames)
+    rows = task.rows(trials.offsets)
+    some = Candidates.of_own_dyads(batch, rows, own, from_search=True)
+    if not task.is_symmetric:
+        some = some._replace(drivers=trials.driver)
+    violation = np.full(len(index), UNLOADED)
+    for each in evaluation.members(some, quality=False, clearance=False):
+        if each.loads is not None:
+            number = (min(int(dyad.id[1:]) for dyad in each.dyads) - 1) // 2
+            missed = float(excess(asked, Figures(**each.loads.measures)))
+            violation[number] = missed + len(each.loads.findings)
+    value = value._replace(violation=np.asarray(violation))
+    return pool._replace(trials=trials, value=value, loaded=len(index))
 
 
 def spread_out(points: FloatArray, most: int) -> list[int]:

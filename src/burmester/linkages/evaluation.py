@@ -150,12 +150,14 @@ class Evaluation:
             found += self._with_uncertainty(*self._where_best(some))
         return found
 
-    def members(self, candidates: Candidates, *, quality: bool = True) -> list[FoundLinkage]:
+    def members(
+        self, candidates: Candidates, *, quality: bool = True, clearance: bool = True
+    ) -> list[FoundLinkage]:
         """The same for linkages of a family, in their order: no pose determines their pivots.
 
         Where they are, or where they trace a path; where they are not inside the tolerances, at
         their places deepest inside.
-        quality: whether it is told; it takes a third of the time.
+        quality, clearance: whether they are told; each takes a third of the time.
         """
         candidates = take(candidates, np.flatnonzero(sizable(candidates.batch)))
         if self.target.path is not None:
@@ -165,7 +167,7 @@ class Evaluation:
             outside = np.flatnonzero(~(boxes.boxes.share(rows).max(axis=-1) <= 1))
             rows[outside] = self.target.places(candidates.batch[outside], on_both=True)
             candidates = candidates._replace(rows=rows)
-        return self._judged(candidates, quality=quality)[0]
+        return self._judged(candidates, quality=quality, clearance=clearance)[0]
 
     def _where_best(
         self, candidates: Candidates
@@ -202,7 +204,7 @@ class Evaluation:
         return candidates._replace(rows=traced, drivers=cranks)
 
     def _judged(
-        self, candidates: Candidates, *, quality: bool = True
+        self, candidates: Candidates, *, quality: bool = True, clearance: bool = True
     ) -> tuple[list[FoundLinkage], LinkageBatch, FloatArray]:
         """The linkages at their places, as found and as a batch (dyads alike), and the places."""
         own = (
@@ -228,8 +230,8 @@ class Evaluation:
             linkage = own.linkage(k)
             settled = None if candidates.drivers is None else SIDES[candidates.drivers[k]]
             driver, missing, usable = self.driver(linkage, verdict, settled)
-            clearance = clearance_of(linkage, verdict, driver, self.problem)
-            missing += (close := too_close(clearance, self.problem))
+            room = clearance_of(linkage, verdict, driver, self.problem) if clearance else None
+            missing += (close := too_close(room, self.problem))
             usable = usable and not close
             both = linkage.first, linkage.second
             one, two = (
@@ -255,7 +257,7 @@ class Evaluation:
                 error=errors[k],
                 violations=missing,
                 from_search=bool(searched[k]),
-                clearance=clearance,
+                clearance=room,
                 within_tolerance=None if shares is None else shares[k],
                 task=self.problem.given,
             )

@@ -14,7 +14,7 @@ import numpy as np
 from burmester.numerics.arrays import FloatArray
 
 FINER: Final = 16  # looks between two places where a pair of roots may be
-HALVINGS: Final = 50
+NARROWINGS: Final = 10  # each to a part of FINER
 
 
 class Equilibrium(NamedTuple):
@@ -55,10 +55,13 @@ def equilibria(
     if len(crossed):
         below, above = shares[crossed], shares[crossed + 1]
         rising = sign[crossed + 1] > 0
-        for _ in range(HALVINGS):
-            middle = (below + above) / 2
-            before = (at(middle) > 0) != rising
-            below, above = np.where(before, middle, below), np.where(before, above, middle)
+        steps = np.linspace(0.0, 1.0, FINER + 1)
+        for _ in range(NARROWINGS):
+            there = below[:, None] + (above - below)[:, None] * steps
+            signs = at(there[:, 1:-1].ravel()).reshape(len(there), -1) > 0
+            before = (signs != rising[:, None]).sum(axis=1)  # looks that are before the root
+            every = np.arange(len(there))
+            below, above = there[every, before], there[every, before + 1]
         found += [
             Equilibrium(float(share), bool(up == (sense > 0)))
             for share, up in zip((below + above) / 2, rising, strict=True)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any, NamedTuple, TypeVar, final
 
 import numpy as np
@@ -12,6 +14,9 @@ from burmester.loads.drive_in_time import course_of
 from burmester.loads.equilibria import equilibria
 from burmester.loads.loaded_motion import LOOKS, LoadedLinkage, LoadedMotion
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
+from burmester.requirements.loads import OF_LOADS
+from burmester.requirements.table import violations
 from burmester.tasks.loads import Drive, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 
@@ -26,6 +31,11 @@ class Extremes(NamedTuple):
     least: float
     greatest: float
     at_poses: tuple[tuple[int, int], tuple[int, int]]
+
+    @property
+    def magnitude(self) -> float:
+        """The greater of both magnitudes."""
+        return max(abs(self.least), abs(self.greatest))
 
 
 class Rest(NamedTuple):
@@ -60,26 +70,37 @@ class DriveFigures(NamedTuple):
 
 
 @final
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class LoadFigures:
     """Of one linkage from the first pose to the last.
 
-    turns: whether its driver turns: efforts are N m then, else N.
-    effort: that holds it still.  hand: of a hand in place of the driver, positive where it pushes
-    along its way; None where there is no hand.  pins: the greatest force of each, in N.
-    rests: its equilibria.  stays: the poses, from 0, at which friction holds it, or nothing needs
+    motion: at places along it.  effort: that holds it still.
+    hand: of a hand in place of the driver, positive where it pushes along its way; None where there
+    is no hand.  pins: the greatest force of each, in N.
+    stays: the poses, from 0, at which friction holds it, or nothing needs
     to.  findings: springs that are longer or shorter than they allow.
+    measures: what is held to requirements, fields of `requirements.figures`.
     """
 
-    turns: bool
+    motion: LoadedMotion
     effort: Extremes
     hand: Extremes | None
     pins: dict[str, float]
-    rests: tuple[Rest, ...]
     stays: tuple[int, ...]
     springs: tuple[SpringFigures, ...]
     drive: DriveFigures | None
     findings: tuple[Finding, ...]
+    measures: Mapping[str, Any]
+
+    @property
+    def turns(self) -> bool:
+        """Whether its driver turns: efforts are N m then, else N."""
+        return self.motion.rates.turns
+
+    @cached_property
+    def rests(self) -> tuple[Rest, ...]:
+        """Its equilibria."""
+        return _rests(self.motion)
 
 
 def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
@@ -101,16 +122,27 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
         for name, force in loaded.pin_forces(-loaded.applied).items()
     }
+    most, stays, drive = extremes(loaded, effort), _stays(loaded), _in_time(linkage)
+    names = found.task.names or ("",) * len(linkage.at_poses)
+    measures = {
+        "hand_force": np.nan if hand is None else hand.magnitude,
+        "driver_torque": most.magnitude if drive is None else drive.effort.magnitude,
+        "pin_force": max(pins.values()),
+        "stays": frozenset(word for k in stays for word in (str(k + 1), names[k]) if word),
+        "closes": _closes(loaded),
+    }
+    if drive is not None:
+        measures |= {"body_speed": drive.speed, "body_acceleration": drive.acceleration}
     return LoadFigures(
-        loaded.rates.turns,
-        extremes(loaded, effort),
+        loaded,
+        most,
         hand,
         pins,
-        _rests(loaded),
-        _stays(loaded),
+        stays,
         tuple(_spring(loaded, k) for k in range(len(loaded.springs))),
-        _in_time(linkage),
+        drive,
         spring_findings(loaded),
+        measures,
     )
 
 
@@ -125,8 +157,11 @@ def loaded(found: Found) -> Found:
     if figures is None:
         return found
     more: dict[str, Any] = {"loads": figures}
-    if figures.findings:
-        more["violations"] = (*found.violations, *figures.findings)
+    asked = {each: bound for each, bound in found.task.requirements.bounds.items()
+             if each in OF_LOADS}  # fmt: skip
+    missed = violations(asked, Figures(**figures.measures), found.unit)
+    if figures.findings or missed:
+        more["violations"] = (*found.violations, *figures.findings, *missed)
         if "usable" in (each.name for each in fields(found)):
             more["usable"] = False
     return replace(found, **more)
@@ -182,6 +217,15 @@ def _stays(loaded: LoadedMotion) -> tuple[int, ...]:
 def _none(loaded: LoadedMotion) -> float:
     """The effort below which there is none but rounding."""
     return HELD * float(np.nanmax(loaded.gross, initial=0.0))
+
+
+def _closes(loaded: LoadedMotion) -> float:
+    """How far the body may be turned from the first pose, and closes by itself, in radians."""
+    angle = loaded.places[loaded.bodies.body].angle
+    angle = np.abs(angle - angle[0])
+    back = loaded.sense * loaded.effort > loaded.friction
+    open_ = np.flatnonzero(~back)
+    return float(angle[open_[0]] if len(open_) else np.inf)
 
 
 def _spring(loaded: LoadedMotion, k: int) -> SpringFigures:

@@ -23,6 +23,9 @@ class Figures(NamedTuple):
     type: a number in `fourbar.linkage.TYPES`.  turns: whether the driver turns fully.
     outside: how far a pivot leaves the footprint, a length; pivot: which one, in words.
     extent: of all joints over the range, a length.
+    hand_force, driver_torque, pin_force: the greatest magnitudes under loads, N or N m; stays: the
+    poses at which it stays, by name and number; closes: how far the body is turned from the first
+    pose and still closes by itself, radians; body_speed, body_acceleration: the greatest.
     joints: whether lengths are distances between joints of links with more than two.
     """
 
@@ -37,6 +40,13 @@ class Figures(NamedTuple):
     pivot: str = ""
     extent: Values = math.nan
     joints: bool = False
+    hand_force: Values = math.nan
+    driver_torque: Values = math.nan
+    pin_force: Values = math.nan
+    stays: frozenset[str] | None = None
+    closes: Values = math.nan
+    body_speed: Values = math.nan
+    body_acceleration: Values = math.nan
 
     @property
     def none(self) -> FloatArray:

@@ -14,6 +14,7 @@ from burmester.requirements.links import (
     LONGEST_LINK,
     SHORTEST_LINK,
 )
+from burmester.requirements.loads import OF_LOADS
 from burmester.requirements.poses import ANY_ORDER, WITHIN, WITHIN_ANGLE
 from burmester.requirements.requirement import Bounds, Requirement
 from burmester.requirements.transmission import TRANSMISSION
@@ -40,6 +41,7 @@ REQUIREMENTS: Final[tuple[Requirement, ...]] = (
     LONGEST_LINK,
     CHANGE_POINT,
     EXTENT,
+    *OF_LOADS,
 )
 # Those that a task may state, in the order of options, keys and arguments.
 ASKED: Final = tuple(each for each in REQUIREMENTS if each.form)

@@ -79,7 +79,8 @@ class FoundSixBar(LinkageAtPoses):
     @property
     def figures(self) -> Figures:
         """What it measures and does."""
-        return figures_of(self.linkage, self.transmission, self.turns_fully, self.extent)
+        figures = figures_of(self.linkage, self.transmission, self.turns_fully, self.extent)
+        return self.with_loads(figures)
 
     @property
     def turns_fully(self) -> bool:

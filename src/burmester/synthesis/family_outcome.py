@@ -31,10 +31,15 @@ def family_summary(
             nearest = linkages[0]
             why = f"the nearest to it, {nearest.id}, "
             why += in_short(nearest, problem.given, problem.length)
+        message = f"and none works of {looked} that were looked at"
+        if family.loaded:
+            message = (
+                f"{family.loaded} of {looked} that work without their loads were loaded, and none "
+                "bears what is asked"
+            )
         outcome = Outcome(
             "R309",
-            f"no usable linkage: {poses} leave infinitely many, and none works of {looked} "
-            "that were looked at",
+            f"no usable linkage: {poses} leave infinitely many, {message}",
             "give the limits more room, ask for less, or move a pose",
             why,
         )

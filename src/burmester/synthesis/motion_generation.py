@@ -201,7 +201,7 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     target = target_of(problem)
     step("looking at the linkages of the family")
     found = best_of_family(problem, target)
-    if found is None or not found.works:
+    if found is None or not (found.works or found.family.loaded):
         found = last_search(problem, target, found)
     if found is None:
         return None

@@ -19,7 +19,7 @@ from burmester.tasks.frames import frames_of
 from burmester.tasks.limits import Limits
 from burmester.tasks.loads import Loads, require_possible_loads
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, kept, nominal_rows
-from burmester.tasks.requirements import Requirements, require_possible
+from burmester.tasks.requirements import Requirements, require_loads, require_possible
 from burmester.tasks.surroundings import Surroundings, require_clear_at_poses
 from burmester.tasks.traced_path import TracedPath
 from burmester.values import real_numbers, require_instance, short_text, shown
@@ -253,7 +253,8 @@ class Task:
             )
 
     def _require_loadable(self) -> None:
-        """Refuse loads that do not fit the task: E177, E178, E179."""
+        """Refuse loads that do not fit the task, E177 to E179, or bounds on what is not loaded."""
+        require_loads(self.requirements, self.loads, self.names, self.poses.shape[0])
         if self.loads is not None:
             outlined = self.body is not None
             require_possible_loads(self.loads, self.poses, self.length_unit, outlined)

@@ -10,10 +10,12 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Polygon, Region
+from burmester.requirements.loads import HAND_FORCE, NEEDS, OF_LOADS, STAYS_AT
 from burmester.requirements.requirement import Requirement
 from burmester.requirements.table import ASKED, NOT_ASKED, standard
 from burmester.requirements.types import TYPES, Driver, allowed_types, types_in_words
 from burmester.tasks.limits import Kind, Limits
+from burmester.tasks.loads import Loads
 from burmester.wording import with_article
 
 TYPES_WITHOUT_CRANK = frozenset({"double-rocker", "triple-rocker", "double slider"})
@@ -175,6 +177,28 @@ def require_possible(requirements: Requirements, limits: tuple[Limits, ...]) -> 
                 why="the two have no point in common",
                 help="move one of them, enlarge the footprint, or leave it out",
             )
+
+
+def require_loads(
+    requirements: Requirements, loads: Loads | None, names: tuple[str, ...] | None, count: int
+) -> None:
+    """Refuse bounds on what a task does not load, or poses that it does not have: E134."""
+    asked = [each for each in requirements.bounds if each in OF_LOADS]
+    for each in asked:
+        needs = NEEDS.get(each, lambda _: True)
+        if loads is None or not needs(loads):
+            what = "hand in its loads" if each is HAND_FORCE else "drive"
+            raise InputError(
+                "E134",
+                f"{each.name} is asked for, and the task has no "
+                f"{'loads' if loads is None else what}",
+                help=f"state the loads beside the poses, or leave {each.name} out",
+            )
+    known = {*(names or ()), *(str(k + 1) for k in range(count))}
+    for name in sorted(requirements.bounds.get(STAYS_AT, ())):
+        if name not in known:
+            help = f"name a pose of the task, or give its number from 1 to {count}"
+            raise InputError("E134", f"stays_at names no pose: {name!r}", help=help)
 
 
 def _require_a_type(requirements: Requirements, first: Limits, second: Limits) -> None:

@@ -141,7 +141,7 @@ class FoundLinkage(LinkageAtPoses):
     @property
     def figures(self) -> Figures:
         """What it measures and does with the preferred driver, but for the footprint."""
-        return four_bar_figures(self.driver_first, self.driven)
+        return self.with_loads(four_bar_figures(self.driver_first, self.driven))
 
     @property
     def dyads_driver_first(self) -> Pair:

@@ -97,6 +97,10 @@ class LinkageAtPoses(JudgedLinkage):
         """Whether it meets poses on other branches than the one of which its errors are."""
         return False
 
+    def with_loads(self, figures: Figures) -> Figures:
+        """Figures, and what it bears."""
+        return figures if self.loads is None else figures._replace(**self.loads.measures)
+
     @property
     @abstractmethod
     def bodies(self) -> Bodies:
