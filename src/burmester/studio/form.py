@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from burmester.requirements.loads import OF_LOADS
 from burmester.requirements.requirement import Number, Requirement
 from burmester.requirements.table import ASKED
 from burmester.tasks.option_table import LIMIT_OPTIONS, STUDIO_OPTIONS
@@ -20,6 +21,7 @@ def form_data() -> dict[str, Any]:
             _field(each.name, each.label or each.help, each.form, _choices(each))
             | _bounds(each.checked)
             for each in ASKED
+            if each not in OF_LOADS  # files state loads, a page does not
         ],
         "options": [
             _field(key, each.label, each.form, [*zip(each.known, each.words, strict=True)])
