@@ -432,7 +432,9 @@ def test_the_main_job_does_without_what_it_does_not_need(poses, source):
         "importlib.resources",
     }
     assert "burmester.linkages" in loaded
-    assert not loaded & {f"burmester.{room}" for room in ("families", "certificates", "plot")}
+    assert not loaded & {
+        f"burmester.{room}" for room in ("families", "certificates", "loads", "plot")
+    }
     assert not loaded & {
         "rich._emoji_codes",
         "burmester.dyads.minima_within_limits",

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
-from burmester.loads.load_figures import Extremes, LoadFigures
 from burmester.tasks.motion_task import Task
 from burmester.wording import listed
+
+if TYPE_CHECKING:
+    from burmester.loads.load_figures import Extremes, LoadFigures
 
 
 def load_notes(figures: LoadFigures | None, task: Task) -> list[str]:

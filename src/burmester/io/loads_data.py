@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from burmester.loads.load_figures import DriveFigures, Extremes, LoadFigures
+if TYPE_CHECKING:
+    from burmester.loads.load_figures import DriveFigures, Extremes, LoadFigures
 
 
 def load_figures_data(figures: LoadFigures, names: tuple[str, ...] | None) -> dict[str, Any]:

@@ -21,7 +21,6 @@ from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distan
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.judged_places import NearestPlaces, best_places
-from burmester.loads.load_figures import loaded
 from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.bundles import take
 from burmester.numerics.weights import weights_or_ones
@@ -262,7 +261,10 @@ class Evaluation:
                 task=self.problem.given,
             )
             found = replace(found, timing_error=timing_error(found.driven.inputs, self.task))
-            found = loaded(found)
+            if found.task.loads is not None:
+                from burmester.loads.load_figures import loaded  # noqa: PLC0415  few have loads
+
+                found = loaded(found)
             below = shortcomings(bounds, found.figures, length)
             out.append(replace(found, shortcomings=tuple(each.message for each in below)))
         for k, strays in enumerate(stray_shortcomings(out, self.task)):

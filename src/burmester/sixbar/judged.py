@@ -33,7 +33,6 @@ from burmester.fourbar.pose_order import (
 )
 from burmester.fourbar.traversal import DEAD_POINT_ANGLE
 from burmester.geometry.displacement import Displacement
-from burmester.loads.load_figures import loaded
 from burmester.mechanisms.branches import Branch, branches_of
 from burmester.mechanisms.circuits import circuits_of
 from burmester.mechanisms.contract import body_of
@@ -341,6 +340,10 @@ def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundS
         else shares_used(driven.errors[k].places, task, problem.length),
         task=task,
     )
+    if task.loads is None:
+        return found
+    from burmester.loads.load_figures import loaded  # noqa: PLC0415  few tasks have loads
+
     return loaded(found)
 
 

@@ -12,12 +12,12 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
-from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.motion import Way
 
-if TYPE_CHECKING:  # of a room above
+if TYPE_CHECKING:  # few tasks have any of these
     from burmester.loads.load_figures import LoadFigures
+    from burmester.tasks.function_task import FunctionTask
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
