@@ -19,6 +19,7 @@ from burmester import cli
 from burmester.io.cases import names
 from tests.command import process, run
 from tests.oracles.ten_poses import TEN as TABLE_2
+from tests.samples import EVERY
 
 
 @pytest.fixture
@@ -394,6 +395,8 @@ def test_reproduce_prints_every_table_and_its_verdicts():
     for title in ("Table 3", "Table 4", "Table 6", "Table 7", "Table 8", "Eqs. (19) to (21)"):
         assert title in done.stdout
     assert "0 differs" in " ".join(done.stdout.split())
+    if not EVERY:  # the rows are those of `tests/paper`
+        return
     data = json.loads(run("reproduce", "--json").stdout)
     verdicts = [row["verdict"] for section in data["sections"] for row in section["rows"]]
     assert verdicts.count("differs") == 0
@@ -465,7 +468,7 @@ def test_ctrl_c_leaves_quietly(tmp_path):
     )
     time.sleep(1.0)  # it waits for standard input by then
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=30)
+    out, err = process.communicate(timeout=120)
     assert process.returncode == 130
     assert out == ""
     assert "Traceback" not in err

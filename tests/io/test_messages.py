@@ -4,8 +4,9 @@
 (or a function called), and the code is expected.  Then somebody does what the help says, which
 `follow` holds, and runs the command again: the code must be gone and the input usable.
 
-The golden messages are in `__snapshots__`; `pytest tests/io/test_messages.py --snapshot-update`
-writes them anew, and with them the examples of `io/messages.md`, which are these messages.
+The golden messages are in `__snapshots__`; `EVERY_SAMPLE=1 pytest tests/io/test_messages.py
+--snapshot-update` writes them anew, and with them the examples of `io/messages.md`, which are these
+messages.
 """
 
 import io
@@ -50,6 +51,7 @@ from tests.oracles.drawings import svg
 from tests.oracles.measured import as_csv, measured
 from tests.oracles.recordings import nexus, recording
 from tests.oracles.ten_poses import ROWS, TEN
+from tests.samples import EVERY
 
 NARROW, WIDE_ENOUGH = 60, 10_000  # columns
 ROOT = Path(burmester.__file__).parent
@@ -1804,7 +1806,12 @@ TOLD = ("R300", "R305", "R307", "R308", "R340", "R360", "R370")
 ONLY_JSON = ("R320", "R321")  # kinds of motion that say no outcome
 
 
-@pytest.mark.parametrize("name", CASES)
+EXAMPLES = {case.code: name for name, case in reversed(CASES.items())}
+AT_NIGHT = pytest.mark.skipif(not EVERY, reason="of its code another case is run by day")
+NAMES = [pytest.param(name, marks=() if name in EXAMPLES.values() else AT_NIGHT) for name in CASES]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_message_is_drawn_told_and_its_help_followed(name, run, ready, broken, snapshot):
     case = ready(name)
     if callable(case.run):
@@ -2013,9 +2020,6 @@ def test_a_path_is_never_broken():
     lines = drawn(error, 60).splitlines()
     assert lines[1] == f"  --> {path}"
     assert lines[-1].strip() == path
-
-
-EXAMPLES = {case.code: name for name, case in reversed(CASES.items())}
 
 
 def require_on_its_page(name, text, *, update):
