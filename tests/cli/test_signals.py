@@ -64,7 +64,7 @@ def waiting(seconds=60, again=0, first=""):
 def test_a_signal_takes_the_unfinished_file_away(folder, number):
     process = waiting()
     process.send_signal(number)
-    out, err = process.communicate(timeout=30)
+    out, err = process.communicate(timeout=120)
     assert process.returncode == CODES[number]
     assert out == b"again"
     told = "interrupted; no unfinished file is left" if number == signal.SIGINT else ""
@@ -79,7 +79,7 @@ def test_a_second_signal_ends_it_at_once(folder, number):
     assert process.stdout.read(5) == b"again"
     begun = time.monotonic()
     process.send_signal(number)
-    _, err = process.communicate(timeout=30)
+    _, err = process.communicate(timeout=120)
     assert time.monotonic() - begun < 20  # not the minute that it would sleep
     assert process.returncode == CODES[number]
     assert err == b""
@@ -92,7 +92,7 @@ def test_a_signal_that_is_ignored_stays_ignored(folder):
         seconds=1, first="import signal; signal.signal(signal.SIGHUP, signal.SIG_IGN)\n"
     )
     process.send_signal(signal.SIGHUP)
-    process.communicate(timeout=30)
+    process.communicate(timeout=120)
     assert process.returncode == 0
     assert Path("a.json").read_bytes() == b"half"
 

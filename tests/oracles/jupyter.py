@@ -127,7 +127,7 @@ def server(folder, *command):
         yield address(state / "runtime", process), state / "runtime"
     finally:
         process.terminate()
-        process.wait(20)
+        process.wait(60)
 
 
 def address(runtime, process):
