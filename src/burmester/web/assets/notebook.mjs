@@ -459,68 +459,68 @@ uto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: 
 ll: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted);\
  }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-s\
 ize: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: var(--bm\
--follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve2 { stroke: var(--bm-error); }\n.\
-bm-line.bm-curve3 { stroke: var(--bm-good); stroke-dasharray: 6 4; }\n.bm-line.bm-curve4 { stroke: var(--bm-coupler); }\n.bm-line.bm-curve5 { stroke: var(--bm-bod\
-y); stroke-dasharray: 6 4; }\n.bm-line.bm-curve6 { stroke: var(--bm-muted); }\n.bm .bm-title tspan { font-weight: 700; fill: var(--bm-driver); }\n.bm .bm-title .bm\
--curve1 { fill: var(--bm-follower); }\n.bm .bm-title .bm-curve2 { fill: var(--bm-error); }\n.bm .bm-title .bm-curve3 { fill: var(--bm-good); }\n.bm .bm-title .bm-c\
-urve4 { fill: var(--bm-coupler); }\n.bm .bm-title .bm-curve5 { fill: var(--bm-body); }\n.bm .bm-title .bm-curve6 { fill: var(--bm-muted); }\n.bm-dot.bm-loop0 { fil\
-l: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: va\
-r(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden\
-; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:\
-focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-\
-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 {\
- stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-p\
-anel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-\
-map { position: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; i\
-nset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { bor\
-der: 1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width:\
- 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill\
-: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm\
--panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline \
-{ fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-in\
-k); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: s\
-troke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { str\
-oke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.\
-bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-bl\
-ock; width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair\
--low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outs\
-ide); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair\
--circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swa\
-tch { display: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-sw\
-atch.bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; bord\
-er: 1px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor:\
- grabbing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-\
-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fi\
-ll: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidd\
-en { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.b\
-m .bm-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error);\
- stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-mute\
-d); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .\
-bm-aside, .bm-main > .bm-loaded { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice d\
-l dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { f\
-ont-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-na\
-med tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  \
-.bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6p\
-x 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: flex; justify-content: space-between; gap: 14px; border:\
- 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; wh\
-ite-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .b\
-m .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right\
-: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2,\
- minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; t\
-op: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: str\
-etch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage,\
- .bm-aside, .bm-loaded, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr\
-)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start\
-; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / \
--1; }\n  .bm-main:has(.bm-loaded) { grid-template-rows: auto 1fr; }\n  .bm-main:has(.bm-loaded) .bm-aside { grid-row: span 2; }\n  .bm-loaded { grid-column: span 6\
-; align-self: start; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-d\
-river: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #\
-6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c; --bm-spring: #6b43ab; --bm-hand: #9a5a00;\n    font-size\
-: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !important; }\n \
- .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border: 0; paddin\
-g: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scroll { overfl\
-ow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid; }\n  .bm th\
-, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+-follower); stroke-dasharray: 6 4; }\n.bm-stale { opacity: 0.35; }\n.bm-line.bm-curve1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve2 {\
+ stroke: var(--bm-error); }\n.bm-line.bm-curve3 { stroke: var(--bm-good); stroke-dasharray: 6 4; }\n.bm-line.bm-curve4 { stroke: var(--bm-coupler); }\n.bm-line.bm-\
+curve5 { stroke: var(--bm-body); stroke-dasharray: 6 4; }\n.bm-line.bm-curve6 { stroke: var(--bm-muted); }\n.bm .bm-title tspan { font-weight: 700; fill: var(--bm\
+-driver); }\n.bm .bm-title .bm-curve1 { fill: var(--bm-follower); }\n.bm .bm-title .bm-curve2 { fill: var(--bm-error); }\n.bm .bm-title .bm-curve3 { fill: var(--bm\
+-good); }\n.bm .bm-title .bm-curve4 { fill: var(--bm-coupler); }\n.bm .bm-title .bm-curve5 { fill: var(--bm-body); }\n.bm .bm-title .bm-curve6 { fill: var(--bm-mut\
+ed); }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\
+\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-\
+radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: \
+crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n\
+.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: \
+3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-orde\
+r: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify\
+-content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-ma\
+p svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius:\
+ 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke:\
+ var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; \
+}\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: va\
+r(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-\
+width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\
+\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-li\
+nejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\
+\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--b\
+m-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pa\
+ir-scale { display: inline-block; width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gra\
+dient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { b\
+ackground: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circui\
+t { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend\
+ { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px\
+; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-spa\
+ce { position: relative; border: 1px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none;\
+ }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--b\
+m-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(-\
+-bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacit\
+y: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.b\
+m-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-ru\
+nner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36p\
+x) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list \
+{ order: -2; }\n  .bm-main > .bm-aside, .bm-main > .bm-loaded { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-ch\
+oice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14p\
+x; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { pad\
+ding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks\
+ tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr \
+{ display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: flex; justify-content: spac\
+e-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-\
+child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-muted); white-space: now\
+rap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last\
+-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { gri\
+d-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .\
+bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .bm-choices { flex-direct\
+ion: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main { grid-template-columns: repeat(10, mi\
+nmax(0, 1fr)); }\n  .bm-stage, .bm-aside, .bm-loaded, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-col\
+umns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-colu\
+mn: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-main:not(:has(.bm-aside)) \
+.bm-stage { grid-column: 1 / -1; }\n  .bm-main:has(.bm-loaded) { grid-template-rows: auto 1fr; }\n  .bm-main:has(.bm-loaded) .bm-aside { grid-row: span 2; }\n  .bm\
+-loaded { grid-column: span 6; align-self: start; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; --bm-line: #bbb;\
+ --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --bm-follower-solid\
+: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c; --bm-spring: #6b43ab; --bm\
+-hand: #9a5a00;\n    font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { \
+display: none !important; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n \
+ .bm-card { border: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt\
+; }\n  .bm .bm-scroll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { br\
+eak-inside: avoid; }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -625,17 +625,17 @@ map(({point})=>point);return[...on("ground"),...places.flatMap(place=>[...on("bo
 x,y],angle,length){const c=Math.cos(angle),d=-Math.sin(angle),tip=[x+length*c,y+length*d];const barb=side=>`${px(tip[0]-BARB[0]*c-side*BARB[1]*d)} ${px(tip[1]-BARB[0]*
 d+side*BARB[1]*c)}`;return`M${px(x)} ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`}var LoadMarks=class{constructor(){this.springs=
 s("g",{class:"bm-springs"});this.hand=s("path",{class:"bm-hand"});this.group=s("g",{class:"bm-loads"},this.springs,this.hand)}shape(data,linkage,view){this.view=
-view;this.loads=data.loads??null;this.known=linkage.loads??null;const springs=this.loads?.springs??[];while(this.springs.children.length>springs.length)this.springs.
-lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),s("circle",{class:"bm-spring-en\
-d",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind},k)=>put(this.springs.children[k],"data-spring",kind))}show(place,drive){const{loads,
-view}=this;if(!loads||!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,drive)),group=this.
-springs.children[k];put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",springPath(kind,at[0],at[1]));
-at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});const pushes=this.known?.hand,angle=pushes&&drive!==null?valueAt(
-pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+(LONGEST_ARROW-
-LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}seen([x,y]){const{view}=this;return view?
-[view.X(x),view.Y(y)]:[0,0]}endOf({link,point},spring,end,place,drive){if(link==="ground")return this.seen(point);if(link==="body")return this.seen(act(place,point));
-const known=this.known?.moved.find(each=>each.spring===spring&&each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):[null];return at.
-some(each=>each===null)?null:this.seen(at)}};function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
+view;this.loads=data.loads??null;this.known=(linkage.followed?null:linkage.loads)??null;const springs=this.loads?.springs??[];while(this.springs.children.length>
+springs.length)this.springs.lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),s("\
+circle",{class:"bm-spring-end",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind},k)=>put(this.springs.children[k],"data-spring",kind))}show(place,drive){
+const{loads,view}=this;if(!loads||!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,
+drive)),group=this.springs.children[k];put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",springPath(
+kind,at[0],at[1]));at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});const pushes=this.known?.hand,angle=pushes&&
+drive!==null?valueAt(pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+
+(LONGEST_ARROW-LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}seen([x,y]){const{
+view}=this;return view?[view.X(x),view.Y(y)]:[0,0]}endOf({link,point},spring,end,place,drive){if(link==="ground")return this.seen(point);if(link==="body")return this.
+seen(act(place,point));const known=this.known?.moved.find(each=>each.spring===spring&&each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,
+drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
 x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(
 a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3}\
  16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){
@@ -1015,13 +1015,13 @@ follower.kind==="RP")return 90;if(follower.kind==="RP"){const pin=act(place,driv
 y-pin[1]])}const end=act(place,follower.moving_pivot);const lever=follower.kind==="PR"?normalOf(follower):[end[0]-follower.fixed_pivot[0],end[1]-follower.fixed_pivot[1]];
 if(driver.kind==="RP")return between(slot(driver),lever);const start=act(place,driver.moving_pivot);return between([end[0]-start[0],end[1]-start[1]],lever)}var between=(a,b)=>Math.
 atan2(Math.abs(a[0]*b[1]-a[1]*b[0]),Math.abs(a[0]*b[0]+a[1]*b[1]))*180/Math.PI;var APART=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
-!linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=Array(
+!linkage.ways.length)return{...linkage,led,loads:null,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=Array(
 linkage.pose_errors.length).fill(null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,
 led,piece,chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.
 ways[row.way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
 way.branches=ways.filter(each=>each.circuit===way.circuit).length;named.set(way.circuit,(named.get(way.circuit)??0)+1);way.branch=named.get(way.circuit)}const pose_errors=linkage.
 pose_errors.map((row,k)=>({...row,way:places[k]?.[0]??null,frame:places[k]?.[1]??null,at:places[k]?ways[places[k][0]]:null,transmission_deg:row.x===null?null:transmissionOf(
-...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
+...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,loads:null,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
 ways.map(way=>way.circuit))){const own=ways.map((way,number)=>({way,number})).filter(({way})=>way.circuit===circuit);const stations=({way,number},turned)=>{const all=Array.
 from(way.x,(_,u)=>({way:number,u}));return turned?all.reverse():all};const[one,other]=own;const joined=(end,start)=>other&&one.way.dead[end]&&other.way.dead[start]&&
 near(one.way,end,other.way,start);if(!other||!(joined(0,0)||joined(1,1))){for(const each of own)chains.push({circuit,closed:each.way.round,stations:stations(each,

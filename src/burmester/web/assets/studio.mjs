@@ -113,17 +113,17 @@ map(({point:point2})=>point2);return[...on("ground"),...places.flatMap(place=>[.
 x,y],angle,length){const c=Math.cos(angle),d=-Math.sin(angle),tip=[x+length*c,y+length*d];const barb=side=>`${px(tip[0]-BARB[0]*c-side*BARB[1]*d)} ${px(tip[1]-BARB[0]*
 d+side*BARB[1]*c)}`;return`M${px(x)} ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`}var LoadMarks=class{constructor(){this.springs=
 s("g",{class:"bm-springs"});this.hand=s("path",{class:"bm-hand"});this.group=s("g",{class:"bm-loads"},this.springs,this.hand)}shape(data,linkage,view){this.view=
-view;this.loads=data.loads??null;this.known=linkage.loads??null;const springs=this.loads?.springs??[];while(this.springs.children.length>springs.length)this.springs.
-lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),s("circle",{class:"bm-spring-en\
-d",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind},k)=>put(this.springs.children[k],"data-spring",kind))}show(place,drive){const{loads,
-view}=this;if(!loads||!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,drive)),group=this.
-springs.children[k];put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",springPath(kind,at[0],at[1]));
-at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});const pushes=this.known?.hand,angle=pushes&&drive!==null?valueAt(
-pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+(LONGEST_ARROW-
-LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}seen([x,y]){const{view}=this;return view?
-[view.X(x),view.Y(y)]:[0,0]}endOf({link,point:point2},spring,end,place,drive){if(link==="ground")return this.seen(point2);if(link==="body")return this.seen(act(
-place,point2));const known=this.known?.moved.find(each=>each.spring===spring&&each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):
-[null];return at.some(each=>each===null)?null:this.seen(at)}};var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.
+view;this.loads=data.loads??null;this.known=(linkage.followed?null:linkage.loads)??null;const springs=this.loads?.springs??[];while(this.springs.children.length>
+springs.length)this.springs.lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),s("\
+circle",{class:"bm-spring-end",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind},k)=>put(this.springs.children[k],"data-spring",kind))}show(place,drive){
+const{loads,view}=this;if(!loads||!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,
+drive)),group=this.springs.children[k];put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",springPath(
+kind,at[0],at[1]));at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});const pushes=this.known?.hand,angle=pushes&&
+drive!==null?valueAt(pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+
+(LONGEST_ARROW-LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}seen([x,y]){const{
+view}=this;return view?[view.X(x),view.Y(y)]:[0,0]}endOf({link,point:point2},spring,end,place,drive){if(link==="ground")return this.seen(point2);if(link==="body")
+return this.seen(act(place,point2));const known=this.known?.moved.find(each=>each.spring===spring&&each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(
+each,drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.
 y[u],a:way.angle[u]}:placeAt(linkage,way,u,data.chart.length));function placesAlong(data,{low,high},at){const places=[at(low)];let before=low;const goTo=u=>{const next=at(
 u),last=places[places.length-1];const count=Math.min(MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=
 count;k+=1)places.push(at(before+k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){
@@ -1026,22 +1026,23 @@ put(this.cursor,"visibility",at===null?"hidden":"visible");if(at===null)return;t
 mark,value,Y}of this.marks){const known=value(at);put(mark,"visibility",known===null?"hidden":"inherit");if(known!==null)put(mark,"cy",px(Y(known)))}}};var TITLE2="Loads";var fieldsets=0;var LoadPlots=class extends Plots{own=null;timed=null;drive;overTime=false;constructor(data,parent,scrub){super(data,parent,scrub);
 const name=`bm-over-${fieldsets+=1}`;const one=(text,overTime)=>h("label",{},h("input",{type:"radio",name,checked:!overTime,onchange:()=>this.take(overTime)}),h(
 "span",{},text));this.choice=h("fieldset",{class:"bm-ways bm-over",hidden:true},one("Over the driver",false),one("Over time",true));this.nothing=h("p",{class:"b\
-m-note-text",hidden:true},"Loads are known from the first pose to the last, of a linkage that leads through all of them.");parent.prepend(this.choice,this.nothing)}take(overTime){
-this.overTime=overTime;this.draw();if(this.drive!==void 0)this.show(this.drive)}build(linkage,index){this.linkage=linkage;const loads=linkage?.loads,here=Boolean(
-loads)&&loads.way===index&&Boolean(linkage.ways[index]);this.own=here?loads:null;this.way=here?linkage.ways[index]:null;this.choice.hidden=!this.own?.timed;this.
-nothing.hidden=here;this.draw()}draw(){const{svg,own,data}=this;svg.replaceChildren();svg.removeAttribute("height");this.cursor=null;if(!own)return;const timed=this.
-overTime&&own.timed?own.timed:null,panels=(timed??own).panels,{x}=panels[0];this.timed=timed;const[driver]=this.linkage.led,slides=driver.kind==="PR";const title=timed?
-"time (s)":slides?`place of ${driver.id} on its line (${data.unit})`:`driver angle (${driver.id})`;svg.setAttribute("aria-label",`${this.linkage.id}: ${TITLE2.toLowerCase()}\
- over ${timed?"time":"the driver"}`);this.frame(panels.length,x[0],x[x.length-1],!slides&&!timed,title,()=>{panels.forEach((each,k)=>this.lines(k,each,k+1===panels.
-length))})}lines(k,{title,x,lines},last){const all=lines.flatMap(({y})=>y.filter(each=>each!==null)),[y0,base]=this.heights(k);const least2=Math.min(0,...all),most=Math.
-max(0,...all),room=.08*(most-least2||1);this.panel(title,y0,base,last);const Y=v=>base-(v-least2+room)/(most-least2+2*room)*(base-y0);for(const{at,text}of ticks(
-least2,most,4))this.rule(Y(at),text);if(least2<0&&most>0)this.svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(
-({y},line2)=>{let d="",pen="M";x.forEach((at,i)=>{if(y[i]===null)pen="M";else{d+=`${pen}${px(this.X(at))} ${px(Y(y[i]))}`;pen="L"}});this.svg.append(s("path",{class:`\
-bm-line bm-curve${line2}`,d}));this.mark(at=>valueAt({x,y},at),Y)});if(lines.length>1){const names=s("text",{class:"bm-title",x:this.width-RIGHT,y:y0-7,"text-an\
-chor":"end"});lines.forEach(({name},line2)=>names.append(s("tspan",{class:`bm-curve${line2}`,dx:line2?7:0},name)));this.svg.append(names)}}placeOf(drive){const{
-own,timed}=this;if(timed)return valueAt(timed.time,drive);const{x}=own.panels[0];return drive<x[0]-1e-6||drive>x[x.length-1]+1e-6?null:drive}driveAt(at){if(!this.
-timed)return at;const{x,y}=this.timed.time;return y[0]<=y[y.length-1]?valueAt({x:y,y:x},at):valueAt({x:[...y].reverse(),y:[...x].reverse()},at)}show(drive){this.
-drive=drive;super.show(drive)}};var NO_MOTION="No linkage is there whose motion could be shown.";var Curves=class{constructor(answers,playing,Kind){this.playing=playing;const fill=h("div",{class:"\
+m-note-text",hidden:true},"Loads are known from the first pose to the last, of a linkage that leads through all of them with its own driver.");parent.prepend(this.
+choice,this.nothing)}take(overTime){this.overTime=overTime;this.draw();if(this.drive!==void 0)this.show(this.drive)}build(linkage,index){this.svg.classList.toggle(
+"bm-stale",Boolean(linkage?.followed));this.linkage=linkage;const loads=linkage?.loads,here=Boolean(loads)&&loads.way===index&&Boolean(linkage.ways[index]);this.
+own=here?loads:null;this.way=here?linkage.ways[index]:null;this.choice.hidden=!this.own?.timed;this.nothing.hidden=here;this.draw()}draw(){const{svg,own,data}=this;
+svg.replaceChildren();svg.removeAttribute("height");this.cursor=null;if(!own)return;const timed=this.overTime&&own.timed?own.timed:null,panels=(timed??own).panels,
+{x}=panels[0];this.timed=timed;const[driver]=this.linkage.led,slides=driver.kind==="PR";const title=timed?"time (s)":slides?`place of ${driver.id} on its line (${data.
+unit})`:`driver angle (${driver.id})`;svg.setAttribute("aria-label",`${this.linkage.id}: ${TITLE2.toLowerCase()} over ${timed?"time":"the driver"}`);this.frame(
+panels.length,x[0],x[x.length-1],!slides&&!timed,title,()=>{panels.forEach((each,k)=>this.lines(k,each,k+1===panels.length))})}lines(k,{title,x,lines},last){const all=lines.
+flatMap(({y})=>y.filter(each=>each!==null)),[y0,base]=this.heights(k);const least2=Math.min(0,...all),most=Math.max(0,...all),room=.08*(most-least2||1);this.panel(
+title,y0,base,last);const Y=v=>base-(v-least2+room)/(most-least2+2*room)*(base-y0);for(const{at,text}of ticks(least2,most,4))this.rule(Y(at),text);if(least2<0&&
+most>0)this.svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(({y},line2)=>{let d="",pen="M";x.forEach((at,i)=>{
+if(y[i]===null)pen="M";else{d+=`${pen}${px(this.X(at))} ${px(Y(y[i]))}`;pen="L"}});this.svg.append(s("path",{class:`bm-line bm-curve${line2}`,d}));this.mark(at=>valueAt(
+{x,y},at),Y)});if(lines.length>1){const names=s("text",{class:"bm-title",x:this.width-RIGHT,y:y0-7,"text-anchor":"end"});lines.forEach(({name},line2)=>names.append(
+s("tspan",{class:`bm-curve${line2}`,dx:line2?7:0},name)));this.svg.append(names)}}placeOf(drive){const{own,timed}=this;if(this.linkage.followed)return null;if(timed)
+return valueAt(timed.time,drive);const{x}=own.panels[0];return drive<x[0]-1e-6||drive>x[x.length-1]+1e-6?null:drive}driveAt(at){if(!this.timed)return at;const{x,
+y}=this.timed.time;return y[0]<=y[y.length-1]?valueAt({x:y,y:x},at):valueAt({x:[...y].reverse(),y:[...x].reverse()},at)}show(drive){this.drive=drive;super.show(
+drive)}};var NO_MOTION="No linkage is there whose motion could be shown.";var Curves=class{constructor(answers,playing,Kind){this.playing=playing;const fill=h("div",{class:"\
 bm-fill"});this.plots=new Kind(answers.data,fill,u=>playing.player.go(u));this.nothing=h("p",{class:"bs-quiet",hidden:true},NO_MOTION);this.element=h("div",{},this.
 nothing,fill);this.pace=new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive})=>{if(this.isFresh&&isSeen(
 fill))this.plots.show(drive)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);watch(fill,()=>this.pace.ask())}build(){
@@ -1343,13 +1344,13 @@ values,this.u),digits)}°${off}`}};function laidOut(texts,width,count){const end
 left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%
 turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H\
 7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
-!linkage.ways.length)return{...linkage,led,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=Array(
+!linkage.ways.length)return{...linkage,led,loads:null,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=Array(
 linkage.pose_errors.length).fill(null);for(const chain of chainsOf(linkage.ways)){for(const piece of piecesOf(linkage,led[0],chain,length)){const way=wayOf(linkage,
 led,piece,chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEach((row,k)=>{const frame=places[k]||row.way===null?null:frameIn(piece,row,linkage.
 ways[row.way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
 way.branches=ways.filter(each=>each.circuit===way.circuit).length;named.set(way.circuit,(named.get(way.circuit)??0)+1);way.branch=named.get(way.circuit)}const pose_errors=linkage.
 pose_errors.map((row,k)=>({...row,way:places[k]?.[0]??null,frame:places[k]?.[1]??null,at:places[k]?ways[places[k][0]]:null,transmission_deg:row.x===null?null:transmissionOf(
-...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
+...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,loads:null,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
 ways.map(way=>way.circuit))){const own=ways.map((way,number)=>({way,number})).filter(({way})=>way.circuit===circuit);const stations=({way,number},turned)=>{const all=Array.
 from(way.x,(_,u)=>({way:number,u}));return turned?all.reverse():all};const[one,other]=own;const joined=(end,start)=>other&&one.way.dead[end]&&other.way.dead[start]&&
 near(one.way,end,other.way,start);if(!other||!(joined(0,0)||joined(1,1))){for(const each of own)chains.push({circuit,closed:each.way.round,stations:stations(each,

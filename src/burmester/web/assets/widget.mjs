@@ -373,7 +373,7 @@ var LoadMarks = class {
   shape(data, linkage, view) {
     this.view = view;
     this.loads = data.loads ?? null;
-    this.known = linkage.loads ?? null;
+    this.known = (linkage.followed ? null : linkage.loads) ?? null;
     const springs = this.loads?.springs ?? [];
     while (this.springs.children.length > springs.length) this.springs.lastChild?.remove();
     while (this.springs.children.length < springs.length) this.springs.append(s("g", {}, s("path", { class: "bm-spring" }), s("circle", { class: "bm-spring-end", r: 2.6 }), s("circle", { class: "bm-spring-end", r: 2.6 })));
@@ -1966,7 +1966,7 @@ var LoadPlots = class extends Plots {
     const name = `bm-over-${fieldsets += 1}`;
     const one = (text, overTime) => h("label", {}, h("input", { type: "radio", name, checked: !overTime, onchange: () => this.take(overTime) }), h("span", {}, text));
     this.choice = h("fieldset", { class: "bm-ways bm-over", hidden: true }, one("Over the driver", false), one("Over time", true));
-    this.nothing = h("p", { class: "bm-note-text", hidden: true }, "Loads are known from the first pose to the last, of a linkage that leads through all of them.");
+    this.nothing = h("p", { class: "bm-note-text", hidden: true }, "Loads are known from the first pose to the last, of a linkage that leads through all of them with its own driver.");
     parent.prepend(this.choice, this.nothing);
   }
   take(overTime) {
@@ -1976,6 +1976,7 @@ var LoadPlots = class extends Plots {
   }
   /** Draw the panels of a linkage, if its loads are known along the way `index`. */
   build(linkage, index) {
+    this.svg.classList.toggle("bm-stale", Boolean(linkage?.followed));
     this.linkage = linkage;
     const loads = linkage?.loads, here = Boolean(loads) && loads.way === index && Boolean(linkage.ways[index]);
     this.own = here ? loads : null;
@@ -2028,6 +2029,7 @@ var LoadPlots = class extends Plots {
   /** What the cursor is at: the driver, or the time at which it is there. */
   placeOf(drive) {
     const { own, timed } = this;
+    if (this.linkage.followed) return null;
     if (timed) return valueAt(timed.time, drive);
     const { x } = own.panels[0];
     return drive < x[0] - 1e-6 || drive > x[x.length - 1] + 1e-6 ? null : drive;

@@ -17,7 +17,7 @@ const HALVINGS = 24; // steps towards a dead point between two frames
  */
 export function drivenByOther(linkage, length) {
   const led = [linkage.led[1], linkage.led[0]];
-  if (led[0].kind === "PP" || !linkage.ways.length) return { ...linkage, led, ways: [], pose_errors: linkage.pose_errors.map((row) => ({ ...row, way: null, frame: null, at: null })) };
+  if (led[0].kind === "PP" || !linkage.ways.length) return { ...linkage, led, loads: null, ways: [], pose_errors: linkage.pose_errors.map((row) => ({ ...row, way: null, frame: null, at: null })) };
   const ways = /** @type {any[]} */ ([]), places = Array(linkage.pose_errors.length).fill(null); // of every pose its way and frame
   for (const chain of chainsOf(linkage.ways)) {
     for (const piece of piecesOf(linkage, led[0], chain, length)) {
@@ -41,7 +41,7 @@ export function drivenByOther(linkage, length) {
     ...row, way: places[k]?.[0] ?? null, frame: places[k]?.[1] ?? null, at: places[k] ? ways[places[k][0]] : null,
     transmission_deg: row.x === null ? null : transmissionOf(...led, { x: row.x, y: row.y, a: (row.angle_deg * Math.PI) / 180 }),
   }));
-  return { ...linkage, led, ways, pose_errors };
+  return { ...linkage, led, loads: null, ways, pose_errors }; // what the other driver bears is not known
 }
 
 /** The ways of each circuit one behind the other: stations { way, u }, and whether they close. */

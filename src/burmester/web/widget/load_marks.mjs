@@ -48,7 +48,7 @@ export class LoadMarks {
   shape(data, linkage, view) {
     this.view = view;
     this.loads = data.loads ?? null;
-    this.known = linkage.loads ?? null;
+    this.known = (linkage.followed ? null : linkage.loads) ?? null; // while a hand drags they are those of before
     const springs = this.loads?.springs ?? [];
     while (this.springs.children.length > springs.length) this.springs.lastChild?.remove();
     while (this.springs.children.length < springs.length) this.springs.append(s("g", {}, s("path", { class: "bm-spring" }), s("circle", { class: "bm-spring-end", r: 2.6 }), s("circle", { class: "bm-spring-end", r: 2.6 })));

@@ -21,7 +21,7 @@ export class LoadPlots extends Plots {
     const name = `bm-over-${(fieldsets += 1)}`;
     const one = (text, overTime) => h("label", {}, h("input", { type: "radio", name, checked: !overTime, onchange: () => this.take(overTime) }), h("span", {}, text));
     this.choice = h("fieldset", { class: "bm-ways bm-over", hidden: true }, one("Over the driver", false), one("Over time", true));
-    this.nothing = h("p", { class: "bm-note-text", hidden: true }, "Loads are known from the first pose to the last, of a linkage that leads through all of them.");
+    this.nothing = h("p", { class: "bm-note-text", hidden: true }, "Loads are known from the first pose to the last, of a linkage that leads through all of them with its own driver.");
     parent.prepend(this.choice, this.nothing);
   }
 
@@ -33,6 +33,7 @@ export class LoadPlots extends Plots {
 
   /** Draw the panels of a linkage, if its loads are known along the way `index`. */
   build(linkage, index) {
+    this.svg.classList.toggle("bm-stale", Boolean(linkage?.followed)); // curves of before, until the hand rests
     this.linkage = linkage;
     const loads = linkage?.loads, here = Boolean(loads) && loads.way === index && Boolean(linkage.ways[index]);
     this.own = here ? loads : null;
@@ -88,6 +89,7 @@ export class LoadPlots extends Plots {
   /** What the cursor is at: the driver, or the time at which it is there. */
   placeOf(drive) {
     const { own, timed } = this;
+    if (this.linkage.followed) return null;
     if (timed) return valueAt(timed.time, drive);
     const { x } = own.panels[0];
     return drive < x[0] - 1e-6 || drive > x[x.length - 1] + 1e-6 ? null : drive;
