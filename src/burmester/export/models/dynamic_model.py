@@ -13,21 +13,32 @@ from typing import Final, Self, final
 import numpy as np
 from numpy.typing import ArrayLike
 
+from burmester.cures import Cure, Help
+from burmester.errors import InputError
 from burmester.export.models.bodies import INSET, METRES, Shape, parts_of_bodies, rim, shapes
-from burmester.export.models.driver_load import STANDARD_GRAVITY, require_up
 from burmester.export.models.joints import JointMotion
 from burmester.export.models.mass_properties import MassProperties, require_density
 from burmester.export.options import Options
 from burmester.export.parts.plate import SLOT_RUN_OUT
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference, require_equal
+from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
+from burmester.loads.masses import Masses
 from burmester.mechanisms.bodies import ORIGIN
+from burmester.mechanisms.rates import rates
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
+from burmester.tasks.loads import STANDARD_GRAVITY, Loads
 
 HINGE_MARGIN: Final = math.radians(5)  # by which a hinge may leave the range used, at each end
 DAMPING_RATE: Final = 0.1  # 1/s: a link alone on its joint loses its speed at this rate
 MATERIALS: Final = {2700.0: "aluminium", 7850.0: "steel"}
+LIGHTEST: Final = 1e-8  # of the heaviest body: what a body weighs to which loads give no mass
+DIRECTIONS: Final[Mapping[str, FloatArray]] = {
+    f"{sign}{axis}": (-1.0 if sign else 1.0) * np.eye(3)[number]
+    for sign in ("", "-")
+    for number, axis in enumerate("xyz")
+}
 
 
 @final
@@ -37,9 +48,11 @@ class DynamicModel:
 
     masses, shapes: by body, the ground first.  outline: of what the body carries, only to be seen.
     joints: at the poses and in between.  low, high: (k,), the limits of the joints.
-    up: (3,), in F.
+    up: (3,), in F.  weighed: whether the masses are those that the loads of the task state, not of
+    plates and pins.
     """
 
+    chosen: Candidate
     reference: Reference
     made: Assembly
     masses: Mapping[str, MassProperties]
@@ -49,6 +62,7 @@ class DynamicModel:
     low: FloatArray
     high: FloatArray
     up: FloatArray
+    weighed: bool
 
     @classmethod
     def of(cls, chosen: Candidate, options: Options) -> Self:
@@ -61,16 +75,20 @@ class DynamicModel:
         run_out = SLOT_RUN_OUT * made.dimensions.hole * METRES
         body = chosen.task.body
         margin = np.where(joints.turning, HINGE_MARGIN, run_out)
+        plain = {name: MassProperties.of(each, made, density) for name, each in parts.items()}
+        stated = _stated_masses(plain, chosen, reference)
         return cls(
+            chosen,
             reference,
             made,
-            {name: MassProperties.of(each, made, density) for name, each in parts.items()},
+            stated or plain,
             {name: shapes(each, made) for name, each in parts.items()},
             [] if body is None else rim(body.vertices * reference.scale, made),
             joints,
             joints.low - margin,
             joints.high + margin,
             up,
+            stated is not None,
         )
 
     @property
@@ -105,18 +123,25 @@ class DynamicModel:
         """Sentences for the head of a file: what was chosen for the model."""
         size, named = self.made.dimensions, MATERIALS.get(options.density)
         joints = self.joints
-        sentences = [
+        weight = (
             "Each body has the mass, the centre of mass and the inertia of its plates and pins, "
             f"with holes and slots, of {options.density:g} kg/m³"
             + (f" ({named})" if named else "")
             + f": plates {size.thickness:g} mm thick and {size.width:g} mm wide, holes of "
             f"{size.hole:g} mm, pins of {size.pin:g} mm."
-            + (
-                " The pin of a slider is a body of its own."
-                if any(each.slides for each in self.reference.tree)
-                else ""
-            ),
-            "The options density, thickness, width, hole, pin and gap state others.",
+        )
+        choice = "The options density, thickness, width, hole, pin and gap state others."
+        if self.weighed:
+            weight = (
+                "The bodies have the masses that the loads of the task state, with their centres "
+                "and inertias in the plane; one to which these give none is as light as can be."
+            )
+            choice = "The options thickness, width, hole, pin and gap state other shapes."
+        if any(each.slides for each in self.reference.tree):
+            weight += " The pin of a slider is a body of its own."
+        sentences = [
+            weight,
+            choice,
             "The joints' limits are the range "
             + (
                 "that they go through from the first pose to the last"
@@ -144,7 +169,33 @@ class DynamicModel:
 
     def gravity(self) -> FloatArray:
         """The acceleration (3,) of a body that falls, in F."""
-        return -STANDARD_GRAVITY * self.up
+        loads = self.chosen.task.loads
+        return -STANDARD_GRAVITY * self.up if loads is None else np.append(loads.gravity, 0.0)
+
+    def at_poses(self) -> LoadedMotion:
+        """It at the poses, under the loads of its task, or its own weight."""
+        found, reference = self.chosen, self.reference
+        loads = found.task.loads or Loads(gravity=self.gravity()[:2])
+        own = [self.masses[name] for name in reference.moving]
+        masses = Masses(
+            np.array([each.mass for each in own]),
+            np.array([each.centre[:2] for each in own]),
+            np.array([each.inertia[2, 2] for each in own]),
+        )
+        drive = self.joints.at_poses[:, self.motor]
+        unknown = np.full(drive.shape, np.nan)
+        linkage = LoadedLinkage(
+            found,
+            loads,
+            lambda at: found.travel()(at),
+            reference.scale,
+            reference,
+            masses,
+            unknown,
+            drive,
+        )
+        there = reference.at_poses
+        return LoadedMotion(linkage, drive, there, rates(reference, there))
 
     def require_body(
         self, name: str, mass: float, centre: ArrayLike, inertia: ArrayLike, origin: ArrayLike = 0.0
@@ -152,12 +203,11 @@ class DynamicModel:
         """Raise E160 where a body read back is another; origin: of its frame in the model's."""
         own = self.masses[name]
         size = float(np.abs(own.inertia).max())
-        require_equal(f"the mass of the {name}", mass / own.mass, 1, PRECISION)
+        require_equal(f"the mass of the {name}", mass, own.mass, PRECISION * own.mass)
         there = np.asarray(centre) + np.asarray(origin)
         near = PRECISION * self.reference.span
         require_equal(f"the centre of mass of the {name}", there, own.centre, near)
-        wanted = own.inertia / size
-        require_equal(f"the inertia of the {name}", np.divide(inertia, size), wanted, PRECISION)
+        require_equal(f"the inertia of the {name}", inertia, own.inertia, PRECISION * size)
 
     def require_limits(self, index: int, low: float, high: float, zero: float = 0.0) -> None:
         """Raise E160 where limits read back are others; index: of the joint; zero: its 0."""
@@ -165,3 +215,36 @@ class DynamicModel:
         own = [self.low[index] - zero, self.high[index] - zero]
         size = 1.0 if self.joints.turning[index] else self.reference.span
         require_equal(f"the limits of the joint {name}", [low, high], own, PRECISION * size)
+
+
+def _stated_masses(
+    plain: Mapping[str, MassProperties], chosen: Candidate, reference: Reference
+) -> dict[str, MassProperties] | None:
+    """The masses that loads state, in the heights of the plates; None where they state none."""
+    if chosen.task.loads is None:
+        return None
+    own = Masses.of(reference, chosen.task.loads, chosen.task.body, reference.scale)
+    if not own.mass.any():
+        return None
+    out, least = dict(plain), LIGHTEST * float(own.mass.max())
+    for name, mass, centre, inertia in zip(reference.moving, *own, strict=True):
+        plate = plain[name]
+        if mass < least:  # it weighs nothing, which no simulation can move
+            share = least / plate.mass
+            out[name] = MassProperties(least, plate.centre, share * plate.inertia)
+            continue
+        flat = inertia * np.diag([0.5, 0.5, 1.0])
+        out[name] = MassProperties(float(mass), np.append(centre, plate.centre[2]), flat)
+    return out
+
+
+def require_up(up: str) -> FloatArray:
+    """A direction (3,) of F by its name; raises E162."""
+    if up in DIRECTIONS:
+        return DIRECTIONS[up]
+    raise InputError(
+        "E162",
+        f"there is no direction {up!r}",
+        why=f"up is {', '.join(DIRECTIONS)}: an axis of the plane of the poses, or z, across it",
+        help=Help.of("give {}", Cure("up", "y")),
+    )

@@ -20,9 +20,9 @@ import numpy as np
 from burmester.cures import for_page, said
 from burmester.export.description import description
 from burmester.export.escaping import xml_attribute, xml_comment
+from burmester.export.models.applied_loads import AppliedLoads
 from burmester.export.models.bodies import Shape
 from burmester.export.models.body_tree import Body, Site, Tree, tree_of
-from burmester.export.models.driver_load import STANDARD_GRAVITY
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.export.models.read_back import Link, require_pose
 from burmester.export.models.servo import Servo
@@ -32,6 +32,7 @@ from burmester.export.reference import PRECISION, require_equal
 from burmester.mechanisms.bodies import GROUND
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
+from burmester.tasks.loads import STANDARD_GRAVITY
 
 LEAST = 1e-14  # kg and kg m²: smaller ones of a body are raised to it, for MuJoCo needs 1e-15
 SITE_SIZE = 0.02  # of the span: marks of pivots
@@ -46,6 +47,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
     reference = model.reference
     start = model.joints.at_poses[options.pose - 1]
     servo, tree = Servo.of(model), tree_of(model, options.pose - 1)
+    loads = AppliedLoads.of(model)
     middle = reference.places.translation.mean(axis=0)
     gravity = " ".join(number(each) for each in model.gravity())
     stiff = f"{number(2 * servo.time_step)} 1"
@@ -54,7 +56,7 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
     lines = [
         f"<mujoco model={xml_attribute(chosen.id)}>",
         f"  <!-- {' '.join(map(xml_comment, head))} -->",
-        *(f"  <!-- {xml_comment(each)} -->" for each in _notes(model, options, servo)),
+        *(f"  <!-- {xml_comment(each)} -->" for each in _notes(model, options, servo, loads)),
         f'  <compiler angle="radian" autolimits="true"{bound}/>',
         f'  <option timestep="{number(servo.time_step)}" gravity="{gravity}" '
         'integrator="implicitfast" solver="Newton" iterations="100" tolerance="0"/>',
@@ -68,7 +70,12 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
         f'    <light pos="{_xyz(middle, 3 * reference.span)}" dir="0 0 -1"/>',
         *(f"    {each}" for each in _geoms(model.shapes[GROUND], GROUND_COLOUR)),
         *(f"    {_site(each)}" for each in tree.ground),
-        *(f"    {line}" for each in tree.bodies for line in _body(model, each, start, servo)),
+        *(f"    {each}" for each in loads.sites.get(GROUND, ())),
+        *(
+            f"    {line}"
+            for each in tree.bodies
+            for line in _body(model, each, start, servo, loads)
+        ),
     ]
     turning = model.joints.turning[model.motor]
     motor = "hinge, radians" if turning else "slide, metres"
@@ -84,30 +91,45 @@ def write(chosen: Candidate, path: Path, options: Options) -> None:
             for each in tree.loops
         )
         + "</equality>",
+        *(
+            ["  <tendon>", *(f"    {each}" for each in loads.tendons), "  </tendon>"]
+            if loads.tendons
+            else []
+        ),
         f"  <actuator><!-- {motor} -->",
         f'    <position name="motor" joint="{model.driver}" kp="{number(servo.stiffness)}" '
         f'kv="{number(servo.damping)}" '
         f'ctrlrange="{number(low)} {number(high)}"/>',
+        *(f"    {each}" for each in loads.actuators),
         "  </actuator>",
         "  <keyframe>",
     ]
     for k, row in enumerate(model.joints.at_poses):
         at = " ".join(map(number, row))
-        lines.append(
-            f'    <key name="pose{k + 1}" qpos="{at}" ctrl="{number(servo.controls[k])}"/>'
-        )
+        control = " ".join([number(servo.controls[k]), *("0" for _ in loads.actuators)])
+        lines.append(f'    <key name="pose{k + 1}" qpos="{at}" ctrl="{control}"/>')
     lines += ["  </keyframe>", "</mujoco>", ""]
     path.write_text("\n".join(lines), encoding="utf-8", newline="\n")
 
 
-def _notes(model: DynamicModel, options: Options, servo: Servo) -> list[str]:
+def _notes(model: DynamicModel, options: Options, servo: Servo, loads: AppliedLoads) -> list[str]:
     """What was chosen, a paragraph each, for comments."""
     unit = "kg m²" if model.joints.turning[model.motor] else "kg"
+    gravity = (
+        f"Up is {options.up} of the ground's frame; gravity is {STANDARD_GRAVITY} m/s². The option "
+        "up states another direction: z, where the linkage lies flat."
+    )
+    if model.chosen.task.loads is not None:
+        gravity = (
+            "Gravity, springs and forces are those of the task. What has no command is named "
+            "spring_1, force_1, ...; friction of gas springs is that of their tendons."
+        )
+        for each in loads.left_out:
+            gravity += f" Force {each} acts between some poses only, and is left out."
     return [
         *model.notes(options),
         "Bodies that are joined do not collide.",
-        f"Up is {options.up} of the ground's frame; gravity is {STANDARD_GRAVITY} m/s². The option "
-        "up states another direction: z, where the linkage lies flat.",
+        gravity,
         "Set the motor's ctrl to the driver's place: radians, or metres of a slide. The ctrl of a "
         "key frame is a little off it, for there the motor holds the linkage against gravity.",
         f"The motor is a stand-in: a servo of {servo.frequency:.0f} radians a second, critically "
@@ -147,13 +169,16 @@ def _small(model: DynamicModel) -> list[str]:
     ]
 
 
-def _body(model: DynamicModel, body: Body, start: FloatArray, servo: Servo) -> list[str]:
+def _body(
+    model: DynamicModel, body: Body, start: FloatArray, servo: Servo, loads: AppliedLoads
+) -> list[str]:
     """A body with all that is on it."""
     inside = [
         _joint(model, body, start, servo),
         *_solid(model, body.name),
         *map(_site, body.sites),
-        *(line for each in body.children for line in _body(model, each, start, servo)),
+        *loads.sites.get(body.name, ()),
+        *(line for each in body.children for line in _body(model, each, start, servo, loads)),
     ]
     return [
         f'<body name="{body.name}" pos="{_xyz(body.at)}" euler="0 0 {number(body.turn)}">',
@@ -227,7 +252,12 @@ def check(chosen: Candidate, path: Path, options: Options) -> None:
     loops = [(each.get("site1"), each.get("site2")) for each in root.findall("equality/connect")]
     own_loops = [(f"{each.name}_a", f"{each.name}_b") for each in tree_of(model, 0).loops]
     require_equal("the loops", loops == own_loops, True, 0)
-    servo = Servo.of(model)
+    servo, loads = Servo.of(model), AppliedLoads.of(model)
+    applied = [
+        each.attrib for each in (*root.findall("tendon/*"), *root.findall("actuator/general"))
+    ]
+    own_loads = [ElementTree.fromstring(each).attrib for each in (*loads.tendons, *loads.actuators)]
+    require_equal("the springs and forces", applied == own_loads, True, 0)
     for k, key in enumerate(keys):
         q = dict(zip(model.names, numbers_in(key, "qpos"), strict=True))
         require_pose(model, links, q, k)

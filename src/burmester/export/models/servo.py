@@ -11,9 +11,9 @@ from typing import Final, NamedTuple, final
 
 import numpy as np
 
-from burmester.export.models.driver_load import STANDARD_GRAVITY, DriverLoad
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.loads import STANDARD_GRAVITY
 
 LONGEST_STEP: Final = 1e-3  # seconds: time step, shorter for linkages below 10 cm
 STEP_SHARE: Final = 0.01  # of sqrt(span / g), the time of a fall: longest time step
@@ -49,13 +49,14 @@ class Servo(NamedTuple):
         """A servo with critical damping for the median of the inertia at the poses."""
         step = min(LONGEST_STEP, STEP_SHARE * math.sqrt(model.reference.span / STANDARD_GRAVITY))
         step = float(f"{step:.1e}")
-        load = DriverLoad.of(model.reference, model.masses, model.up)
-        finite = load.inertia[np.isfinite(load.inertia)]
+        load = model.at_poses()
+        moved_by_driver = load.inertia[0]
+        finite = moved_by_driver[np.isfinite(moved_by_driver)]
         inertia = float(np.median(finite)) if len(finite) else model.masses[model.driver].about_z()
         share = ARMATURE if len(model.reference.closures) == 1 else LOOPS_ARMATURE
         frequency, moved = FREQUENCY / step, (1 + share) * inertia
         stiffness = moved * frequency**2
-        lead = np.nan_to_num(load.holding / stiffness, nan=0.0, posinf=0.0, neginf=0.0)
+        lead = np.nan_to_num(load.effort / stiffness, nan=0.0, posinf=0.0, neginf=0.0)
         motor = model.motor
         at = model.joints.at_poses[:, motor] + lead
         controls = np.clip(at, model.low[motor], model.high[motor])
