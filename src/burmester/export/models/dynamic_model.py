@@ -29,6 +29,7 @@ from burmester.mechanisms.rates import rates
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 from burmester.tasks.loads import STANDARD_GRAVITY, Loads
+from burmester.verdicts.motion import Motion
 
 HINGE_MARGIN: Final = math.radians(5)  # by which a hinge may leave the range used, at each end
 DAMPING_RATE: Final = 0.1  # 1/s: a link alone on its joint loses its speed at this rate
@@ -184,15 +185,12 @@ class DynamicModel:
         )
         drive = self.joints.at_poses[:, self.motor]
         unknown = np.full(drive.shape, np.nan)
+
+        def way(share: FloatArray) -> Motion:  # only where the turns of torsion springs count
+            return found.travel()(share)
+
         linkage = LoadedLinkage(
-            found,
-            loads,
-            lambda at: found.travel()(at),
-            reference.scale,
-            reference,
-            masses,
-            unknown,
-            drive,
+            found, loads, way, reference.scale, reference, masses, unknown, drive
         )
         there = reference.at_poses
         return LoadedMotion(linkage, drive, there, rates(reference, there))
