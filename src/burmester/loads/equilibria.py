@@ -14,7 +14,7 @@ import numpy as np
 from burmester.numerics.arrays import FloatArray
 
 FINER: Final = 16  # looks between two places where a pair of roots may be
-NARROWINGS: Final = 10  # each to a part of FINER
+NARROWINGS: Final = 8  # each to a part of FINER; the last is 1e-13 of the motion
 
 
 class Equilibrium(NamedTuple):

@@ -194,9 +194,12 @@ def _write_driver(row: FloatArray, bodies: Bodies, at: _Places) -> bool:
 
 def _inverse(matrix: FloatArray) -> FloatArray:
     """The inverses of matrices (n, m, m); nan where they are singular, or nearly so."""
-    singular = np.linalg.slogdet(matrix).sign == 0
-    whole = np.where(singular[:, None, None], np.eye(matrix.shape[-1]), matrix)
-    inverse = np.linalg.inv(whole)
-    most = (np.abs(each).sum(axis=-1).max(axis=-1) for each in (whole, inverse))
+    try:
+        inverse, singular = np.linalg.inv(matrix), np.zeros(len(matrix), dtype=bool)
+    except np.linalg.LinAlgError:  # one of them is exactly singular
+        singular = np.linalg.slogdet(matrix).sign == 0
+        matrix = np.where(singular[:, None, None], np.eye(matrix.shape[-1]), matrix)
+        inverse = np.linalg.inv(matrix)
+    most = (np.abs(each).sum(axis=-1).max(axis=-1) for each in (matrix, inverse))
     inverse[singular | ~(next(most) * next(most) < LOCKED)] = np.nan
     return np.asarray(inverse)

@@ -18,6 +18,7 @@ from burmester.numerics.arrays import FloatArray
 
 LOOKS: Final = 721  # places in which the driver's way is tabled
 CORRECTIONS: Final = 4  # of a share; each is nearly LOOKS times as close
+CLOSE: Final = 1e-12  # of the driver's way
 
 
 class Travels(Protocol):
@@ -74,6 +75,8 @@ class Motion:
         for _ in range(CORRECTIONS):
             off = share - (way(at).drive - first) / whole
             at = np.clip(at + off / np.interp(at, table, slope), 0.0, 1.0)
+            if np.abs(off).max() < CLOSE:  # before the correction, after which nothing is off
+                break
         return way(at)
 
 
