@@ -14,6 +14,7 @@ import click
 
 from burmester import __version__, signals
 from burmester.cli import streams
+from burmester.cli.balance import balance
 from burmester.cli.batch import batch
 from burmester.cli.cases import cases
 from burmester.cli.check import check
@@ -63,7 +64,7 @@ def burmester(context: click.Context) -> None:
 
 
 COMMANDS = (
-    new, check, synthesize, function, judge, batch, report, export, studio, explain, cases,
+    new, check, synthesize, function, judge, balance, batch, report, export, studio, explain, cases,
     reproduce,
 )  # fmt: skip
 for command in COMMANDS:

@@ -157,14 +157,18 @@ def loaded(found: Found) -> Found:
     if figures is None:
         return found
     more: dict[str, Any] = {"loads": figures}
-    asked = {each: bound for each, bound in found.task.requirements.bounds.items()
-             if each in OF_LOADS}  # fmt: skip
-    missed = violations(asked, Figures(**figures.measures), found.unit)
-    if figures.findings or missed:
-        more["violations"] = (*found.violations, *figures.findings, *missed)
+    if below := figures.findings + missed(found, figures):
+        more["violations"] = found.violations + below
         if "usable" in (each.name for each in fields(found)):
             more["usable"] = False
     return replace(found, **more)
+
+
+def missed(found: LinkageAtPoses, figures: LoadFigures) -> tuple[Finding, ...]:
+    """What a linkage does not keep of what is asked of its loads."""
+    bounds = found.task.requirements.bounds
+    asked = {each: bound for each, bound in bounds.items() if each in OF_LOADS}
+    return violations(asked, Figures(**figures.measures), found.unit)
 
 
 def extremes(loaded: LoadedMotion, values: FloatArray) -> Extremes:

@@ -1,0 +1,261 @@
+"""Where a spring attaches so that a hand moves a linkage with little force: a search.
+
+Both ends are points, one in a region of the ground and one in a region of the body.  All places of
+the motion, a grid of both ends and a list of springs are looked at in one computation; the best are
+improved from there.  That no better spring exists is not proved.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Final, NamedTuple, final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from burmester.geometry.regions import Polygon
+from burmester.loads.load_figures import LoadFigures, load_figures, missed
+from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
+from burmester.loads.spring_laws import SpringLaw
+from burmester.numerics.arrays import FloatArray
+from burmester.requirements.loads import CLOSES_FROM, STAYS_AT
+from burmester.tasks.loads import BODY, GROUND, End, Spring, SpringKind
+from burmester.verdicts.judged_linkage import LinkageAtPoses
+
+PLACES: Final = 61  # along the motion, at which a grid is looked at
+GRID: Final = 12  # points along each side of a region
+FORCES: Final = 50.0  # N between two forces to which a gas spring is filled
+STARTS: Final = 12  # number of springs of a grid that are improved
+HALVINGS: Final = 8  # of the steps of the improvement
+APART: Final = 2.0  # grid steps; the ends of springs that are told differ by more
+ALONG: Final = np.linspace(0.0, 1.0, 9)  # of a spring, where it is held against regions
+
+
+class Offer(NamedTuple):
+    """A spring of a list: its name, and its numbers as in `Spring`; lengths in the task's unit."""
+
+    name: str
+    kind: SpringKind
+    numbers: dict[str, float]
+    many: int = 1
+
+    def between(self, ground: FloatArray, body: FloatArray) -> Spring:
+        """The spring between two points (2,), in the task's unit."""
+        one, two = (tuple(map(float, each)) for each in (ground, body))
+        ends = End(GROUND, (one[0], one[1])), End(BODY, (two[0], two[1]))
+        return Spring(self.kind, ends, self.numbers, self.many)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class Balanced:
+    """A linkage with a spring: which one, where, and what it bears then.
+
+    worst: the greatest force of the hand, N, or torque of the driver where there is no hand;
+    before: without the spring.  keeps: whether all that is asked of its loads is kept.
+    """
+
+    found: LinkageAtPoses
+    offer: Offer
+    spring: Spring
+    figures: LoadFigures
+    worst: float
+    before: float
+    keeps: bool
+
+
+class _Course(NamedTuple):
+    """A linkage at places (n,) without the spring: what a spring changes is added to it.
+
+    effort, lever: (n,), the driver's effort and what a unit of it is at the hand; origin (n, 2),
+    cos, sin (n,): of the body, in metres; motion: (n, 3), its rates.
+    stays: the places of poses at which it has to stay; closes: (n,), where it has to close.
+    """
+
+    loaded: LoadedMotion
+    effort: FloatArray
+    lever: FloatArray
+    origin: FloatArray
+    angle: FloatArray
+    motion: FloatArray
+    stays: NDArray[np.intp]
+    closes: NDArray[np.bool_]
+
+    def spans(self, ground: FloatArray, body: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Lengths (n, m) of springs between points (m, 2), metres, and their rates."""
+        c, s = np.cos(self.angle)[:, None], np.sin(self.angle)[:, None]
+        arm = np.stack([c * body[:, 0] - s * body[:, 1], s * body[:, 0] + c * body[:, 1]], -1)
+        apart = self.origin[:, None] + arm - ground
+        across = np.stack([-arm[..., 1], arm[..., 0]], axis=-1)
+        speed = self.motion[:, None, :2] + self.motion[:, None, 2:] * across
+        length = np.hypot(apart[..., 0], apart[..., 1])
+        return length, (speed * apart).sum(axis=-1) / np.maximum(length, 1e-12)
+
+    def cost(self, law: SpringLaw, friction: float, length: FloatArray, rate: FloatArray
+             ) -> FloatArray:  # fmt: skip
+        """How much springs (m,) leave to the hand: N, and more for what they do not keep."""
+        effort = self.effort[:, None] + law.tension(length) * rate
+        held = friction * np.abs(rate)
+        hand = np.abs(effort) * self.lever[:, None]
+        out = hand.max(axis=0)
+        if len(self.stays):
+            slips = np.maximum(np.abs(effort) - held, 0.0) * self.lever[:, None]
+            out = out + 2 * slips[self.stays].max(axis=0)
+        if self.closes.any():
+            opens = np.maximum(held - self.loaded.sense * effort, 0.0) * self.lever[:, None]
+            out = out + 2 * opens[self.closes].max(axis=0)
+        return np.asarray(out)
+
+
+class _Start(NamedTuple):
+    """A spring of a grid: its cost, which offer, and its ends (4,) in metres."""
+
+    cost: float
+    offer: int
+    ends: FloatArray
+
+
+def balanced(
+    found: LinkageAtPoses, offers: Sequence[Offer], ground: FloatArray, body: FloatArray, most: int
+) -> list[Balanced]:
+    """The springs with which a hand moves a linkage best, at most so many, the best first.
+
+    ground, body: (2, 2), the corners of the boxes in which the ends may be, in F and in M.
+    """
+    linkage = LoadedLinkage.of(found)
+    course, metre = _course_of(linkage), linkage.metre
+    low, high = np.concatenate([ground, body], axis=1) * metre
+    axes = [np.linspace(a, b, GRID) for a, b in zip(low, high, strict=True)]
+    ends = np.stack([each.ravel() for each in np.meshgrid(*axes[:2], indexing="ij")], axis=-1)
+    tips = np.stack([each.ravel() for each in np.meshgrid(*axes[2:], indexing="ij")], axis=-1)
+    pairs = np.concatenate([np.repeat(ends, len(tips), axis=0), np.tile(tips, (len(ends), 1))], 1)
+    length, rate = course.spans(pairs[:, :2], pairs[:, 2:])
+    reach = np.stack([length.min(axis=0), length.max(axis=0)])
+    starts = list[_Start]()
+    for number, offer in enumerate(offers):
+        spring = offer.between(np.zeros(2), np.zeros(2))
+        least, greatest = (each * metre for each in spring.span)
+        fits = np.flatnonzero((reach[0] >= least) & (reach[1] <= greatest))
+        if not len(fits):
+            continue
+        law = SpringLaw.of(spring, metre, linkage.loads.celsius)
+        cost = course.cost(law, spring.count * spring["friction_N"], length[:, fits], rate[:, fits])
+        first = np.argsort(cost, kind="stable")[:2]
+        starts += [_Start(float(cost[k]), number, pairs[fits[k]]) for k in first]
+    starts.sort(key=lambda start: start.cost)
+    step = (high - low) / (GRID - 1)
+    better = [_improved(start, offers, course, (low, high), step) for start in starts[:STARTS]]
+    better.sort(key=lambda start: start.cost)
+    out = list[Balanced]()
+    told = list[FloatArray]()
+    for start in better:
+        if any((np.abs(start.ends - each) < APART * step + 1e-12).all() for each in told):
+            continue
+        one = _verified(found, offers[start.offer], start.ends / metre, course)
+        if one is not None:
+            out.append(one)
+            told.append(start.ends)
+        if len(out) == most:
+            break
+    return sorted(out, key=lambda each: (not each.keeps, each.worst))
+
+
+def _course_of(linkage: LoadedLinkage) -> _Course:
+    asked = linkage.found.task.requirements.bounds
+    shares = np.linspace(0.0, 1.0, PLACES)
+    names = linkage.found.task.names or ("",) * len(linkage.pose_shares)
+    stays = [
+        share
+        for k, share in enumerate(linkage.pose_shares)
+        if {str(k + 1), names[k]} & asked.get(STAYS_AT, frozenset()) and np.isfinite(share)
+    ]
+    loaded = linkage.at(np.unique([*shares, *stays]))
+    at = loaded.places[loaded.bodies.body]
+    turned = np.abs(at.angle - at.angle[0])
+    lever = np.ones(len(loaded.drive))
+    if linkage.loads.hand is not None:
+        lever = 1 / np.maximum(np.linalg.norm(loaded.hand_path, axis=-1), 1e-12)
+    return _Course(
+        loaded,
+        loaded.effort,
+        lever,
+        at.translation,
+        at.angle,
+        loaded.rates.of_body(loaded.bodies.body)[0],
+        np.searchsorted(np.unique([*shares, *stays]), stays),
+        turned < np.radians(asked.get(CLOSES_FROM, 0.0)),
+    )
+
+
+def _improved(
+    start: _Start,
+    offers: Sequence[Offer],
+    course: _Course,
+    bounds: tuple[FloatArray, FloatArray],
+    step: FloatArray,
+) -> _Start:
+    """A spring whose ends no small step makes better: of each end along each axis."""
+    offer = offers[start.offer]
+    metre = course.loaded.of.metre
+    spring = offer.between(np.zeros(2), np.zeros(2))
+    law = SpringLaw.of(spring, metre, course.loaded.loads.celsius)
+    least, greatest = (each * metre for each in spring.span)
+    for _ in range(HALVINGS):
+        step = step / 2
+        for _ in range(GRID):
+            moved = start.ends + np.concatenate([np.eye(4), -np.eye(4)]) * step
+            moved = np.clip(moved, *bounds)
+            length, rate = course.spans(moved[:, :2], moved[:, 2:])
+            cost = course.cost(law, spring.count * spring["friction_N"], length, rate)
+            fits = (length.min(axis=0) >= least) & (length.max(axis=0) <= greatest)
+            cost = np.where(fits, cost, np.inf)
+            k = int(cost.argmin())
+            if not cost[k] < start.cost:
+                break
+            start = _Start(float(cost[k]), start.offer, moved[k])
+    return start
+
+
+def _verified(
+    found: LinkageAtPoses, offer: Offer, ends: FloatArray, course: _Course
+) -> Balanced | None:
+    """The linkage with a spring between ends (4,) in the task's unit, loaded anew.
+
+    None where the spring crosses a region that must be kept free, or is off its stroke.
+    """
+    spring = offer.between(*np.round(ends, 4).reshape(2, 2))
+    around = found.task.surroundings
+    if around is not None and any(
+        _crosses(spring, each.polygon, course) for each in around.keep_out
+    ):
+        return None
+    loads = course.loaded.loads
+    task = replace(found.task, loads=replace(loads, springs=(*loads.springs, spring)))
+    loaded = replace(found, task=task)
+    figures = load_figures(loaded)
+    if figures is None or figures.findings:
+        return None
+    worst = (figures.hand or figures.effort).magnitude
+    before = float((np.abs(course.effort) * course.lever).max())
+    return Balanced(loaded, offer, spring, figures, worst, before, not missed(loaded, figures))
+
+
+def _crosses(spring: Spring, polygon: Polygon, course: _Course) -> bool:
+    """Whether a spring touches a region of F at some of the places."""
+    one, two = (np.array(end.point) for end in spring.ends)
+    tip = course.loaded.places[course.loaded.bodies.body].act(two * course.loaded.of.metre)
+    tip = tip / course.loaded.of.metre
+    points = one + (tip - one)[:, None] * ALONG[:, None]
+    return bool((polygon.distance(points.reshape(-1, 2)) <= 0).any())
+
+
+def filled(offer: Offer, least: float, greatest: float, rise: float) -> Iterator[Offer]:
+    """A gas spring of a size, filled to each force that it takes; rise: of the compressed one."""
+    for force in np.arange(least, greatest + 1, FORCES):
+        numbers = {
+            **offer.numbers,
+            "force_N": float(force),
+            "compressed_force_N": float(round(force * rise)),
+        }
+        yield offer._replace(name=f"{offer.name}, {force:g} N", numbers=numbers)
