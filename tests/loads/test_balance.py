@@ -176,7 +176,7 @@ def test_the_command_says_it(lid, tmp_path):
 
 @pytest.mark.parametrize(("bound", "kept"), [(8.0, False), (19.0, True), (25.0, True)])
 def test_bounds_on_loads_choose_among_linkages_of_a_family(lid, bound, kept):
-    """Without a spring the lid needs some 18 N at least: a bound is kept, or told what is needed."""
+    """Without a spring the lid needs some 18 N: a bound is kept, or what is needed is told."""
     task = read_task(str(lid))
     asked = replace(task.requirements, stays_at=None, hand_force_N=bound)
     result = synthesize(replace(task, requirements=asked))
