@@ -1,8 +1,9 @@
 """Make the pictures of pages and of image space in docs.
 
 report.png is the page of the example, few-poses.png that of a template with three poses,
-six-bars-report.png that of the window opener's six-bars, studio.png the studio as it opens,
-notebook.png the widget in JupyterLab, and image-space.png the paper's Fig. 4.
+loads.png that of a lid with its gas spring, six-bars-report.png that of the window opener's
+six-bars, studio.png the studio as it opens, notebook.png the widget in JupyterLab, and
+image-space.png the paper's Fig. 4.
 
 Needs a browser, Playwright, the studio, JupyterLab and Matplotlib, as the tests do.  Run it from
 the project's root:
@@ -93,6 +94,7 @@ def main():
     pictures = {
         "report.png": screen(),
         "few-poses.png": screen("src/burmester/templates/chest-lid.toml"),
+        "loads.png": screen("examples/sprung-lid.toml"),
         "six-bars-report.png": screen(
             "src/burmester/templates/window-opener.toml", synthesize_six_bars, 2
         ),
