@@ -317,7 +317,8 @@ class LoadedMotion:
     def pin_forces(self, resisted: FloatArray) -> dict[str, FloatArray]:
         """The forces (n, 2) in F of the pins, by their letters; resisted: (n, k, 3), M a - W."""
         forces = self.rates.pin_forces(resisted)
-        return {letter(joint): forces[:, j] for j, joint in enumerate(self.bodies.joints)}
+        named = {letter(joint): forces[:, j] for j, joint in enumerate(self.bodies.joints)}
+        return dict(sorted(named.items()))
 
 
 def _directions(apart: FloatArray, length: FloatArray) -> FloatArray:

@@ -138,7 +138,7 @@ def _effort(turns: bool, does: str) -> str:
 
 
 def _sizes(pins: dict[str, FloatArray]) -> dict[str, FloatArray]:
-    return {name: np.hypot(*force.T) for name, force in sorted(pins.items())}
+    return {name: np.hypot(*force.T) for name, force in pins.items()}
 
 
 def _hand(linkage: LoadedLinkage, curves: LoadCurves, over: _Over) -> dict[str, Any] | None:
