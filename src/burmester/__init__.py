@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from burmester import notebook as notebook
     from burmester import plot as plot
     from burmester import report as report
+    from burmester.api.balance import balance as balance
     from burmester.api.function import synthesize_function as synthesize_function
     from burmester.api.judge import judge as judge
     from burmester.api.linkage import ResultLinkage as ResultLinkage
@@ -93,6 +94,7 @@ __version__ = "0.1.0"
 
 # Names by their rooms: loaded when first asked for, so that `burmester --help` needs no NumPy.
 _OF_ROOMS = {
+    "api.balance": "balance",
     "api.function": "synthesize_function",
     "api.judge": "judge",
     "api.linkage": "ResultLinkage ResultSixBar",

@@ -8,6 +8,7 @@ from click.testing import CliRunner
 from shapely import LineString
 from shapely import Polygon as Area
 
+import burmester
 from burmester import read_task, synthesize
 from burmester.cli.balance import balance as command
 from burmester.errors import InputError
@@ -113,6 +114,15 @@ def test_ends_are_in_their_regions_and_the_spring_is_clear_of_the_wall(lid):
         for region in task.surroundings.keep_out:
             area = Area(region.polygon.vertices).buffer(-1e-6)
             assert not any(LineString([one, tip]).intersects(area) for tip in tips)
+
+
+def test_in_python_the_same_is_found(lid, answer):
+    found = burmester.balance(read_task(str(lid)))
+    assert [each.worst for each in found] == [each.worst for each in answer[1]]
+    (one,) = {each.offer.name for each in burmester.balance(
+        read_task(str(lid)), [answer[1][0].offer], body=[(400, 18), (80, 0)]
+    )}  # fmt: skip
+    assert one == answer[1][0].offer.name
 
 
 def test_a_list_of_ones_own(tmp_path):
