@@ -66,7 +66,7 @@ def test_power_is_the_rate_of_all_energies(kind, seed):
     figures = load_figures(linkage.found)
     told = figures.drive
     assert (told.drive.duration_s, told.drive.profile) == (drive.duration_s, drive.profile)
-    near = 5e-3 * np.ptp(effort) + 1e-9
+    near = 2e-2 * np.ptp(effort) + 1e-9  # of a trapezoid the last look before a step may count
     assert told.effort.least == pytest.approx(effort.min(), abs=near)
     assert told.effort.greatest == pytest.approx(effort.max(), abs=near)
 

@@ -53,7 +53,8 @@ def _at(drive: Drive, t: FloatArray) -> Course:
     else:
         most = 1.5  # the speed between both thirds
         speed = most * np.minimum(np.minimum(3 * t, 1.0), 3 * (1 - t))
-        push = 3 * most * ((t < 1 / 3).astype(float) - (t > 2 / 3))
+        # At the ends of these thirds itself, too: there is most to bear.
+        push = 3 * most * ((t < 1 / 3 + SLACK).astype(float) - (t > 2 / 3 - SLACK))
         share = np.where(t < 1 / 3, 1.5 * most * t**2, most * (t - 1 / 6))
         share = np.where(t > 2 / 3, 1 - 1.5 * most * (1 - t) ** 2, share)
     whole = drive.duration_s
