@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -48,8 +49,10 @@ def load_figures_data(figures: LoadFigures, names: tuple[str, ...] | None) -> di
 
 def _extremes(values: Extremes) -> dict[str, Any]:
     return {
-        "least": values.least,
-        "greatest": values.greatest,
+        **{
+            name: value if math.isfinite(value) else None
+            for name, value in (("least", values.least), ("greatest", values.greatest))
+        },
         "at_poses": [list(each) for each in values.at_poses],
     }
 

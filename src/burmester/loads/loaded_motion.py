@@ -25,6 +25,7 @@ from burmester.tasks.loads import SLACK, Loads, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Motion, Way
 
+STILL = 1e-9  # of the greatest speed of a hand; less is none
 LOOKS = 361  # places along the motion at which a linkage is looked at
 
 
@@ -310,9 +311,13 @@ class LoadedMotion:
         return self.rates.of_point(self.bodies.body, arm)[0]
 
     def hand_force(self, effort: FloatArray) -> FloatArray:
-        """The force (n,) of a hand that takes the driver's effort, positive along its way."""
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.asarray(self.sense * effort / np.linalg.norm(self.hand_path, axis=-1))
+        """The force (n,) of a hand that takes the driver's effort, positive along its way.
+
+        nan where the point of the hand stands still: there none moves the linkage.
+        """
+        speed = np.linalg.norm(self.hand_path, axis=-1)
+        moves = speed > STILL * np.nanmax(speed, initial=0.0)
+        return np.asarray(self.sense * effort / np.where(moves, speed, np.nan))
 
     def pin_forces(self, resisted: FloatArray) -> dict[str, FloatArray]:
         """The forces (n, 2) in F of the pins, by their letters; resisted: (n, k, 3), M a - W."""
