@@ -23,6 +23,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.io import templates
 from burmester.io.reading.poses import read_task
 from burmester.io.reading.specification import REQUIREMENTS
+from burmester.requirements.loads import OF_LOADS
 from burmester.tasks.length_per_radian import default_length_per_radian
 from tests.oracles import witness
 from tests.oracles.drawings import dxf, svg
@@ -299,10 +300,17 @@ def test_every_block_is_tried_below():
         "pose_sigma",
         "[[keep_out]]",
     ]
-    starts += ["[surroundings]", "[limits]", "[[limits]]", "[[limits]] #", "[requirements]"]
+    starts += [
+        "[surroundings]",
+        "[limits]",
+        "[[limits]]",
+        "[[limits]] #",
+        "[requirements]",
+        "[loads]",
+    ]
     assert [start.startswith(each) for start, each in zip(blocks(), starts, strict=True)] == [
         True
-    ] * 12
+    ] * 13
     keys = ("weight", "name", "exact", "tolerance", "free", "axes")
     keys += ("fixed_pivot", "moving_pivot", "length", "kinds", *REQUIREMENTS)
     keys += ("direction_deg", "tolerance_deg", "through", "travel")
@@ -385,6 +393,17 @@ def test_blocks_of_limits_and_requirements():
     assert (asked.link_ratio, asked.within, asked.driver) == (5, 0.5, "any")
     assert "triple-rocker" in asked.types
     assert not asked.any_order
+
+
+def test_the_block_of_loads():
+    task = read(uncommented("[loads]"))
+    assert task.loads.body.mass_kg == 4
+    assert task.loads.links.density == 7850
+    (spring,) = task.loads.springs
+    assert (spring.kind, spring["free_length"]) == ("extension", 20)
+    assert task.loads.drive.profile == "3-4-5"
+    asked = task.requirements.bounds
+    assert {each.name for each in asked} == {each.name for each in OF_LOADS}
 
 
 def invoke(*arguments):

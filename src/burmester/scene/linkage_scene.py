@@ -15,7 +15,6 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
-from burmester.scene.load_marks import drawn_springs, hand_arrow
 from burmester.synthesis.result import Candidate
 from burmester.verdicts.found_linkage import FoundLinkage
 
@@ -71,6 +70,8 @@ def scene_of(chosen: Candidate, place: Displacement, drive: float, travel: Displ
         scene = _of_skeleton(chosen, drive)
     if chosen.loads is None:
         return scene
+    from burmester.scene.load_marks import drawn_springs, hand_arrow  # noqa: PLC0415  few have any
+
     places = chosen.bodies_at(np.asarray(drive), place)
     marks = [Shape("spring", each) for each in drawn_springs(chosen, places, scene.size)]
     arrow = hand_arrow(chosen, places, scene.size)
