@@ -20,7 +20,8 @@ def load_notes(figures: LoadFigures | None, task: Task) -> list[str]:
     held = figures.effort
     out = [f"Held by its driver with {_from_to(held)} {unit}; most {_where(held, task)}."]
     if (hand := figures.hand) is not None:
-        out.append(f"A hand moves it with {_from_to(hand)} N{_sign(hand)}.")
+        rub = f" Friction takes up to {figures.rub:.2g} N more." if figures.rub else ""
+        out.append(f"A hand moves it with {_from_to(hand)} N{_sign(hand)}.{rub}")
     # The pins of a link that weighs nothing bear the same but for rounding: the first is told.
     name, force = max(figures.pins.items(), key=lambda pin: float(f"{pin[1]:.9g}"))
     out.append(f"Its pins bear at most {force:.3g} N, pin {name}.")

@@ -20,6 +20,7 @@ def load_figures_data(figures: LoadFigures, names: tuple[str, ...] | None) -> di
         "loads": {
             effort: _extremes(figures.effort),
             "hand_force_N": None if figures.hand is None else _extremes(figures.hand),
+            "hand_friction_N": None if figures.hand is None else figures.rub,
             "pin_force_N": figures.pins,
             "equilibria": [
                 {

@@ -52,7 +52,8 @@ class Offer(NamedTuple):
 class Balanced:
     """A linkage with a spring: which one, where, and what it bears then.
 
-    worst: the greatest force of the hand, N, or torque of the driver where there is no hand;
+    worst: the greatest force of the hand with the friction of the spring, N, or the torque of the
+    driver where there is no hand;
     before: without the spring.  keeps: whether all that is asked of its loads is kept.
     """
 
@@ -97,8 +98,7 @@ class _Course(NamedTuple):
         """How much springs (m,) leave to the hand: N, and more for what they do not keep."""
         effort = self.effort[:, None] + law.tension(length) * rate
         held = friction * np.abs(rate)
-        hand = np.abs(effort) * self.lever[:, None]
-        out = hand.max(axis=0)
+        out = ((np.abs(effort) + held) * self.lever[:, None]).max(axis=0)
         if len(self.stays):
             slips = np.maximum(np.abs(effort) - held, 0.0) * self.lever[:, None]
             out = out + 2 * slips[self.stays].max(axis=0)
@@ -236,7 +236,9 @@ def _verified(
     figures = load_figures(loaded)
     if figures is None or figures.findings:
         return None
-    worst = (figures.hand or figures.effort).magnitude
+    worst = figures.effort.magnitude
+    if figures.hand is not None:
+        worst = float(figures.measures["hand_force"])
     before = float((np.abs(course.effort) * course.lever).max())
     return Balanced(loaded, offer, spring, figures, worst, before, not missed(loaded, figures))
 

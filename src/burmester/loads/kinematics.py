@@ -78,8 +78,8 @@ def kinematics(found: LinkageAtPoses, drive: Drive, count: int) -> Kinematics:
     by_drive = rates(bodies, found.bodies_at(motion.drive, motion.places))
     way = float(motion.drive[-1] - motion.drive[0])
     speed, push = course.speed * way, course.acceleration * way
-    v, a = by_drive.of_body(bodies.body)
-    velocity, acceleration = v * speed[:, None], a * speed[:, None] ** 2 + v * push[:, None]
+    number = by_drive.bodies.index(bodies.body)
+    velocity, acceleration = (each[:, number] for each in by_drive.in_time(speed, push))
     counts = np.degrees if by_drive.turns else np.asarray
     return Kinematics(
         drive,

@@ -76,15 +76,17 @@ class LoadFigures:
 
     motion: at places along it.  effort: that holds it still.
     hand: of a hand in place of the driver, positive where it pushes along its way; None where there
-    is no hand.  pins: the greatest force of each, in N.
-    stays: the poses, from 0, at which friction holds it, or nothing needs
-    to.  findings: springs that are longer or shorter than they allow.
+    is no hand.  rub: how much more of it the friction of gas springs takes, at most, in N.
+    pins: the greatest force of each, in N.
+    stays: the poses, from 0, at which friction holds it, or nothing needs to.
+    findings: springs that are longer or shorter than they allow.
     measures: what is held to requirements, fields of `requirements.figures`.
     """
 
     motion: LoadedMotion
     effort: Extremes
     hand: Extremes | None
+    rub: float
     pins: dict[str, float]
     stays: tuple[int, ...]
     springs: tuple[SpringFigures, ...]
@@ -115,9 +117,11 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         return None
     loaded = linkage.at(LOOKS)
     effort = loaded.effort
-    hand = None
+    hand, rub, pushed = None, 0.0, np.nan
     if loaded.loads.hand is not None:
-        hand = extremes(loaded, loaded.hand_force(effort))
+        static, rubs = (np.abs(loaded.hand_force(each)) for each in (effort, loaded.friction))
+        hand, rub = extremes(loaded, loaded.hand_force(effort)), float(np.nanmax(rubs, initial=0))
+        pushed = float(np.nanmax(static + rubs, initial=0.0))
     pins = {
         name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
         for name, force in loaded.pin_forces(-loaded.applied).items()
@@ -125,8 +129,10 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
     most, stays, drive = extremes(loaded, effort), _stays(loaded), _in_time(linkage)
     names = found.task.names or ("",) * len(linkage.at_poses)
     measures = {
-        "hand_force": np.nan if hand is None else hand.magnitude,
-        "driver_torque": most.magnitude if drive is None else drive.effort.magnitude,
+        "hand_force": pushed,
+        "driver_torque": (most if drive is None else drive.effort).magnitude
+        if loaded.rates.turns
+        else np.nan,  # one that slides has none
         "pin_force": max(pins.values()),
         "stays": frozenset(word for k in stays for word in (str(k + 1), names[k]) if word),
         "closes": _closes(loaded),
@@ -137,6 +143,7 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         loaded,
         most,
         hand,
+        rub,
         pins,
         stays,
         tuple(_spring(loaded, k) for k in range(len(loaded.springs))),
@@ -273,9 +280,8 @@ def _in_time(linkage: LoadedLinkage) -> DriveFigures | None:
     way = float(loaded.drive[-1] - loaded.drive[0])
     speed, push = course.speed * way, course.acceleration * way
     resisted = loaded.carried(speed, push) - loaded.applied
-    v, a = loaded.rates.of_body(loaded.bodies.body)
-    velocity = v[:, :2] * speed[:, None]
-    acceleration = a[:, :2] * speed[:, None] ** 2 + v[:, :2] * push[:, None]
+    number = loaded.rates.bodies.index(loaded.bodies.body)
+    velocity, acceleration = (each[:, number, :2] for each in loaded.rates.in_time(speed, push))
     return DriveFigures(
         drive,
         extremes(loaded, loaded.rates.effort(resisted)),

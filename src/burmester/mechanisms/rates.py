@@ -142,6 +142,11 @@ class Rates(NamedTuple):
         turning = v[:, 2:]
         return v[:, :2] + turning * across, a[:, :2] + a[:, 2:] * across - turning**2 * arm
 
+    def in_time(self, speed: FloatArray, push: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Velocities and accelerations (n, k, 3) by time; speed, push: (n,), of the driver."""
+        speed, push = speed[:, None, None], push[:, None, None]
+        return self.velocity * speed, self.acceleration * speed**2 + self.velocity * push
+
     def effort(self, resisted: FloatArray) -> FloatArray:
         """The driver's effort (n,) by virtual work, positive the way its coordinate grows.
 
