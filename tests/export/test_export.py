@@ -21,12 +21,12 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export import FORMATS, Options, export, format_of
 from burmester.export.models import mjcf
 from burmester.export.numbers import decimals_within, rounded
-from burmester.export.parts.outlines import convex_hull
 from burmester.export.parts.plate import outline_points
 from burmester.export.parts.plates import assembly_of
 from burmester.fourbar.dyad import PP
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.outlines import convex_hull
 from burmester.io import templates
 from burmester.io.saved import read_result
 from tests.oracles.handed_over import (

@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from burmester.geometry.outlines import convex_hull, outline_moments, rounded_hull
 from burmester.geometry.regions import Polygon
 from burmester.mechanisms.bodies import GROUND, Bodies
 from burmester.numerics.arrays import FloatArray
@@ -60,21 +61,18 @@ def body_named(name: str, bodies: Bodies) -> str:
     raise malformed(f"this linkage has no link {name!r}", f"it has {known}", f"name one of {known}")
 
 
-def moments(corners: FloatArray) -> tuple[float, FloatArray, float]:
-    """Area, centroid (2,) and polar moment about it, of a polygon (n, 2)."""
-    one, two = corners - corners[0], np.roll(corners - corners[0], -1, axis=0)
-    cross = one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]
-    area = cross.sum() / 2
-    centre = ((one + two) * cross[:, None]).sum(axis=0) / (6 * area)
-    about = (cross * ((one * one + one * two + two * two).sum(axis=1))).sum() / 12
-    polar = about - area * float(centre @ centre)
-    return abs(float(area)), centre + corners[0], abs(float(polar))
+def _moments(outline: FloatArray) -> tuple[float, FloatArray, float]:
+    """Area, centroid (2,) and polar moment about it, of an outline (k, 3) with bulges."""
+    origin = outline[:, :2].mean(axis=0)
+    area, x, y, xx, _, yy = outline_moments(outline, origin)
+    centre = np.array([x, y]) / area
+    return abs(area), origin + centre, abs(xx + yy - area * float(centre @ centre))
 
 
 def _of_body(body: Mass, outline: Polygon | None, metre: float) -> tuple[float, FloatArray, float]:
     centre, inertia = body.center, body.inertia_kgm2
     if outline is not None:
-        area, middle, polar = moments(outline.vertices)
+        area, middle, polar = _moments(np.pad(outline.vertices, ((0, 0), (0, 1))))
         if centre is None:
             centre = middle
         if inertia is None:
@@ -85,34 +83,9 @@ def _of_body(body: Mass, outline: Polygon | None, metre: float) -> tuple[float, 
 
 def _plate(corners: FloatArray, plate: Plates, metre: float) -> tuple[float, FloatArray, float]:
     """A plate as far about its pins as half its width: the polygon of the pins with a round rim."""
-    rim, weight = plate.width * metre / 2, plate.density * plate.thickness * metre
-    parts = list[tuple[float, FloatArray, float]]()
-    if len(corners) > 2:
-        corners = corners if _doubled_area(corners) > 0 else corners[::-1]
-        parts.append(moments(corners))
-    sides = np.roll(corners, -1, axis=0) - corners
-    lengths = np.hypot(*sides.T)
-    for corner, side, length in zip(corners, sides, lengths, strict=True):
-        if length > 0:
-            area, out = length * rim, np.array([side[1], -side[0]]) / length
-            middle = corner + side / 2 + out * rim / 2
-            parts.append((area, middle, area * (length**2 + rim**2) / 12))
-    headings = np.arctan2(sides[:, 1], sides[:, 0])
-    before = np.roll(headings, 1)
-    # At each corner the rim is a sector, from the normal of one side to that of the next one.
-    wide = np.mod(headings - before, 2 * np.pi) if len(corners) > 1 else np.array([2 * np.pi])
-    for corner, start, angle in zip(corners, before - np.pi / 2, wide, strict=True):
-        area = rim**2 * angle / 2
-        reach = 4 * rim * np.sin(angle / 2) / (3 * angle) if angle else 0.0
-        way = np.array([np.cos(start + angle / 2), np.sin(start + angle / 2)])
-        parts.append((area, corner + reach * way, area * (rim**2 / 2 - reach**2)))
-    area, centre, polar = _joined(parts)
+    weight = plate.density * plate.thickness * metre
+    area, centre, polar = _moments(rounded_hull(convex_hull(corners), plate.width * metre / 2))
     return weight * area, centre, weight * polar
-
-
-def _doubled_area(corners: FloatArray) -> float:
-    x, y = (corners - corners[0]).T
-    return float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum())
 
 
 def _joined(parts: list[tuple[float, FloatArray, float]]) -> tuple[float, FloatArray, float]:

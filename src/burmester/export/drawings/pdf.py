@@ -39,9 +39,9 @@ from burmester.export.drawings.sheet import notes_on
 from burmester.export.escaping import one_line
 from burmester.export.options import Options
 from burmester.export.parts.holes import axis_deviation, pivots_of
-from burmester.export.parts.outlines import rounded_hull
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import fault, require_equal
+from burmester.geometry.outlines import rounded_hull
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 

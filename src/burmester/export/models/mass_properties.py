@@ -12,8 +12,9 @@ import numpy as np
 from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.models.bodies import METRES, BodyParts, heights_of
-from burmester.export.parts.outlines import outline_moments, rounded_hull, slot_outline
+from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plates import Assembly
+from burmester.geometry.outlines import outline_moments, rounded_hull
 from burmester.numerics.arrays import FloatArray
 
 LIGHTEST, HEAVIEST = 10.0, 25000.0  # kg/m³: a foam, and more than osmium; others are slips of unit

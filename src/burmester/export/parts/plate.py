@@ -8,14 +8,9 @@ from typing import final
 
 import numpy as np
 
-from burmester.export.parts.outlines import (
-    angle_outline,
-    convex_hull,
-    distances,
-    points_on,
-    rounded_hull,
-)
+from burmester.export.parts.outlines import angle_outline, distances, points_on
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.outlines import convex_hull, rounded_hull
 from burmester.mechanisms.bodies import LinkPlaces
 from burmester.numerics.arrays import FloatArray
 

@@ -12,10 +12,11 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from burmester.export.parts.outlines import outline_moments, rounded_hull, slot_outline
+from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import Plate
 from burmester.export.parts.plates import Assembly
 from burmester.geometry.displacement import Displacement
+from burmester.geometry.outlines import outline_moments, rounded_hull
 from burmester.mechanisms.bodies import GROUND
 from burmester.numerics.arrays import FloatArray
 
