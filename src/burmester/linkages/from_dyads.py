@@ -19,6 +19,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.fourbar.nearest_places import on_own_circuits
 from burmester.fourbar.pose_error import error_frames
+from burmester.linkages.bearing_linkages import bearing_linkages, bears_too_much
 from burmester.linkages.best_within import best_within
 from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst_left_out
 from burmester.linkages.evaluation import Candidates, Evaluation, numbered
@@ -138,6 +139,8 @@ def _by_sample(
             else:
                 better = []
             found = ranked([*found, *better], problem)
+        if more := bearing_linkages(found, evaluation, evaluation.evaluate):
+            found = ranked([*found, *more], problem)
     if evaluation is not whole:
         step(f"judging {count(len(found), 'linkage')} at all poses")
         found = judged_at_all(found, whole)
@@ -335,7 +338,8 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
     evaluated = evaluation.evaluate(
         Candidates(batch, rows, origins, np.ones(len(index), dtype=bool))
     )
-    near = [each for each in evaluated if each.usable and each.combined_error < most]
+    good = [each for each in evaluated if each.usable or bears_too_much(each)]
+    near = [each for each in good if each.combined_error < most]
     if not near and most == inf:
         near = by_nearness(filter(only_too_far, evaluated), evaluation.problem.length)[:MAX_TOO_FAR]
     return near[:MAX_SEARCHED]

@@ -20,6 +20,7 @@ import numpy as np
 from burmester.dyads.selection import FoundDyad
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.linkages.bearing_linkages import bearing_linkages
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.progress import goes_on, time_for
@@ -135,6 +136,7 @@ def nearby_linkages(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLi
                 every = np.zeros(len(sides), dtype=int)
                 refined = refined_on_branch(batch[every], rows[every], each, sides, steps=steps)
             found += _judged(given, refined, evaluation)
+    found += bearing_linkages([given], evaluation)
     better = _better(given, found, evaluation)
     if not (better or given.usable) and time_for("looking for linkages that work"):
         searched = defect_free_linkages(batch, target, np.array([[0, 1]]))

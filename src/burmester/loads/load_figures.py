@@ -126,7 +126,7 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
         for name, force in loaded.pin_forces(-loaded.applied).items()
     }
-    most, stays, drive = extremes(loaded, effort), _stays(loaded), _in_time(linkage)
+    most, stays, drive = extremes(loaded, effort), _stays(loaded), in_time(linkage)
     names = found.task.names or ("",) * len(linkage.at_poses)
     measures = {
         "hand_force": pushed,
@@ -270,7 +270,7 @@ def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
     return tuple(out)
 
 
-def _in_time(linkage: LoadedLinkage) -> DriveFigures | None:
+def in_time(linkage: LoadedLinkage) -> DriveFigures | None:
     """A linkage whose driver moves in time; None where the task states no drive."""
     drive = linkage.loads.drive
     if drive is None:

@@ -17,6 +17,7 @@ from burmester.dyads.local_minima import BestDyads, best_dyads
 from burmester.dyads.selection import found_dyads
 from burmester.errors import Advice, InputError
 from burmester.fourbar.dyad import Dyad
+from burmester.linkages.bearing_linkages import bearing_linkages
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses, numbered
 from burmester.linkages.from_dyads import linkages_from_dyads, target_of
 from burmester.progress import limited, step, time_for
@@ -209,6 +210,8 @@ def _of_family(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthes
     own = found.batch.from_canonical(target.frames)
     some = Candidates.of_own_dyads(found.batch, found.rows, own, from_search=True)
     members = evaluation.members(some._replace(drivers=found.drivers))
+    if bearing := bearing_linkages(members, evaluation):
+        members = recommended_first([*members, *bearing], problem)
     if problem.options.rounds:
         members = recommended_first(evaluation.rounded(members), problem)
     linkages = at_given_poses(numbered(evaluation.with_spreads(members)), problem)

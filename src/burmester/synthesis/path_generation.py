@@ -18,6 +18,7 @@ from burmester.cures import Help
 from burmester.errors import Advice
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
+from burmester.linkages.bearing_linkages import bearing_linkages
 from burmester.linkages.evaluation import Candidates, Evaluation, with_own_dyads
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
@@ -90,6 +91,8 @@ def near_points(
     given, judged, note = _judged(task, found, path, options)
     problem = SynthesisProblem.of(given, None, options)  # the angles say nothing of a motion
     evaluation = Evaluation(problem, target_of(problem))
+    if more := bearing_linkages(judged, evaluation):
+        judged = ranked([*judged, *more], problem)
     if options.rounds:
         judged = evaluation.rounded(judged)
     judged = evaluation.with_spreads(judged)
