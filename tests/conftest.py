@@ -2,20 +2,28 @@
 
 Every test is in one of three layers, and has its name as a marker.  `campaign` is a search of many
 cases, each much like the next: they differ by a `seed` or `number`, or tests/layers.toml names the
-test.  By default a fixed sample of them is run, and all of them with `scripts/test --all`.  Where
+test.  By default a sample of them is run, and all of them with `scripts/test --all`.  Where
 the sample is no fifth, layers.toml says what it is.  The others are `unit` where they are light,
 and else `cross`: whole runs and comparisons with oracles.  What is light is measured: `--weigh`
 keeps the seconds of each test in tests/weights.json.
+
+A run of everything is one of a series.  The date says which sample it takes, and the heaviest tests
+take turns, each case on every second or third day, except what layers.toml lists as `daily`.
+`SAMPLE_DAY=NUMBER`, which the head of a run shows, repeats it.  A run of named tests has no turns,
+and always the same sample.
 
 A worker takes whole files, so that what is set up for a file is set up once: first those that need
 a browser, then the heaviest, so that all workers end together.
 """
 
 import json
+import os
+import sys
 import tomllib
 import zlib
 from collections import defaultdict
 from contextlib import ExitStack
+from datetime import date
 from pathlib import Path
 
 import pytest
@@ -27,11 +35,17 @@ from tests.oracles import browser as browsers
 from tests.samples import EVERY, share
 
 solved.install()
+# jsonschema checks no format of ours by it, and its grammars take a second to build.
+sys.modules.setdefault("rfc3987_syntax", None)
 
 FOLDER = Path(__file__).parent
 WEIGHTS = FOLDER / "weights.json"
 DRAWN = {"seed", "number"}  # what a test is given to draw its case by
 LIGHT_S = 1.0  # seconds of a test function, with all its cases, that is `unit`
+HEAVY_S = 3.0  # the same of a test that is run on every third day, and not on every other one
+DAY = (
+    "SAMPLE_DAY"  # a variable with the day of a run of everything; with 0, or none, of named files
+)
 
 settings.register_profile("house", deadline=None, derandomize=True, max_examples=share(100))
 settings.register_profile("search", deadline=None, print_blob=True, max_examples=300)
@@ -44,6 +58,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     config.option.loadscopereorder = False  # files are handed out in the order that is set below
+    everything = config.args_source is pytest.Config.ArgsSource.TESTPATHS
+    if everything and not (config.option.keyword or config.option.weigh):
+        os.environ.setdefault(DAY, str(date.today().toordinal()))  # for all workers
+
+
+def pytest_report_header() -> str | None:
+    return f"{DAY}={os.environ[DAY]}" if DAY in os.environ else None
 
 
 @pytest.hookimpl(wrapper=True)
@@ -60,6 +81,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     samples: dict[str, int | list[str]] = layers["sample"]
     nightly: dict[str, list[str]] = layers["nightly"]
     campaigns = {*layers["campaign"], *samples}
+    day = int(os.environ.get(DAY, "0"))
+    files: dict[str, float] = defaultdict(float)
+    for name, seconds in weights.items():
+        files[name.partition("::")[0]] += seconds
+    heaviest = sorted(files, key=files.__getitem__, reverse=True)
+    cross: dict[str, list[pytest.Item]] = defaultdict(list)
     drawn: dict[tuple[str, ...], list[pytest.Item]] = defaultdict(list)
     left_out: set[pytest.Item] = set()
     for item in items:
@@ -71,22 +98,29 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             item.add_marker("campaign")
             others = () if name in campaigns else [str(params[k]) for k in params.keys() - DRAWN]
             drawn[name, *sorted(others)].append(item)
+        elif weights.get(name, 0.0) > LIGHT_S:
+            item.add_marker("cross")
+            cross[name].append(item)
         else:
-            item.add_marker("cross" if weights.get(name, 0.0) > LIGHT_S else "unit")
+            item.add_marker("unit")
+    for name in cross.keys() - {*layers["daily"]} if day and not EVERY else ():
+        turns = 3 if weights[name] > HEAVY_S else 2
+        # Tests of one file have the same days, so that what they share is set up on those alone,
+        # and files that are about as heavy have different ones.
+        first = day + heaviest.index(name.partition("::")[0])
+        left_out.update(each for k, each in enumerate(cross[name]) if (first + k) % turns)
     for (name, *_), cases in drawn.items():
         if EVERY:
             continue
         cases.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
         kept = samples.get(name, share(len(cases)))
         if isinstance(kept, int):
-            left_out.update(cases[kept:])
+            first = day * kept % len(cases)
+            left_out.update([*cases[first:], *cases[:first]][kept:])
         else:
             left_out.update(item for item in cases if item.callspec.id not in kept)
     if left_out:
         config.hook.pytest_deselected(items=list(left_out))
-    files: dict[str, float] = defaultdict(float)
-    for name, seconds in weights.items():
-        files[name.partition("::")[0]] += seconds
     taken = [item for item in items if item not in left_out]
     _in_browser.update(
         each.path for each in taken if "browser" in getattr(each, "fixturenames", ())

@@ -34,6 +34,8 @@ class _Cad:
     """build123d, which takes seconds to import, for who uses it."""
 
     def __getattr__(self, name):
+        if name.startswith("_"):  # what pytest asks of all that a module has
+            raise AttributeError(name)
         return getattr(import_module("build123d"), name)
 
 

@@ -20,7 +20,7 @@ def is_there(name):
 
 def test_campaigns_are_tests():
     layers = tomllib.loads((TESTS / "layers.toml").read_text("utf-8"))
-    named = [*layers["campaign"], *layers["sample"], *layers["nightly"]]
+    named = [*layers["campaign"], *layers["sample"], *layers["nightly"], *layers["daily"]]
     assert [name for name in named if not is_there(name)] == []
     assert len(set(named)) == len(named) > 40
 
