@@ -117,11 +117,12 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         return None
     loaded = linkage.at(LOOKS)
     effort = loaded.effort
-    hand, rub, pushed = None, 0.0, np.nan
+    hand, rub, pushed, onwards = None, 0.0, np.nan, np.full(1, np.nan)
     if loaded.loads.hand is not None:
         static, rubs = (np.abs(loaded.hand_force(each)) for each in (effort, loaded.friction))
         hand, rub = extremes(loaded, loaded.hand_force(effort)), float(np.nanmax(rubs, initial=0))
         pushed = float(np.nanmax(static + rubs, initial=0.0))
+        onwards = loaded.hand_force(effort) + rubs
     pins = {
         name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
         for name, force in loaded.pin_forces(-loaded.applied).items()
@@ -130,6 +131,8 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
     names = found.task.names or ("",) * len(linkage.at_poses)
     measures = {
         "hand_force": pushed,
+        "hand_least": float(np.fmin.reduce(onwards)),
+        "hand_greatest": float(np.fmax.reduce(onwards)),
         "driver_torque": (most if drive is None else drive.effort).magnitude
         if loaded.rates.turns
         else np.nan,  # one that slides has none

@@ -23,7 +23,8 @@ class Figures(NamedTuple):
     type: a number in `fourbar.linkage.TYPES`.  turns: whether the driver turns fully.
     outside: how far a pivot leaves the footprint, a length; pivot: which one, in words.
     extent: of all joints over the range, a length.
-    hand_force, driver_torque, pin_force: the greatest magnitudes under loads, N or N m; stays: the
+    hand_force, driver_torque, pin_force: the greatest magnitudes under loads, N or N m; hand_least,
+    hand_greatest: of a hand on the way from the first pose to the last, with its sign; stays: the
     poses at which it stays, by name and number; closes: how far the body is turned from the first
     pose and still closes by itself, radians; body_speed, body_acceleration: the greatest.
     joints: whether lengths are distances between joints of links with more than two.
@@ -41,6 +42,8 @@ class Figures(NamedTuple):
     extent: Values = math.nan
     joints: bool = False
     hand_force: Values = math.nan
+    hand_least: Values = math.nan
+    hand_greatest: Values = math.nan
     driver_torque: Values = math.nan
     pin_force: Values = math.nan
     stays: frozenset[str] | None = None

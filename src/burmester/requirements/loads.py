@@ -7,13 +7,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from burmester.errors import InputError
-from burmester.requirements.requirement import Looser, Number, Requirement, above, shown
+from burmester.requirements.requirement import (
+    Looser,
+    Number,
+    Requirement,
+    above,
+    number,
+    shown,
+)
 from burmester.wording import listed
 
 if TYPE_CHECKING:
+    from burmester.numerics.arrays import FloatArray
     from burmester.requirements.figures import Figures
 
 
@@ -60,13 +69,93 @@ def _most(
     )
 
 
-HAND_FORCE: Final = _most(
+_GREATEST: Final = _most(
     "hand_force_N",
     "the greatest force of the hand",
     "N",
     figure="hand_force",
     option="--hand-force",
     such=40,
+)
+
+
+def _corridor(given: Any) -> float | tuple[float, float]:
+    """A greatest magnitude, or the least and the greatest force with their signs: E134."""
+    if isinstance(given, int | float) or not hasattr(given, "__len__"):
+        greatest: float = _GREATEST.checked(given)
+        return greatest
+    help = "give one number, the greatest magnitude; or the least and the greatest, such as [0, 40]"
+    if isinstance(given, str) or len(given) != 2:
+        message = f"{HAND_FORCE.subject} {shown(given)}, neither one number nor two"
+        raise InputError("E134", message, help=help)
+    least, greatest = (number(each, "a force of the hand") for each in given)
+    if least >= greatest:
+        message = f"a force of the hand from {least:g} to {greatest:g} N is impossible"
+        raise InputError("E134", message, why="the least is not below the greatest", help=help)
+    return least, greatest
+
+
+def _outside(figures: Figures, bound: Any) -> tuple[FloatArray, FloatArray]:
+    """By how much forces are below and above a corridor, in N."""
+    return figures.lack(figures.hand_least, bound[0]), figures.lack(
+        -figures.hand_greatest, -bound[1]
+    )
+
+
+def _hand_excess(figures: Figures, bound: Any) -> FloatArray:
+    if not isinstance(bound, tuple):
+        return _GREATEST.excess(figures, bound)
+    below, over = _outside(figures, bound)
+    excess: FloatArray = figures.none + (below + over) / max(map(abs, bound))
+    return excess
+
+
+def _hand_said(figures: Figures, bound: Any, length: str) -> str:
+    if not isinstance(bound, tuple):
+        return _GREATEST.said(figures, bound, length)
+    least, greatest = figures.hand_least, figures.hand_greatest
+    back = ", holding the body back," if least < 0 <= bound[0] else ""
+    return (
+        f"the hand moves it{back} with {least:.3g} to {greatest:.3g} N; "
+        f"{bound[0]:g} to {bound[1]:g} N is allowed"
+    )
+
+
+def _hand_looser(bound: Any, figures: Figures, share: float) -> Looser | None:
+    if not isinstance(bound, tuple):
+        return _GREATEST.looser(bound, figures, share)
+    size, moved = max(map(abs, bound)), [*map(float, _outside(figures, bound))]
+    if not sum(moved) > 0:
+        return None
+    step = 10.0 ** (math.floor(math.log10(max(size, *moved))) - 2)
+    low = math.floor((bound[0] - share * moved[0]) / step) * step if moved[0] else bound[0]
+    high = math.ceil((bound[1] + share * moved[1]) / step) * step if moved[1] else bound[1]
+    wider = float(f"{low:.4g}"), float(f"{high:.4g}")
+    words = f"{_between(wider)} instead of {bound[0]:g} to {bound[1]:g} N"
+    return Looser(wider, words, (bound[0] - wider[0] + wider[1] - bound[1]) / size)
+
+
+def _between(bound: Any) -> str:
+    return f"a force of the hand from {bound[0]:g} to {bound[1]:g} N"
+
+
+HAND_FORCE: Final = replace(
+    _GREATEST,
+    form="corridor",
+    metavar="N|LEAST:GREATEST",
+    label="the force of the hand",
+    help="Greatest force of the hand, either way; or its least and greatest force on the way from "
+    "the first pose to the last, below zero where it holds the body back.",
+    excess=_hand_excess,
+    said=_hand_said,
+    looser=_hand_looser,
+    words=lambda bound: _between(bound) if isinstance(bound, tuple) else _GREATEST.words(bound),
+    written=lambda bound: (
+        ":".join(f"{each:g}" for each in bound) if isinstance(bound, tuple) else f"{bound:g}"
+    ),
+    plain=lambda bound: [*bound] if isinstance(bound, tuple) else bound,
+    such="hand_force_N is one number, such as 40, or the least and the greatest, such as [0, 40]",
+    checked=_corridor,
 )
 DRIVER_TORQUE: Final = _most(
     "driver_torque_Nm",

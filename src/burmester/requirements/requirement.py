@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # options are told without NumPy
     from burmester.numerics.arrays import FloatArray
     from burmester.requirements.figures import Figures
 
-Form: TypeAlias = Literal["number", "names", "choice", "area", "flag"]
+Form: TypeAlias = Literal["number", "names", "choice", "area", "flag", "corridor"]
 
 
 class Looser(NamedTuple):

@@ -138,6 +138,13 @@ def _length_from_text(source: Source) -> LengthRange:
     return least, most
 
 
+def _corridor_from_text(source: Source) -> float | tuple[float, ...]:
+    parts = source.text.split(":", 1)
+    at = 0, len(parts[0]) + 1
+    numbers = [number_from_text(source, *each, "E134") for each in zip(parts, at, strict=False)]
+    return tuple(numbers) if len(numbers) > 1 else numbers[0]
+
+
 _LENGTH_FIELDS: Final[Fields] = {
     "least": Field(Node.number, schema=NOT_NEGATIVE),
     "most": Field(Node.number, schema=ABOVE_ZERO),
@@ -248,6 +255,11 @@ VALUE_KINDS: Final[Mapping[str, ValueKind]] = {
     ),
     "number": ValueKind(
         lambda source: number_from_text(source, source.text, 0, "E134"), Node.number
+    ),
+    "corridor": ValueKind(
+        _corridor_from_text,
+        lambda node: tuple(node.pair()) if isinstance(node.value, list) else node.number(),
+        schema={"anyOf": [ABOVE_ZERO, PAIR]},
     ),
     "choice": ValueKind(lambda source: source.text, Node.text),
     "flag": ValueKind(lambda source: source.text, Node.flag, schema=FLAG),
