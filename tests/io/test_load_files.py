@@ -163,6 +163,10 @@ OTHERS = {
         Loads(springs=(Spring("torsion", (End("ground", ZERO), End("body", ZERO)),
                               {"rate_Nm_per_deg": 1}),)),
     ),
+    "a table of times": (
+        '[drive]\ntimes = [[0, "one"], [1.5, 12.5], [2, "2"]]\n',
+        Loads(drive=Drive.through([(0, "one"), (1.5, 12.5), (2, "2")])),
+    ),
     "a drive alone": ("[drive]\nduration_s = 2\n", Loads(drive=Drive(2))),
 }  # fmt: skip
 
@@ -348,6 +352,11 @@ FAULTS = [  # TOML, code, what the message holds
     ("[drive]\nduration_s = «'2'»", "E104", "'2'"),
     ("[drive]\nduration_s = «inf»", "E103", "finite"),
     ("[drive]\nduration_s = 1\nprofile = «5»", "E104", "profile"),
+    ("[drive]\ntimes = «5»", "E104", "times"),
+    ("[drive]\ntimes = «[[0, '1']]»", "E106", "rows"),
+    ("[drive]\ntimes = [[0, '1'], «[2]»]", "E106", "values"),
+    ("[drive]\ntimes = [[0, '1'], [«'2'», '3']]", "E104", "not a number"),
+    ("[drive]\n«duration_s» = 2\ntimes = [[0, '1'], [2, '3']]", "E108", "times and duration_s"),
 ]
 
 
@@ -379,6 +388,8 @@ WHOLE = [  # tables whose fault is of the whole, or of a task: TOML, code, what 
     ("[drive]\n", "E105", "duration_s is missing"),
     ("[drive]\nduration_s = 0\n", "E177", "duration"),
     ("[drive]\nduration_s = 1\nprofile = 'jerk'\n", "E177", "no profile 'jerk'"),
+    ("[drive]\ntimes = [[1, '1'], [2, '3']]\n", "E177", "the first time is 1 s"),
+    ("[drive]\ntimes = [[0, '1'], [2, '3'], [2, '3']]\n", "E177", "do not grow"),
 ]
 
 

@@ -20,6 +20,7 @@ from tests.oracles.loaded_linkages import (
     wrenches,
 )
 
+
 def with_hand(rng, names, metre):
     """Some of everything, with a hand on the body."""
     return replace(random_loads(rng, names, metre), hand=rng.normal(size=2))

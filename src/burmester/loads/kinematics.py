@@ -8,10 +8,10 @@ from typing import NamedTuple, final
 import numpy as np
 
 from burmester.geometry.displacement import Displacement
-from burmester.loads.drive_in_time import course_of
+from burmester.loads.drive_in_time import Timing, course_of
 from burmester.mechanisms.rates import rates
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.loads import Drive
+from burmester.tasks.loads import Drive, malformed
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Motion
 
@@ -71,12 +71,19 @@ class Kinematics:
 
 
 def kinematics(found: LinkageAtPoses, drive: Drive, count: int) -> Kinematics:
-    """The motion of a linkage at so many times; raises E163 where it has no motion."""
-    course = course_of(drive, count)
-    motion = Motion.of_driver(found.travel(), course.share)
+    """The motion of a linkage at so many times; raises E163 where it has no motion, E177 where
+    it cannot keep the times.
+    """
+    travel = found.travel()
+    timing = Timing.of(drive, travel, found.task.names)
+    if timing.missed is not None:
+        raise malformed(f"{found.id} {timing.missed}", help="give times that its driver can keep")
+    course = course_of(timing, count)
+    motion = Motion.of_driver(travel, course.share)
     bodies = found.bodies
     by_drive = rates(bodies, found.bodies_at(motion.drive, motion.places))
-    way = float(motion.drive[-1] - motion.drive[0])
+    first, last = travel(np.array([0.0, 1.0])).drive.tolist()
+    way = last - first
     speed, push = course.speed * way, course.acceleration * way
     number = by_drive.bodies.index(bodies.body)
     velocity, acceleration = (each[:, number] for each in by_drive.in_time(speed, push))

@@ -7,7 +7,7 @@ from typing import NamedTuple, final
 
 import numpy as np
 
-from burmester.loads.drive_in_time import course_of, course_through
+from burmester.loads.drive_in_time import Course, course_of, course_through
 from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
 from burmester.loads.swing import swing
 from burmester.numerics.arrays import FloatArray
@@ -104,6 +104,10 @@ def load_curves(linkage: LoadedLinkage, shares: FloatArray) -> LoadCurves:
     """A linkage at shares (n,) of its motion."""
     at, drive = linkage.at(shares), linkage.loads.drive
     energy = at.energy - np.nanmin(at.energy)
+    moving = None
+    if drive is not None and (timing := linkage.timing(drive)).missed is None:
+        first, last = linkage.at(2).drive.tolist()
+        moving = _moving(at, course_through(timing, (at.drive - first) / (last - first)))
     return LoadCurves(
         at.rates.turns,
         shares,
@@ -115,7 +119,7 @@ def load_curves(linkage: LoadedLinkage, shares: FloatArray) -> LoadCurves:
         energy,
         at.inertia[0],
         _springs(at),
-        None if drive is None else _moving(at, drive),
+        moving,
     )
 
 
@@ -123,8 +127,9 @@ def curves_in_time(
     linkage: LoadedLinkage, drive: Drive, count: int
 ) -> tuple[FloatArray, MovingCurves]:
     """The driver (n,), and the linkage, at so many times, evenly from beginning to end."""
-    at = linkage.at_driver(course_of(drive, count).share)
-    return _counted(at, at.drive), _moving(at, drive)
+    course = course_of(linkage.timing(drive), count)
+    at = linkage.at_driver(course.share)
+    return _counted(at, at.drive), _moving(at, course)
 
 
 def swing_from(linkage: LoadedLinkage, pose: int, seconds: float) -> SwingCurves:
@@ -157,11 +162,10 @@ def _springs(at: LoadedMotion) -> tuple[SpringCurve, ...]:
     )
 
 
-def _moving(at: LoadedMotion, drive: Drive) -> MovingCurves:
-    """Places (n,) at the times at which a drive is there."""
+def _moving(at: LoadedMotion, course: Course) -> MovingCurves:
+    """Places (n,) of a course in time."""
     first, last = at.of.at(2).drive.tolist()
     way = last - first
-    course = course_through(drive, (at.drive - first) / way)
     speed, push = course.speed * way, course.acceleration * way
     resisted = at.carried(speed, push) - at.applied
     effort = at.rates.effort(resisted)

@@ -127,7 +127,13 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
         for name, force in loaded.pin_forces(-loaded.applied).items()
     }
+<<<<<<< HEAD
     most, stays, drive = extremes(loaded, effort), _stays(loaded), in_time(linkage)
+=======
+    most, stays, timed = extremes(loaded, effort), _stays(loaded), _in_time(linkage)
+    drive = None if isinstance(timed, Finding) else timed
+    findings = spring_findings(loaded) + ((timed,) if isinstance(timed, Finding) else ())
+>>>>>>> 7d57cb0d (loads: a drive by a table of times, poses or degrees, smooth and monotone where the table is; from files, Python and CSV)
     names = found.task.names or ("",) * len(linkage.at_poses)
     measures = {
         "hand_force": pushed,
@@ -151,7 +157,7 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         stays,
         tuple(_spring(loaded, k) for k in range(len(loaded.springs))),
         drive,
-        spring_findings(loaded),
+        findings,
         measures,
     )
 
@@ -273,14 +279,23 @@ def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
     return tuple(out)
 
 
+<<<<<<< HEAD
 def in_time(linkage: LoadedLinkage) -> DriveFigures | None:
     """A linkage whose driver moves in time; None where the task states no drive."""
+=======
+def _in_time(linkage: LoadedLinkage) -> DriveFigures | Finding | None:
+    """A linkage whose driver moves in time; why it cannot; None where the task has no drive."""
+>>>>>>> 7d57cb0d (loads: a drive by a table of times, poses or degrees, smooth and monotone where the table is; from files, Python and CSV)
     drive = linkage.loads.drive
     if drive is None:
         return None
-    course = course_of(drive, LOOKS)
+    timing = linkage.timing(drive)
+    if timing.missed is not None:
+        return Finding("drive", timing.missed)
+    course = course_of(timing, LOOKS)
     loaded = linkage.at_driver(course.share)
-    way = float(loaded.drive[-1] - loaded.drive[0])
+    first, last = linkage.at(2).drive.tolist()
+    way = last - first
     speed, push = course.speed * way, course.acceleration * way
     resisted = loaded.carried(speed, push) - loaded.applied
     number = loaded.rates.bodies.index(loaded.bodies.body)

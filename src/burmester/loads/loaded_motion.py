@@ -15,13 +15,14 @@ from typing import NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.loads.drive_in_time import Timing
 from burmester.loads.masses import Masses, body_named
 from burmester.loads.spring_laws import SpringLaw
 from burmester.mechanisms.bodies import GROUND, Bodies, Joint, LinkPlaces
 from burmester.mechanisms.rates import Rates, rates
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.tasks.length_units import MILLIMETRES
-from burmester.tasks.loads import SLACK, Loads, Spring
+from burmester.tasks.loads import SLACK, Drive, Loads, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Motion, Way
 
@@ -81,6 +82,10 @@ class LoadedLinkage:
         if isinstance(shares, int):
             shares = np.linspace(0.0, 1.0, shares)
         return self._moved(self.way(shares))
+
+    def timing(self, drive: Drive) -> Timing:
+        """How its driver moves in time."""
+        return Timing.of(drive, self.way, self.found.task.names)
 
     def at_driver(self, shares: FloatArray) -> LoadedMotion:
         """It at shares (n,) of what the driver goes."""

@@ -9,7 +9,7 @@ E177 loads are malformed    E178 no known unit of lengths    E179 a spring does 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Final, Literal, TypeAlias, final, get_args
 
@@ -30,7 +30,9 @@ DENSITIES: Final[Mapping[str, float]] = {  # kg/m³
     "acrylic": 1190.0,
     "plywood": 680.0,
 }
-Profile: TypeAlias = Literal["constant", "3-4-5", "trapezoid"]
+Profile: TypeAlias = Literal["constant", "3-4-5", "trapezoid", "table"]
+PROFILES: Final = ("3-4-5", "trapezoid", "constant")  # those that a duration is enough for
+MOST_TIMES: Final = 2000  # rows of a table of times
 SpringKind: TypeAlias = Literal[
     "extension", "compression", "gas", "constant", "torsion", "counterweight"
 ]
@@ -235,18 +237,53 @@ class Drive:
     """How the driver goes from the first pose to the last.
 
     profile: "constant" speed; at rest at both ends by the polynomial "3-4-5"; or a "trapezoid" of
-    speed, a third of the time each.
+    speed, a third of the time each; "table" where times are stated.
+    times: rows of a time in s, the first 0, and of where the driver is then: the name or the number
+    of a pose, as a text, or by how many degrees it has turned from the first pose on its way to the
+    last.  Between them the motion is smooth, and at rest at both ends.
+
+    Examples
+    --------
+    >>> Drive.through([(0, "closed"), (2, "open"), (3, "open")]).duration_s
+    3.0
     """
 
     duration_s: float
     profile: Profile = "3-4-5"
+    times: tuple[tuple[float, str | float], ...] = ()
+
+    @classmethod
+    def through(cls, times: Sequence[tuple[float, str | float]]) -> Drive:
+        """A drive by a table of times; raises E177."""
+        rows = tuple(times)
+        if not 2 <= len(rows) <= MOST_TIMES or any(len(row) != 2 for row in rows):
+            help = 'give rows of a time in s and a pose, such as [0, "closed"] and [2, "open"]'
+            raise malformed(f"a table of times has 2 to {MOST_TIMES:,} rows of two", help=help)
+        return cls(rows[-1][0], "table", rows)
 
     def __post_init__(self) -> None:
         duration = _number(self.duration_s, "the duration of the motion", least=0.0, above=True)
         object.__setattr__(self, "duration_s", duration)
-        if self.profile not in get_args(Profile):
-            help = f"choose among {listed(get_args(Profile))}"
+        if self.profile not in get_args(Profile) or (self.profile == "table") != bool(self.times):
+            help = f"choose among {listed(PROFILES)}, or state times"
             raise malformed(f"there is no profile {shown(self.profile)}", help=help)
+        rows = tuple(
+            (
+                _number(time, "a time of the table", least=0.0),
+                place if isinstance(place, str) else _number(place, "an angle of the driver"),
+            )
+            for time, place in self.times
+        )
+        object.__setattr__(self, "times", rows)
+        last = -1.0
+        for time, _ in rows:
+            if not time > last:
+                why = f"{time:g} s follows {last:g} s"
+                raise malformed("times do not grow", why, "write the rows in their order of time")
+            last = time
+        if rows and rows[0][0] != 0:
+            help = "count times from the beginning of the motion"
+            raise malformed(f"the first time is {rows[0][0]:g} s, not 0", help=help)
 
 
 @final

@@ -74,11 +74,11 @@ def loads_of(
         "timed": None,
     }
     if found.loads.drive is not None:
-        driver, moving = curves_in_time(linkage, found.loads.drive.drive, PLACES)
+        _, moving = curves_in_time(linkage, found.loads.drive.drive, PLACES)
         timed = _Over(moving.time)
-        place = _Over(driver + turn)
+        assert curves.moving is not None
         out["timed"] = {
-            "time": place.curve(moving.time),
+            "time": over.curve(curves.moving.time),
             "panels": [timed.panel(*each) for each in _in_time(moving, curves.turns, unit)],
         }
     return out

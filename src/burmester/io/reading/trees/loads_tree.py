@@ -19,25 +19,32 @@ duration_s = 2
 
 from __future__ import annotations
 
+import os
 from functools import partial
-from typing import Any, Final, get_args
+from typing import Any, Final
 
+from burmester.io.reading.outlines.outline_file import FROM_PAGE, folder_of
 from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
 from burmester.io.reading.trees.schema import (
     ABOVE_ZERO,
     NOT_NEGATIVE,
     NUMBER,
     PAIR,
+    TEXT,
     Schema,
     one_or_more,
     words,
 )
+from burmester.io.reading.trees.schema import listed as listed_of
+from burmester.io.time_table import times_of_file
 from burmester.tasks.loads import (
     BODY,
     DENSITIES,
     GROUND,
+    MOST_TIMES,
     NEEDED,
     POSSIBLE,
+    PROFILES,
     ROOM_CELSIUS,
     SIGNED,
     Drive,
@@ -46,7 +53,6 @@ from burmester.tasks.loads import (
     Loads,
     Mass,
     Plates,
-    Profile,
     Spring,
 )
 from burmester.wording import listed
@@ -235,15 +241,47 @@ def _spring(node: Node) -> Spring:
     return node.build(Spring, kind, tuple(ends), count=given.pop("count", 1), numbers=given)
 
 
+def _times(node: Node) -> Any:
+    """Rows of a time and a place, or of a CSV file that is named."""
+    if isinstance(node.value, str):
+        if node.document.source.label.startswith(FROM_PAGE):
+            help = 'write the rows themselves, such as [[0, "closed"], [2, "open"]]'
+            raise node.fault("E177", "names a file, and a page names none of this machine", help)
+        folder = folder_of(node.document.source.label)
+        return node.build(times_of_file, os.path.join(folder, node.text()))
+    return [_row(each) for each in node.items(2, MOST_TIMES, "rows")]
+
+
+def _row(node: Node) -> tuple[float, str | float]:
+    time, place = node.items(2, 2, "values")
+    return time.number(), place.text() if isinstance(place.value, str) else place.number()
+
+
+_DRIVE_HELP = (
+    'drive has duration_s, and profile: "constant", "3-4-5" or "trapezoid"; or times, such as '
+    '[[0, "closed"], [2, "open"]], or a CSV file with time_s and pose or driver_deg'
+)
+_TIME_ROW: Final[Schema] = {
+    "type": "array",
+    "items": [NUMBER, {"type": ["string", "number"]}],
+    "minItems": 2,
+    "maxItems": 2,
+}
 _DRIVE: Final[Fields] = {
     "duration_s": Field(Node.number, schema=ABOVE_ZERO),
-    "profile": Field(Node.text, "", words(get_args(Profile))),
+    "profile": Field(Node.text, "", words(PROFILES)),
+    "times": Field(_times, "", {"anyOf": [TEXT, listed_of(_TIME_ROW, 2, MOST_TIMES)]}),
 }
 LOAD_SCHEMAS: Final[dict[str, Schema]] = {
     "loads": table_schema(_LOADS, description=_LOADS_HELP),
     "springs": one_or_more(table_schema(_SPRING)) | {"description": _SPRING_HELP},
     "drive": table_schema(
-        _DRIVE, required=["duration_s"], description="How the driver moves in time."
+        _DRIVE,
+        description="How the driver moves in time.",
+        oneOf=[
+            {"required": ["duration_s"], "properties": {"times": False}},
+            {"required": ["times"], "properties": {"duration_s": False, "profile": False}},
+        ],
     ),
 }
 
@@ -257,12 +295,17 @@ def read_loads(loads: Node | None, springs: Node | None, drive: Node | None) -> 
         of_springs = springs._replace(help=_SPRING_HELP).one_or_more()
         given["springs"] = tuple(map(_spring, of_springs))
     if drive is not None:
-        help = 'drive has duration_s, and profile: "constant", "3-4-5" or "trapezoid"'
-        node = drive._replace(help=help)
+        node = drive._replace(help=_DRIVE_HELP)
         stated = node.table(_DRIVE)
-        if "duration_s" not in stated:
+        for key in ("duration_s", "profile"):
+            if "times" in stated and key in stated:
+                raise node.fault("E108", f"has times and {key}", f"delete {key}", key=key)
+        if "times" in stated:
+            given["drive"] = node.build(Drive.through, stated["times"])
+        elif "duration_s" not in stated:
             raise node.missing("duration_s")
-        given["drive"] = node.build(Drive, **stated)
+        else:
+            given["drive"] = node.build(Drive, **stated)
     place = next(each for each in (loads, springs, drive) if each is not None)
     return place.build(Loads, **{_NAMES.get(key, key): value for key, value in given.items()})
 
@@ -294,6 +337,8 @@ def loads_data(loads: Loads) -> dict[str, Any]:
         out["springs"] = [_spring_data(each) for each in loads.springs]
     if (drive := loads.drive) is not None:
         out["drive"] = {"duration_s": drive.duration_s, "profile": drive.profile}
+        if drive.times:
+            out["drive"] = {"times": [list(row) for row in drive.times]}
     return out
 
 
