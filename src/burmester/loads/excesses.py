@@ -40,11 +40,17 @@ def excesses(found: LinkageAtPoses) -> FloatArray:
     loaded, asked = linkage.at(PLACES), found.task.requirements.bounds
     out = [np.full(1, -1.0)]
     if HAND_FORCE in asked:
-        pushed, rubbed = (
-            np.abs(loaded.hand_force(each)) for each in (loaded.effort, loaded.friction)
-        )
-        out.append(_beyond(pushed + rubbed, asked[HAND_FORCE]))
-    drive = in_time(linkage) if {DRIVER_TORQUE, BODY_SPEED, BODY_ACCELERATION} & {*asked} else None
+        pushed, bound = loaded.hand_force(loaded.effort), asked[HAND_FORCE]
+        rubbed = np.abs(loaded.hand_force(loaded.friction))
+        if isinstance(bound, tuple):
+            onwards = np.nan_to_num(pushed + rubbed, nan=sum(bound) / 2)
+            out += _outside(onwards.reshape(PARTS, -1), *bound)
+        else:
+            out.append(_beyond(np.abs(pushed) + rubbed, bound))
+    timed = {DRIVER_TORQUE, BODY_SPEED, BODY_ACCELERATION} & {*asked}
+    drive = in_time(linkage) if timed else None
+    if timed and drive is None and loaded.loads.drive is not None:  # it cannot keep the times
+        out += [np.full(1, 1.0) for each in (BODY_SPEED, BODY_ACCELERATION) if each in asked]
     if DRIVER_TORQUE in asked and loaded.rates.turns:
         effort = loaded.effort if drive is None else np.full(PLACES, drive.effort.magnitude)
         out.append(_beyond(effort, asked[DRIVER_TORQUE]))
@@ -63,6 +69,13 @@ def _beyond(values: FloatArray, bound: float) -> FloatArray:
     """Of each part of the motion how far the greatest of values (n,) is above a bound."""
     most = np.nan_to_num(np.abs(values)).reshape(PARTS, -1).max(axis=1)
     return np.asarray(np.log(np.maximum(most / bound, LEAST)) + MARGIN)
+
+
+def _outside(values: FloatArray, low: float, high: float) -> list[FloatArray]:
+    """Of each part of the motion how far values (parts, n) are below and above a corridor."""
+    size = max(abs(low), abs(high))
+    sides = low - values.min(axis=1), values.max(axis=1) - high
+    return [np.asarray(each / size + MARGIN) for each in sides]
 
 
 def _rests(loaded: LoadedMotion) -> list[FloatArray]:

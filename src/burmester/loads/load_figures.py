@@ -127,13 +127,8 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
         for name, force in loaded.pin_forces(-loaded.applied).items()
     }
-<<<<<<< HEAD
     most, stays, drive = extremes(loaded, effort), _stays(loaded), in_time(linkage)
-=======
-    most, stays, timed = extremes(loaded, effort), _stays(loaded), _in_time(linkage)
-    drive = None if isinstance(timed, Finding) else timed
-    findings = spring_findings(loaded) + ((timed,) if isinstance(timed, Finding) else ())
->>>>>>> 7d57cb0d (loads: a drive by a table of times, poses or degrees, smooth and monotone where the table is; from files, Python and CSV)
+    findings = spring_findings(loaded) + drive_findings(linkage)
     names = found.task.names or ("",) * len(linkage.at_poses)
     measures = {
         "hand_force": pushed,
@@ -279,19 +274,21 @@ def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
     return tuple(out)
 
 
-<<<<<<< HEAD
+def drive_findings(linkage: LoadedLinkage) -> tuple[Finding, ...]:
+    """Why its driver cannot move in time as the task states; () where it can."""
+    drive = linkage.loads.drive
+    missed = None if drive is None else linkage.timing(drive).missed
+    return () if missed is None else (Finding("drive", missed),)
+
+
 def in_time(linkage: LoadedLinkage) -> DriveFigures | None:
-    """A linkage whose driver moves in time; None where the task states no drive."""
-=======
-def _in_time(linkage: LoadedLinkage) -> DriveFigures | Finding | None:
-    """A linkage whose driver moves in time; why it cannot; None where the task has no drive."""
->>>>>>> 7d57cb0d (loads: a drive by a table of times, poses or degrees, smooth and monotone where the table is; from files, Python and CSV)
+    """A linkage whose driver moves in time; None where the task states no drive, or it cannot."""
     drive = linkage.loads.drive
     if drive is None:
         return None
     timing = linkage.timing(drive)
     if timing.missed is not None:
-        return Finding("drive", timing.missed)
+        return None
     course = course_of(timing, LOOKS)
     loaded = linkage.at_driver(course.share)
     first, last = linkage.at(2).drive.tolist()
