@@ -180,10 +180,7 @@ def _outside(points: FloatArray, polygon: Polygon) -> NDArray[np.bool_]:
     """Which points (k, 2) lie outside a polygon."""
     if not polygon.is_convex:
         return np.asarray(polygon.signed_distance(points) > 0)
-    x, y = np.roll(polygon.vertices, -1, axis=0).T - polygon.vertices.T
-    outward = np.stack([y, -x])  # the corners go round counterclockwise
-    beyond = points @ outward > (polygon.vertices * outward.T).sum(axis=1)
-    return np.asarray(beyond.any(axis=1))
+    return np.asarray((points @ polygon.outward > polygon.reach).any(axis=1))
 
 
 def _foot(points: FloatArray, start: FloatArray, end: FloatArray, *, endless: bool) -> FloatArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Final, NamedTuple, TypeAlias, final
 
 import numpy as np
@@ -195,6 +195,14 @@ class Polygon:
         At least three corners, in order around the polygon in either sense; repeats of the corner
         before are left out.  Kept counterclockwise, as a read-only copy.
 
+    Attributes
+    ----------
+    is_convex : bool
+        Whether no corner points into it.
+    outward, reach : ndarray, (2, n) and (n,)
+        Of each edge, a normal as long as the edge that points out, and its product with the edge's
+        points.
+
     Raises
     ------
     InputError
@@ -209,6 +217,9 @@ class Polygon:
     """
 
     vertices: FloatArray
+    is_convex: bool = field(init=False, repr=False)
+    outward: FloatArray = field(init=False, repr=False)
+    reach: FloatArray = field(init=False, repr=False)
 
     def __post_init__(self) -> None:
         v = _coordinates(self.vertices, (None, 2), "the corners of a polygon")
@@ -239,8 +250,16 @@ class Polygon:
         x, y = (v - v[0]).T
         area = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
         v = v if area > 0 else v[::-1]
-        v.setflags(write=False)
+        x, y = np.roll(v, -1, axis=0).T - v.T
+        outward = np.stack([y, -x])
+        reach = (v * outward.T).sum(axis=1)
+        for each in (v, outward, reach):
+            each.setflags(write=False)
         object.__setattr__(self, "vertices", v)
+        object.__setattr__(self, "outward", outward)
+        object.__setattr__(self, "reach", reach)
+        turns = x * np.roll(y, -1) >= y * np.roll(x, -1)
+        object.__setattr__(self, "is_convex", bool(turns.all()))
 
     def __str__(self) -> str:
         low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
@@ -248,13 +267,6 @@ class Polygon:
         if on_bounds and len(self.vertices) == 4:
             return f"in the box from {_shown(low)} to {_shown(high)}"
         return "in the polygon " + " ".join(map(_shown, self.vertices))
-
-    @property
-    def is_convex(self) -> bool:
-        """Whether no corner points into it."""
-        along = np.roll(self.vertices, -1, axis=0) - self.vertices
-        after = np.roll(along, -1, axis=0)
-        return bool((along[:, 0] * after[:, 1] >= along[:, 1] * after[:, 0]).all())
 
     def equations(self) -> FloatArray:
         """None: no linear conditions, (0, 3)."""

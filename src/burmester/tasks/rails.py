@@ -232,5 +232,5 @@ def moved_region(region: Any, origin: FloatArray, unit: float) -> Any:
     """A region in a frame with another origin (2,) and unit of length; None of None."""
     if region is None:
         return None
-    values = {f.name: (getattr(region, f.name) - origin) / unit for f in fields(region)}
+    values = {f.name: (getattr(region, f.name) - origin) / unit for f in fields(region) if f.init}
     return replace(region, **values)
