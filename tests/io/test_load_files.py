@@ -206,7 +206,8 @@ def plain(value):
     if isinstance(value, tuple | list):
         return [plain(each) for each in value]
     if hasattr(value, "__dataclass_fields__"):
-        return {each.name: plain(getattr(value, each.name)) for each in fields(value)}
+        return {each.name: plain(getattr(value, each.name)) for each in fields(value)
+                if each.name != "where"}  # fmt: skip
     return dict(value) if hasattr(value, "items") else value
 
 
@@ -430,3 +431,20 @@ def test_each_number_of_each_spring_is_read(read):
                 f'{POSES}[[springs]]\nkind = "{kind}"\n{ends}\n{lines}\n'
             ).loads.springs
             assert dict(spring.numbers) == given
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[[springs]]\nkind = 'torsion'\nto = { link = «'lever'» }\nrate_Nm_per_deg = 1\n",
+        "[loads]\nlinks = { driver = 1, «lever» = 2 }\n",
+    ],
+)
+def test_a_link_that_no_linkage_has_is_pointed_at(read, text, refused_command):
+    text, line, column, width = marked(f"{POSES}{text}")
+    error = refused(lambda: synthesize(read(text)), "E177")
+    assert "no link 'lever'" in error.message
+    name, *found = carets(error.where)
+    assert name.endswith("poses.toml")
+    assert found == [line, column, width]
+    refused_command(text, "E177")

@@ -8,8 +8,8 @@ from burmester.loads.swing import swing
 from burmester.tasks.loads import End, Loads, Mass, Spring
 from tests.oracles.handed_over import rr
 from tests.oracles.loaded_linkages import (
+    KINDS,
     METRE,
-    SIX_BARS,
     driven_at,
     loaded_linkage,
     masses_of,
@@ -17,8 +17,6 @@ from tests.oracles.loaded_linkages import (
 )
 
 mujoco = pytest.importorskip("mujoco")
-
-HELD = ["RR-RR", "RR-PR", "PR-RR", "PR-PR", *SIX_BARS]
 
 
 def linear_loads(rng, names, metre):
@@ -52,8 +50,11 @@ def number(value):
     return repr(float(value))
 
 
-def floating(model, loads, metre):
-    """Every body by itself in the plane; pins hold two holes together, rails keep a pin on them."""
+def floating(model, loads, metre, turns):
+    """Every body by itself in the plane; pins hold two holes together, rails keep a pin on them.
+
+    turns: of the bodies, complex.  A pin in the slot of a link that moves slides on it.
+    """
     weights, sites, tendons = masses_of(model, loads), {}, []
     for k, spring in enumerate(loads.springs):
         rate = 1000 * spring.count * spring["rate_N_per_mm"]
@@ -72,29 +73,39 @@ def floating(model, loads, metre):
             f'<site site="s{k}0"/><site site="s{k}1"/></spatial>'
         )
     rails = {pin: normal for link, pin, normal, _ in model.slots if link == "ground"}
-    pins, bodies = [], []
+    slots = {pin: (link, *way) for link, pin, *way in model.slots if link != "ground"}
+    pins, bodies = [], dict.fromkeys(model.names, "")
     for one, other, hole, another, letter in model.pins:
         for link, at, side in ((one, hole, "a"), (other, another, "b")):
             sites.setdefault(link, []).append(
                 f'<site name="{letter}{side}" pos="{xyz(at * metre)}"/>'
             )
         pins.append(f'<connect site1="{letter}a" site2="{letter}b"/>')
-    for name in model.names:
+    for name in sorted(model.names, key=lambda name: name not in slots):  # what is on others first
         mass = sum(each[0] for each in weights[name])
         centre = sum(each[0] * each[1] for each in weights[name]) / mass if mass else 0j
         about = sum(m * abs(c - centre) ** 2 * metre**2 + i for m, c, i in weights[name])
-        joints = (
+        link, at, joints = None, "", (
             f'<joint type="slide" axis="{xyz(1j * rails[name])}" name="{name}"/>'
             if name in rails
             else '<joint type="slide" axis="1 0 0"/><joint type="slide" axis="0 1 0"/>'
             f'<joint type="hinge" axis="0 0 1" name="{name}"/>'
-        )
+        )  # fmt: skip
+        if name in slots:
+            link, normal, offset = slots[name]
+            turn = turns[name] / turns[link]
+            half = np.angle(turn) / 2
+            at = f' pos="{xyz(offset * normal * metre)}" '
+            at += f'quat="{number(np.cos(half))} 0 0 {number(np.sin(half))}"'
+            joints = f'<joint type="slide" axis="{xyz(1j * normal / turn)}" name="{name}"/>'
         inertia = number(max(about, 1e-9 * metre**2))
-        bodies.append(
-            f'<body name="{name}"><inertial pos="{xyz(complex(centre) * metre)}" '
+        own = (
+            f'<body name="{name}"{at}><inertial pos="{xyz(complex(centre) * metre)}" '
             f'mass="{number(max(mass, 1e-9))}" diaginertia="{inertia} {inertia} {inertia}"/>'
-            f"{joints}{''.join(sites.get(name, ()))}</body>"
+            f"{joints}{''.join(sites.get(name, ()))}{bodies[name]}</body>"
         )
+        bodies[link or name] = own if link is None else bodies[link] + own
+    bodies = [bodies[name] for name in model.names if name not in slots]
     gx, gy = map(float, loads.gravity)
     return mujoco.MjModel.from_xml_string(
         f"""<mujoco><compiler boundmass="0" boundinertia="0" balanceinertia="true"/>
@@ -105,15 +116,16 @@ def floating(model, loads, metre):
 
 
 @pytest.mark.parametrize("seed", range(20))
-@pytest.mark.parametrize("kind", HELD)
+@pytest.mark.parametrize("kind", KINDS)
 def test_the_torque_that_holds_is_the_simulators(kind, seed):
     """Its weights and its springs are in balance with its pins and the motor."""
     model, linkage = loaded_linkage(kind, seed, linear_loads, unit="m")
     loaded = linkage.at(5)
     places = moved(model, loaded)(0.0)
-    made = floating(model, linkage.loads, METRE["m"])
+    made = floating(model, linkage.loads, METRE["m"], {name: places[name][1][0] for name in places})
     data = mujoco.MjData(made)
-    rails = {pin: (normal, offset) for link, pin, normal, offset in model.slots}
+    rails = {pin: (normal, offset) for link, pin, normal, offset in model.slots if link == "ground"}
+    slots = {pin: (link, normal) for link, pin, normal, _ in model.slots if link != "ground"}
     for k in range(5):
         for name in model.names:
             at, turn = (each[k] for each in places[name])
@@ -124,6 +136,10 @@ def test_the_torque_that_holds_is_the_simulators(kind, seed):
                 foot = offset * normal
                 made.body_pos[made.body(name).id][:2] = foot.real, foot.imag
                 data.qpos[joint.qposadr[0]] = (np.conj(1j * normal) * at).real
+            elif name in slots:
+                link, normal = slots[name]
+                on, turned = (each[k] for each in places[link])
+                data.qpos[joint.qposadr[0]] = (np.conj(1j * normal * turned) * (at - on)).real
             else:
                 last = joint.qposadr[0]
                 data.qpos[last - 2 : last + 1] = at.real, at.imag, np.angle(turn)
@@ -131,7 +147,8 @@ def test_the_torque_that_holds_is_the_simulators(kind, seed):
         assert np.abs(data.efc_pos[: data.nefc]).max() < 1e-9
         jacobian = data.efc_J.reshape(-1)[: data.nefc * made.nv].reshape(data.nefc, made.nv)
         motor = np.zeros(made.nv)
-        motor[made.joint(model.motor[0]).dofadr[0]] = 1.0
+        turns = slots.get(model.motor[0], model.motor)[0]  # a pin in a slot turns with its link
+        motor[made.joint(turns).dofadr[0]] = 1.0
         wanted = data.qfrc_bias - data.qfrc_passive
         solved, *_ = np.linalg.lstsq(np.vstack([motor, jacobian]).T, wanted, rcond=None)
         left = np.vstack([motor, jacobian]).T @ solved - wanted

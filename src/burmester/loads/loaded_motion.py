@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.loads.drive_in_time import Timing
-from burmester.loads.masses import Masses, body_named
+from burmester.loads.masses import Masses, body_named, require_links
 from burmester.loads.spring_laws import SpringLaw
 from burmester.mechanisms.bodies import GROUND, Bodies, Joint, LinkPlaces
 from burmester.mechanisms.rates import Rates, rates
@@ -70,6 +70,7 @@ class LoadedLinkage:
         assert loads is not None
         metre = MILLIMETRES[found.unit or ""] / 1000
         bodies = found.bodies.scaled(metre)
+        require_links(loads, bodies)
         masses = Masses.of(bodies, loads, found.task.body, metre)
         shares = way(np.zeros(1)).pose_shares
         motion = way(np.nan_to_num(shares))

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
+from burmester.errors import InputError
 from burmester.geometry.outlines import convex_hull, outline_moments, rounded_hull
 from burmester.geometry.regions import Polygon
 from burmester.mechanisms.bodies import GROUND, Bodies
@@ -59,6 +61,17 @@ def body_named(name: str, bodies: Bodies) -> str:
         return name
     known = listed([GROUND, BODY, *bodies.moving])
     raise malformed(f"this linkage has no link {name!r}", f"it has {known}", f"name one of {known}")
+
+
+def require_links(loads: Loads, bodies: Bodies) -> None:
+    """Refuse loads on links that a linkage does not have: E177, with the place in the file."""
+    named = [*loads.links] if isinstance(loads.links, Mapping) else []
+    for name in (*named, *(end.link for spring in loads.springs for end in spring.ends)):
+        try:
+            body_named(name, bodies)
+        except InputError as error:
+            error.where = loads.where.get(name)
+            raise
 
 
 def _moments(outline: FloatArray) -> tuple[float, FloatArray, float]:

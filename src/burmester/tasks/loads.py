@@ -298,6 +298,7 @@ class Loads:
     hand: (2,), the point of the body, in M, at which a hand moves it along its path.
     springs: any number.  celsius: the temperature of gas springs.
     drive: the motion in time; None where there is no hurry.
+    where: of each name of a link, where it stands in a file.
     """
 
     gravity: FloatArray = field(default_factory=lambda: np.array([0.0, -STANDARD_GRAVITY]))
@@ -309,6 +310,7 @@ class Loads:
     springs: tuple[Spring, ...] = ()
     celsius: float = ROOM_CELSIUS
     drive: Drive | None = None
+    where: Mapping[str, str] = field(default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         given: Any = self.gravity

@@ -20,6 +20,7 @@ duration_s = 2
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from functools import partial
 from typing import Any, Final
 
@@ -306,8 +307,23 @@ def read_loads(loads: Node | None, springs: Node | None, drive: Node | None) -> 
             raise node.missing("duration_s")
         else:
             given["drive"] = node.build(Drive, **stated)
+    if where := dict(_named(loads, springs)):
+        given["where"] = where
     place = next(each for each in (loads, springs, drive) if each is not None)
     return place.build(Loads, **{_NAMES.get(key, key): value for key, value in given.items()})
+
+
+def _named(loads: Node | None, springs: Node | None) -> Iterator[tuple[str, str]]:
+    """The names of links in tables that have been read, each with its place."""
+    if springs is not None:
+        for spring in springs.one_or_more():
+            for key in ("from", "to"):
+                if spring.value.get(key) is not None and "link" in spring.value[key]:
+                    link = spring.at(key).at("link")
+                    yield link.text(), link.place
+    if loads is not None and isinstance(links := loads.value.get("links"), dict):
+        for name in links:
+            yield name, loads.document.where(*loads.path, "links", name, key=True)
 
 
 def loads_data(loads: Loads) -> dict[str, Any]:
