@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 from benchmarks import odd_pose as campaign
-from scipy.optimize import least_squares
 from scipy.stats import combine_pvalues, f
 
 from burmester import Displacement, Task
@@ -27,6 +26,7 @@ from burmester.io.reading.poses import read_task
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.requirements import Requirements
 from burmester.wording import figure
+from tests.oracles.first_order import least_sum
 from tests.oracles.witness import misses, random_four_bar, random_poses
 
 CASE = load("ge2012-exact")
@@ -79,29 +79,7 @@ def test_errors_are_those_of_the_best_linkages():
     assert away[5] == pytest.approx(odd.miss, rel=1e-3)
 
     def rms(poses):
-        """The least error of a pair of circles, to first order, from the linkage told."""
-        d, turn = poses.translation @ [1, 1j], np.exp(1j * poses.angle)
-
-        def residual(z):
-            forces, gaps = [], []
-            for c1, c2, m1, m2, r in z.reshape(2, 5):
-                arm = d + turn * (m1 + 1j * m2) - c1 - 1j * c2
-                along = arm / abs(arm)
-                moment = (np.conj(1j * turn * (m1 + 1j * m2)) * along).real / odd.length
-                forces.append(np.stack([along.real, along.imag, moment], axis=-1))
-                gaps.append(abs(arm) - r)
-            force, gap = np.stack(forces, axis=1), np.stack(gaps, axis=1)
-            lower = np.linalg.cholesky(force @ np.swapaxes(force, 1, 2))
-            return np.linalg.solve(lower, gap[..., None]).ravel()
-
-        start = np.concatenate(
-            [
-                [*each.fixed_pivot, *each.moving_pivot, each.radius]
-                for each in (odd.linkage.first, odd.linkage.second)
-            ]
-        )
-        found = least_squares(residual, start, x_scale="jac", xtol=1e-15, ftol=1e-15, gtol=1e-15)
-        return np.sqrt(2 * found.cost / len(d))
+        return np.sqrt(least_sum(odd, poses) / len(poses.angle))
 
     assert rms(task.poses[keep]) == pytest.approx(odd.error_without, rel=0.01)
     assert rms(task.poses) == pytest.approx(odd.error, rel=0.05)

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
-from scipy.optimize import least_squares
 from scipy.stats import multivariate_t
 
 from burmester import Displacement, Task
 from burmester.diagnosis.odd_pose import odd_pose
 from burmester.diagnosis.repairs import Repair, by_evidence
 from burmester.io.cases import load
+from tests.oracles.first_order import least_sum
 
 RIGHT = np.array(load("ge2012-exact")["poses"])
 
@@ -16,28 +16,6 @@ RIGHT = np.array(load("ge2012-exact")["poses"])
 def task_of(rows, resolution=(0.0, 0.0)):
     """Poses (N, 3), angles in degrees."""
     return Task(Displacement(rows[:, :2], np.radians(rows[:, 2])), resolution=resolution)
-
-
-def least_sum(odd, poses):
-    """The least sum of squared distances of a pair of circles, to first order, by SciPy."""
-    d, turn = poses.translation @ [1, 1j], np.exp(1j * poses.angle)
-
-    def residual(z):
-        forces, gaps = [], []
-        for c1, c2, m1, m2, r in z.reshape(2, 5):
-            arm = d + turn * (m1 + 1j * m2) - c1 - 1j * c2
-            along = arm / abs(arm)
-            moment = (np.conj(1j * turn * (m1 + 1j * m2)) * along).real / odd.length
-            forces.append(np.stack([along.real, along.imag, moment], axis=-1))
-            gaps.append(abs(arm) - r)
-        force, gap = np.stack(forces, axis=1), np.stack(gaps, axis=1)
-        lower = np.linalg.cholesky(force @ np.swapaxes(force, 1, 2))
-        return np.linalg.solve(lower, gap[..., None]).ravel()
-
-    dyads = odd.linkage.first, odd.linkage.second
-    start = np.concatenate([[*d.fixed_pivot, *d.moving_pivot, d.radius] for d in dyads])
-    end = least_squares(residual, start, x_scale="jac", xtol=1e-15, ftol=1e-15, gtol=1e-15)
-    return 2 * end.cost
 
 
 @pytest.mark.parametrize(("pose", "number"), [(7, 1), (8, 1), (4, 0)])

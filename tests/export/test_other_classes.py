@@ -25,6 +25,7 @@ from tests.sixbar.tasks import TURNING, task
 
 MAKERS = {"renamed": renamed, "three pivots": seen_from_coupler}
 mujoco = pytest.importorskip("mujoco")
+steered = pytest.importorskip("tests.oracles.simulation").steered
 
 
 @cache
@@ -74,30 +75,8 @@ def test_a_drawing_has_a_hole_at_each_joint(chosen, tmp_path):
 def test_a_motor_takes_the_model_through_the_poses(chosen, tmp_path):
     export(chosen, "mjcf", tmp_path / "a.xml")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "a.xml"))
-    data, size = mujoco.MjData(model), chosen.own.extent / 1000
-    wanted = chosen.task.poses
     assert (model.nv, model.neq) == (5, 2)
-
-    def missed(pose):
-        body = data.site("body")
-        away = np.abs(body.xpos[:2] - wanted.translation[pose] / 1000).max() / size
-        turn = body.xmat.reshape(3, 3)[:2, 0] @ [1, 1j]
-        return max(away, abs(turn - np.exp(1j * wanted.angle[pose])))
-
-    for pose in range(5):
-        mujoco.mj_resetDataKeyframe(model, data, pose)
-        mujoco.mj_forward(model, data)
-        assert missed(pose) < 1e-7
-        assert np.abs(data.efc_pos[: 3 * model.neq]).max() < 1e-7 * size
-    mujoco.mj_resetDataKeyframe(model, data, 0)
-    for pose in range(1, 5):
-        start, end = model.key_ctrl[pose - 1 : pose + 1, 0]
-        for share in (1 - np.cos(np.pi * np.arange(1, 201) / 200)) / 2:
-            data.ctrl[0] = start + share * (end - start)
-            mujoco.mj_step(model, data)
-        mujoco.mj_step(model, data, 1000)
-        mujoco.mj_forward(model, data)
-        assert missed(pose) < 1e-4
+    steered(model, chosen.task.poses, chosen.own.extent / 1000, exact=1e-7, near=1e-4)
 
 
 @pytest.mark.parametrize("name", ["urdf", "openscad", "json", "pdf", "gif"])

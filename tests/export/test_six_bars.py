@@ -24,6 +24,7 @@ from tests.oracles.six_bars import dimensions, driven
 from tests.sixbar.tasks import TURNING, task, wandering
 
 mujoco = pytest.importorskip("mujoco")
+steered = pytest.importorskip("tests.oracles.simulation").steered
 
 HOLES = {
     "ground": "AB",
@@ -210,34 +211,11 @@ def test_a_motor_takes_the_model_through_the_poses(name, tmp_path):
     chosen = six_bar(name)
     export(chosen, "mjcf", tmp_path / "a.xml")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "a.xml"))
-    data = mujoco.MjData(model)
     assert model.neq == 2
-    wanted, size = chosen.task.poses, chosen.extent / 1000
     for link, mass in weights(assembly_of(chosen, Options())).items():
         assert model.body(link).mass[0] == pytest.approx(mass, rel=1e-4)
-
-    def missed(pose):
-        body = data.site("body")
-        away = np.abs(body.xpos[:2] - wanted.translation[pose] / 1000).max() / size
-        turn = body.xmat.reshape(3, 3)[:2, 0] @ [1, 1j]
-        return max(away, abs(turn - np.exp(1j * wanted.angle[pose])))
-
-    for pose in range(5):
-        mujoco.mj_resetDataKeyframe(model, data, pose)
-        mujoco.mj_forward(model, data)
-        assert missed(pose) < 1e-9
-        assert np.abs(data.efc_pos[: 3 * model.neq]).max() < 1e-9 * size
     # Under its weight, from pose to pose.
-    mujoco.mj_resetDataKeyframe(model, data, 0)
-    for pose in range(1, 5):
-        start, end = model.key_ctrl[pose - 1 : pose + 1, 0]
-        for share in (1 - np.cos(np.pi * np.arange(1, 201) / 200)) / 2:
-            data.ctrl[0] = start + share * (end - start)
-            mujoco.mj_step(model, data)
-            assert not data.ncon
-        mujoco.mj_step(model, data, 1000)
-        mujoco.mj_forward(model, data)
-        assert missed(pose) < 2e-5
+    steered(model, chosen.task.poses, chosen.extent / 1000, exact=1e-9, near=2e-5)
 
 
 def test_urdf_has_its_loops_open(tmp_path):

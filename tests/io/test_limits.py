@@ -8,7 +8,6 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Point, Polygon, Segment
-from burmester.io.reading.poses import read_task
 from burmester.io.reading.specification_text import limits_from_options
 from burmester.io.reading.tables import pose_rows
 from burmester.tasks.limits import Limits
@@ -16,19 +15,6 @@ from tests.oracles.marked import carets, marked
 
 H = "x,y,angle_deg,exact\n"
 POSES = 'angle_unit = "deg"\nposes = [[0, 0, 0], [1, 2, 30], [3, 1, 60.5]]\n'  # above [limits]
-
-
-@pytest.fixture(scope="module")
-def read(tmp_path_factory):
-    """Read text as if it were the file `poses.SUFFIX`."""
-    folder = tmp_path_factory.mktemp("limits")
-
-    def read(content, suffix=".csv", **options):
-        path = folder / f"poses{suffix}"
-        path.write_text(content)
-        return read_task(path, **options)
-
-    return read
 
 
 def refused(attempt):

@@ -111,7 +111,6 @@ TWO_ANGLES = "0.2,2.4,10 2,-4.4,50 1.2,9.4,50 -6.7,-5.2,10 -2.7,-10.5,50 0,5.9,1
 POINTS = "px,py,qx,qy\n0,0,5,0\n3,1,7,4\n4,3,7,7\n5,3,5,8\n6,2,3,6\n"
 GOOD = {"poses.csv": FIVE}
 OPENING = "0,0,0 30,77,45 95,110,95"
-FOUR_OPENING = "0,0,0 12.5,40,20 30,77,45 95,110,95"
 LOG = 'function "log10(x)" --x 1:2 --input 60 --output 60'
 SQUARE = 'function "x**2" --x=-1:1 --input 90 --output 60'
 PAIRS = "input_deg,output_deg\n0,0\n15,10\n30,25\n45,45\n60,75\n"

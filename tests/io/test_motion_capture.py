@@ -36,18 +36,6 @@ from tests.samples import samples
 Read = Callable[..., Task]
 
 
-@pytest.fixture
-def read(tmp_path: Path) -> Read:
-    """Read a text as if it were a file."""
-
-    def read(text: str, suffix: str = ".csv", **options: Any) -> Task:
-        path = tmp_path / f"take{suffix}"
-        path.write_text(text)
-        return read_task(path, **options)
-
-    return read
-
-
 def note(task: Task) -> str:
     (only,) = [each for each in task.notes if each.code == "W213"]
     return f"{only.message}; {only.why}"

@@ -40,19 +40,6 @@ TOML = 'angle_unit = "deg"\nposes = [[-0.8253, -1.0329, 91.91], [-1.6554, 0, 66.
 TOML += "[1e-05, 0.292, 49.9]]\n"
 
 
-@pytest.fixture(scope="module")
-def read(tmp_path_factory: pytest.TempPathFactory) -> Read:
-    """Read text or bytes as if they were the file `poses.SUFFIX`."""
-    folder = tmp_path_factory.mktemp("poses")
-
-    def read(content: str | bytes, suffix: str = ".csv", **options: Any) -> Task:
-        path = folder / f"poses{suffix}"
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return read_task(path, **options)
-
-    return read
-
-
 def refused(read: Read, content: str | bytes, suffix: str = ".csv", **options: Any) -> InputError:
     return refusal(lambda: read(content, suffix, **options))
 

@@ -38,19 +38,6 @@ ROWS = "0.5,1.25,30\n-2,3.5,45.5\n4,-6,60\n7.25,8,90\n"
 CSV = "x,y,angle_deg\n" + ROWS
 
 
-@pytest.fixture(scope="module")
-def read(tmp_path_factory: pytest.TempPathFactory) -> Read:
-    """Read text or bytes as if they were the file `poses.SUFFIX`."""
-    folder = tmp_path_factory.mktemp("tables")
-
-    def read(content: str | bytes, suffix: str = ".csv", **options: Any) -> Task:
-        path = folder / f"poses{suffix}"
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return read_task(path, **options)
-
-    return read
-
-
 def require_same(task: Task, other: Task, names: tuple[str, ...] | None = None) -> None:
     """The same tasks; names: of the first one, where the second has none."""
     assert task.poses.translation.tolist() == other.poses.translation.tolist()

@@ -214,3 +214,34 @@ def _scaled(dyad, unit):
     values = ((name, getattr(dyad, name)) for name in type(dyad).__slots__)
     lengths = ("fixed_pivot", "moving_pivot", "radius", "offset")
     return type(dyad)(*(value / unit if name in lengths else value for name, value in values))
+
+
+def steered(model, poses, size, exact, near):
+    """A model with keyframes at poses, in mm: it is there in each, and its motor comes to the next.
+
+    size: metres that its misses are shares of; exact: of a keyframe; near: where the motor rests.
+    """
+    data = mujoco.MjData(model)
+
+    def missed(pose):
+        body = data.site("body")
+        away = np.abs(body.xpos[:2] - poses.translation[pose] / 1000).max() / size
+        turn = body.xmat.reshape(3, 3)[:2, 0] @ [1, 1j]
+        return max(away, abs(turn - np.exp(1j * poses.angle[pose])))
+
+    count = len(poses.angle)
+    for pose in range(count):
+        mujoco.mj_resetDataKeyframe(model, data, pose)
+        mujoco.mj_forward(model, data)
+        assert missed(pose) < exact
+        assert np.abs(data.efc_pos[: 3 * model.neq]).max() < exact * size
+    mujoco.mj_resetDataKeyframe(model, data, 0)
+    for pose in range(1, count):
+        start, end = model.key_ctrl[pose - 1 : pose + 1, 0]
+        for share in (1 - np.cos(np.pi * np.arange(1, 201) / 200)) / 2:
+            data.ctrl[0] = start + share * (end - start)
+            mujoco.mj_step(model, data)
+            assert not data.ncon
+        mujoco.mj_step(model, data, 1000)
+        mujoco.mj_forward(model, data)
+        assert missed(pose) < near

@@ -10,8 +10,6 @@ from benchmarks.speed import CORNERS, Measured, Row, by_turns, line, notes, rows
 
 from burmester.io.reading.poses import read_task
 
-MOST_READ = 1000  # poses; larger files are made alike
-
 
 @pytest.fixture(scope="module")
 def rows(tmp_path_factory):
