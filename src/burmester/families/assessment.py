@@ -20,9 +20,7 @@ from burmester.fourbar.traversal import (
     PoseRange,
     Traversal,
     first_where,
-    other_way_round,
-    pose_range,
-    traversal_of,
+    traversed,
 )
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
@@ -111,9 +109,7 @@ def _of_alike(
         view = DrivenView.of(linkage, places)
         every = np.ones(places.shape, dtype=bool)
         tolerance = OrderTolerance(np.zeros(len(every)), 0.0)
-        traversal = traversal_of(view, every, tolerance, conditions.any_order)
-        ranged = pose_range(traversal, view)
-        traversal, ranged = other_way_round(traversal, ranged, view, conditions.any_order)
+        traversal, ranged = traversed(view, every, tolerance, conditions.any_order)
         violation, transmission = _along_poses(traversal, ranged, view)
         along = traversal.order.along
         ends = np.stack([np.fmin.reduce(along, axis=1), np.fmax.reduce(along, axis=1)], axis=-1)
@@ -196,8 +192,7 @@ def _too_close(
 
 def _figures(linkage: Linkage, least: FloatArray, traversal: Traversal) -> Figures:
     """The figures of linkages (k,); with sliders, distances between pivots count as links, too."""
-    turns = traversal.circuits.closed & (traversal.circuits.branches == 1)
-    figures = figures_of(linkage, least, turns)
+    figures = figures_of(linkage, least, traversal.circuits.turns_fully)
     one, other = linkage.first, linkage.second
     links = [dyad.radius for dyad in (one, other) if isinstance(dyad, RR)]
     if isinstance(one, RR | RP) and isinstance(other, RR | RP):

@@ -18,15 +18,13 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR, dimensions_of, shape_of
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance
+from burmester.fourbar.pose_order import BoolArray, OrderTolerance
 from burmester.fourbar.traversal import (
     DEAD_POINT_ANGLE,
     DrivenView,
     PoseRange,
     Traversal,
-    other_way_round,
-    pose_range,
-    traversal_of,
+    traversed,
 )
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
@@ -151,8 +149,7 @@ def _judged(first: Ground, second: RR, task: Task, bounds: PairBounds) -> PairVe
     for driver in (0, 1):
         side = Linkage(sides[driver].first[one], sides[driver].second[one])
         view = _rows(views[driver], one)
-        traversal = traversal_of(view, on, exact, any_order)
-        traversal, ranged = other_way_round(traversal, pose_range(traversal, view), view, any_order)
+        traversal, ranged = traversed(view, on, exact, any_order)
         verdict = _motion_class(traversal, ranged)
         works = np.flatnonzero(verdict == PairClass.WORKS)
         good = allowed[driver] & _as_asked(side, traversal, ranged, bounds)
@@ -193,9 +190,8 @@ def _rows(view: DrivenView, index: NDArray[np.intp]) -> DrivenView:
 
 def _motion_class(traversal: Traversal, ranged: PoseRange) -> NDArray[np.int8]:
     """The class (k,) of motions on one circuit, before anything is asked of them; see `judge`."""
-    order = traversal.order
-    out = np.full(len(order.back), PairClass.WORKS, dtype=np.int8)
-    out[order.back > np.maximum(REPEATED_POSE_STEP, order.slack)] = PairClass.ORDER
+    out = np.full(len(traversal.circuit), PairClass.WORKS, dtype=np.int8)
+    out[traversal.order.is_another] = PairClass.ORDER
     locks = traversal.crosses_branches | (ranged.least_transmission < DEAD_POINT_ANGLE)
     out[locks] = PairClass.BRANCH
     out[~traversal.on_circuit.any(axis=1)] = PairClass.NO_LINKAGE
@@ -206,7 +202,7 @@ def _as_asked(
     side: Linkage, traversal: Traversal, ranged: PoseRange, bounds: PairBounds
 ) -> BoolArray:
     """Which linkages (k,), driven by their first dyads, are as the task and the bounds ask."""
-    turns = traversal.circuits.closed & (traversal.circuits.branches == 1)
+    turns = traversal.circuits.turns_fully
     good = keeps(bounds.asked, figures_of(side, ranged.least_transmission, turns))
     if (footprint := bounds.asked.get(FOOTPRINT)) is not None:
         some = np.flatnonzero(good)

@@ -142,6 +142,11 @@ class Circuits:
         return np.asarray(loop | ((self.range_type == RangeType.WHOLE) & self.turns))
 
     @property
+    def turns_fully(self) -> NDArray[np.bool_]:
+        """Whether the driver turns through full turns, without dead points, (*,)."""
+        return np.asarray(self.closed & (self.branches == 1))
+
+    @property
     def input_range(self) -> FloatArray:
         """The least and the greatest input of each circuit, (*, 2); nan where there is none.
 

@@ -29,25 +29,18 @@ from burmester.fourbar.defect_messages import (
 )
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.pose_order import REPEATED_POSE_STEP, BoolArray, OrderTolerance
+from burmester.fourbar.pose_order import BoolArray, OrderTolerance
 from burmester.fourbar.traversal import (
     DEAD_POINT_ANGLE,
     DrivenView,
+    PoseRange,
     Traversal,
     first_where,
-    other_way_round,
-    pose_range,
-    traversal_of,
+    traversed,
 )
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate
-
-__all__ = [
-    "Driven",
-    "Verdict",
-    "judge",
-]
 
 
 @final
@@ -183,8 +176,8 @@ def judge(
     elif length is not None:
         distance = 2 * np.where(assembled, np.minimum(missed, reach), 0.0).max(axis=1)
     tolerance = OrderTolerance(distance[rows], length or 0.0)
-    traversal = traversal_of(view, on[rows], tolerance, any_order)
-    driven = _driven(traversal, view, on[rows], any_order, pose_names)
+    motion = traversed(view, on[rows], tolerance, any_order)
+    driven = _driven(motion, view, on[rows], any_order, pose_names)
     return [
         Verdict(tuple(defects), a, b)
         for defects, a, b in zip(common, driven[:count], driven[count:], strict=True)
@@ -200,18 +193,18 @@ def _both_driven(linkage: Linkage | LinkageBatch) -> Circuits:
 
 
 def _driven(
-    traversal: Traversal,
+    motion: tuple[Traversal, PoseRange],
     view: DrivenView,
     on: BoolArray,
     any_order: bool,
     names: PoseNames,
 ) -> list[Driven]:
     """The motions of linkages (k,), each with one driver; on: the poses (k, N) that are judged."""
-    traversal, ranged = other_way_round(traversal, pose_range(traversal, view), view, any_order)
+    traversal, ranged = motion
     on_circuit, circuits, order = traversal.on_circuit, traversal.circuits, traversal.order
     parameter = np.where(on_circuit, order.along, np.nan)
     some = on_circuit.any(axis=1)
-    turns_fully = circuits.closed & (circuits.branches == 1) & some
+    turns_fully = circuits.turns_fully & some
     lowest = np.fmin.reduce(view.transmission, axis=1)
 
     defects: list[list[Finding]] = [[] for _ in range(len(on_circuit))]
@@ -221,8 +214,7 @@ def _driven(
             defects[k].append(branch_defect(traversal, k, any_order, names))
         else:
             defects[k].append(near_dead_point_defect(traversal, ranged, k, names))
-    out_of_order = some & (order.back > np.maximum(REPEATED_POSE_STEP, order.slack))
-    for k in np.flatnonzero(out_of_order).tolist():
+    for k in np.flatnonzero(some & order.is_another).tolist():
         defects[k].append(order_defect(traversal, ranged, k, names))
     for k in np.flatnonzero(on.any(axis=1) & ~some).tolist():
         defects[k].append(undetermined_defect(on[k]))

@@ -212,15 +212,19 @@ class _CircuitSearch:
         target: FloatArray,
     ) -> FloatArray:
         """The places (m, 3) nearest to target (m, 3) beside samples (m,) of circuits (m,)."""
-        circuits, every = self.circuits[self.row[which], self.side[which]], np.arange(len(which))
-        share, width = self.share[which, sample], self.gap[which, sample]
-        for _ in range(BRACKETING_ROUNDS):
-            tried = share[:, None] + width[:, None] * np.linspace(-1, 1, BRACKETING_SAMPLES)
-            gap = wrapped(places_at(circuits, tried, self.length) - target[:, None], self.length)
-            best = np.nan_to_num((gap * gap).sum(axis=-1), nan=np.inf).argmin(axis=-1)
-            share, near = tried[every, best], target + gap[every, best]
-            width = width * 2.0 / (BRACKETING_SAMPLES - 1)
         row, side = self.row[which], self.side[which]
+        bracket = Bracket(self.share[which, sample, None], self.gap[which, sample, None])
+
+        def away(rows: FloatArray) -> FloatArray:
+            gap = wrapped(rows - target[:, None, None], self.length)
+            return np.asarray(np.nan_to_num(_squares(gap, 0.0), nan=np.inf))
+
+        _, rows = bracketed_least(
+            *(self.circuits[row, side], bracket, away, self.length),
+            rounds=BRACKETING_ROUNDS,
+            count=BRACKETING_SAMPLES,
+        )
+        near = target + wrapped(rows[:, 0] - target, self.length)
         ends = _newton_ends(self.batch[row], near[:, None], target[:, None], self.length)[:, 0]
         after = np.nan_to_num(_squares(ends, target), nan=np.inf)
         worse = after > _squares(near, target) + SAME_SQUARE

@@ -33,6 +33,11 @@ class PoseOrder(NamedTuple):
     back: FloatArray
     slack: FloatArray
 
+    @property
+    def is_another(self) -> BoolArray:
+        """Whether it is another order than that of the poses, (k,)."""
+        return np.asarray(self.back > np.maximum(REPEATED_POSE_STEP, self.slack))
+
 
 @final
 @dataclass(frozen=True, slots=True, eq=False)

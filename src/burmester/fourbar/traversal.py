@@ -34,6 +34,7 @@ from burmester.fourbar.pose_order import (
 )
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
+from burmester.numerics.bundles import where
 
 # Radians (0.06°).  A place with a smaller transmission angle is beside a dead point: whether the
 # linkage locks there is uncertain.
@@ -135,13 +136,22 @@ class PoseRange(NamedTuple):
     worst: NDArray[np.intp]
 
 
-def traversal_of(
+def traversed(
+    view: DrivenView, on: BoolArray, tolerance: OrderTolerance, any_order: bool
+) -> tuple[Traversal, PoseRange]:
+    """The traversal of linkages (k,), each with one driver, and the range between their poses.
+
+    on: (k, N), the poses that are judged.  Where the order allows either way round a closed
+    circuit, the way is taken that stays clear of dead points.
+    """
+    traversal = _traversal_of(view, on, tolerance, any_order)
+    return _other_way_round(traversal, _pose_range(traversal, view), view, any_order)
+
+
+def _traversal_of(
     view: DrivenView, on: BoolArray, tolerance: OrderTolerance, any_order: bool
 ) -> Traversal:
-    """The traversal of linkages (k,), each with one driver.
-
-    on: (k, N), the poses that are judged.
-    """
+    """The traversal, in the sense and over the range that are shortest; see `traversed`."""
     location = view.location
     on_circuit = on & (location.circuit >= 0) & np.isfinite(location.parameter)
     clear = on_circuit & (view.transmission >= DEAD_POINT_ANGLE)
@@ -168,9 +178,7 @@ def traversal_of(
     else:
         slack = tolerated_step(view.places, on_circuit, s, tolerance)
         interval, circle = along_interval(s, unit, slack), around_circuit(s, slack)
-        order = PoseOrder(
-            *(_merged(all_round, *both) for both in zip(circle, interval, strict=True))
-        )
+        order = where(all_round, circle, interval)
         elsewhere = (np.isfinite(view.places.angle) & ~on).any(axis=1)
         doubtful = elsewhere | (circuits.closed & (circle.back <= CERTAIN_STEP_BACK))
         doubtful = doubtful & circuits.near_change_point
@@ -179,7 +187,7 @@ def traversal_of(
     )
 
 
-def pose_range(traversal: Traversal, view: DrivenView) -> PoseRange:
+def _pose_range(traversal: Traversal, view: DrivenView) -> PoseRange:
     """The range between the poses of each linkage, in their order."""
     on_circuit, along, circuits = traversal.on_circuit, traversal.order.along, traversal.circuits
     quarters, inside = quarters_inside(along, circuits)
@@ -205,7 +213,7 @@ def pose_range(traversal: Traversal, view: DrivenView) -> PoseRange:
     return PoseRange(inputs[:, :count], input_range, least, both, worst)
 
 
-def other_way_round(
+def _other_way_round(
     traversal: Traversal, ranged: PoseRange, view: DrivenView, any_order: bool
 ) -> tuple[Traversal, PoseRange]:
     """The traversals, the other way round a closed circuit where that avoids a dead point.
@@ -225,16 +233,11 @@ def other_way_round(
         steps = np.minimum(step_back(other), step_back(-other))
         allowed = close & (steps <= np.maximum(np.maximum(back, slack), REPEATED_POSE_STEP))
     other = np.where(allowed[:, None], other, along)
-    there = pose_range(traversal._replace(order=PoseOrder(other, back, slack)), view)
+    there = _pose_range(traversal._replace(order=PoseOrder(other, back, slack)), view)
     better = ~(there.least_transmission < DEAD_POINT_ANGLE) & allowed
     along = np.where(better[:, None], other, along)
-    merged = (_merged(better, new, old) for new, old in zip(there, ranged, strict=True))
-    return traversal._replace(order=PoseOrder(along, back, slack)), PoseRange(*merged)
-
-
-def _merged(use: BoolArray, one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Rows (k, ...) of one array where `use` (k,) holds, else of the other."""
-    return np.where(use.reshape(-1, *[1] * (one.ndim - 1)), one, other)
+    ranged = where(better, there, ranged)
+    return traversal._replace(order=PoseOrder(along, back, slack)), ranged
 
 
 def first_where(better: BoolArray, good: BoolArray) -> NDArray[np.intp]:

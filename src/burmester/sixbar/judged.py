@@ -175,7 +175,7 @@ def _driven(
         missed=missed,
         combined=np.sqrt((off**2 @ weights) / weights.sum()),
         shares=used,
-        out_of_order=order.back > np.maximum(REPEATED_POSE_STEP, order.slack),
+        out_of_order=order.is_another,
         at_poses=least_transmission_angle(linkage.skeleton, joints, branches[0].pivot),
         transmission=np.array([least for least, _ in ranged]),
         extent=np.array([extent for _, extent in ranged]),
