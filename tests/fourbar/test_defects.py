@@ -18,14 +18,14 @@ import pytest
 from scipy.optimize import minimize_scalar
 
 from burmester.fourbar.circuits import Circuits, circuit_of
-from burmester.fourbar.defect_messages import PoseNames
 from burmester.fourbar.defects import judge
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
-from burmester.fourbar.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP
-from burmester.fourbar.traversal import DEAD_POINT_ANGLE
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.defect_messages import PoseNames
+from burmester.mechanisms.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP
+from burmester.mechanisms.transmission import DEAD_POINT_ANGLE
 from tests.oracles.random_dyads import (
     CHANGE,
     NAMES,

@@ -14,7 +14,6 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pivot_box import extent
-from burmester.fourbar.pose_order import REPEATED_POSE_STEP, OrderTolerance
 from burmester.fourbar.traversal import (
     DrivenView,
     PoseRange,
@@ -23,6 +22,7 @@ from burmester.fourbar.traversal import (
     traversed,
 )
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.pose_order import REPEATED_POSE_STEP, OrderTolerance
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import take
 from burmester.requirements.figures import Figures

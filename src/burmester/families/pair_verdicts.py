@@ -18,9 +18,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR, dimensions_of, shape_of
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.pose_order import BoolArray, OrderTolerance
 from burmester.fourbar.traversal import (
-    DEAD_POINT_ANGLE,
     DrivenView,
     PoseRange,
     Traversal,
@@ -28,6 +26,8 @@ from burmester.fourbar.traversal import (
 )
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
+from burmester.mechanisms.pose_order import BoolArray, OrderTolerance
+from burmester.mechanisms.transmission import DEAD_POINT_ANGLE
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate, take
 from burmester.requirements.footprint import FOOTPRINT

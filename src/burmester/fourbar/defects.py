@@ -11,27 +11,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import final
+from dataclasses import dataclass, replace
+from typing import Final, final
 
 import numpy as np
 
 from burmester.errors import Finding
 from burmester.fourbar.circuits import Circuits
-from burmester.fourbar.defect_messages import (
-    PoseNames,
-    assembly_defects,
-    branch_defect,
-    circuit_defect,
-    near_dead_point_defect,
-    order_defect,
-    undetermined_defect,
-)
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.pose_order import BoolArray, OrderTolerance
 from burmester.fourbar.traversal import (
-    DEAD_POINT_ANGLE,
     DrivenView,
     PoseRange,
     Traversal,
@@ -39,8 +28,27 @@ from burmester.fourbar.traversal import (
     traversed,
 )
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.defect_messages import (
+    UNSURE,
+    PoseNames,
+    assembly_defects,
+    branch_defect,
+    circuit_defect,
+    in_another_order,
+    undetermined_defect,
+)
+from burmester.mechanisms.pose_order import (
+    CERTAIN_STEP_BACK,
+    REPEATED_POSE_STEP,
+    BoolArray,
+    OrderTolerance,
+)
+from burmester.mechanisms.transmission import DEAD_POINT_ANGLE
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate
+
+# Degrees.  A smaller distance from a dead point is not worth a number in a message.
+SHOWN_ANGLE: Final = 1e-4
 
 
 @final
@@ -211,11 +219,19 @@ def _driven(
     close = some & (ranged.least_transmission < DEAD_POINT_ANGLE)
     for k in np.flatnonzero(traversal.crosses_branches | close).tolist():
         if traversal.crosses_branches[k]:
-            defects[k].append(branch_defect(traversal, k, any_order, names))
+            defects[k].append(
+                branch_defect(
+                    traversal.clear[k],
+                    traversal.branch_key[k],
+                    change=bool(circuits.near_change_point[k]),
+                    any_order=any_order,
+                    names=names,
+                )
+            )
         else:
-            defects[k].append(near_dead_point_defect(traversal, ranged, k, names))
+            defects[k].append(_near_dead_point_defect(traversal, ranged, k, names))
     for k in np.flatnonzero(some & order.is_another).tolist():
-        defects[k].append(order_defect(traversal, ranged, k, names))
+        defects[k].append(_order_defect(traversal, ranged, k, names))
     for k in np.flatnonzero(on.any(axis=1) & ~some).tolist():
         defects[k].append(undetermined_defect(on[k]))
     return [
@@ -232,3 +248,40 @@ def _driven(
         )
         for k in range(len(on_circuit))
     ]
+
+
+def _near_dead_point_defect(
+    traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames
+) -> Finding:
+    """The uncertain defect of linkage k, whose range comes too near to a dead point."""
+    at, worst, count = ranged.along[k], ranged.worst[k], traversal.on_circuit.shape[1]
+    least = np.degrees(ranged.least_transmission[k])
+    if worst < count:
+        poses: tuple[int, ...] = (int(worst),)
+        place = f"at {names.phrase(poses)}"
+    else:
+        along = at[:count]
+        before = int(np.nanargmax(np.where(along <= at[worst], along, np.nan)))
+        after = int(np.nanargmin(np.where(along >= at[worst], along, np.nan)))
+        poses = tuple(sorted((before, after)))
+        place = names.between([(poses[0], poses[1])])
+    if traversal.circuits.near_change_point[k]:
+        text = f"{'is at' if worst < count else 'passes'} a change point {place}"
+    else:
+        within = f"within {least:.1g}° of" if least > SHOWN_ANGLE else "to"
+        text = f"comes {within} a dead point {place}"
+    return Finding("branch", text + UNSURE, poses, certain=False)
+
+
+def _order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames) -> Finding:
+    """The defect of linkage k, which meets its poses in another order."""
+    on_circuit, order = traversal.on_circuit[k], traversal.order
+    # At a change point the linkage may go either way: it passes one where the range comes to it,
+    # and wherever it goes from one branch to another.
+    passed = ranged.least_transmission[k] < DEAD_POINT_ANGLE or traversal.crosses_branches[k]
+    passed = passed and traversal.circuits.near_change_point[k]
+    certain = order.back[k] > CERTAIN_STEP_BACK and not traversal.order_doubtful[k] and not passed
+    poses = np.flatnonzero(on_circuit)
+    steps = np.round(order.along[k][on_circuit] / (REPEATED_POSE_STEP * traversal.step_unit[k]))
+    defect = in_another_order(poses, steps, names, all_round=bool(traversal.all_round[k]))
+    return replace(defect, message=defect.message + UNSURE * (not certain), certain=bool(certain))

@@ -18,9 +18,9 @@ from burmester.fourbar.circuit_parameter import RangeType
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.loop_closure import KINDS
-from burmester.fourbar.pose_order import FULL_TURN, BoolArray
 from burmester.fourbar.traversal import quarters_inside
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.pose_order import FULL_TURN, BoolArray
 from burmester.numerics.arrays import FloatArray
 
 # Of f (see `loop_closure`): where a linkage at a change point has a bound this near to an end of

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from burmester.fourbar.circuits import Circuits, Location
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.pose_order import (
+from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.pose_order import (
     CERTAIN_STEP_BACK,
     FULL_TURN,
     REPEATED_POSE_STEP,
@@ -32,13 +33,10 @@ from burmester.fourbar.pose_order import (
     step_back,
     tolerated_step,
 )
-from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.transmission import DEAD_POINT_ANGLE
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 from burmester.numerics.bundles import where
 
-# Radians (0.06°).  A place with a smaller transmission angle is beside a dead point: whether the
-# linkage locks there is uncertain.
-DEAD_POINT_ANGLE: Final = 1e-3
 # Radians, and fractions of the greatest coordinate.  A place farther off the circuit than this is
 # not on it; near a change point rounding reaches 2e-8.
 OFF_CIRCUIT: Final = 1e-5

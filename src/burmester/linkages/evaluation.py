@@ -21,6 +21,7 @@ from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distan
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.judged_places import NearestPlaces, best_places
+from burmester.linkages.misses import Misses
 from burmester.numerics.arrays import FloatArray, even_numbers
 from burmester.numerics.bundles import take
 from burmester.numerics.weights import weights_or_ones
@@ -48,7 +49,7 @@ from burmester.verdicts.found_linkage import (
 )
 from burmester.verdicts.limit_check import limit_violations
 from burmester.verdicts.quality import Quality
-from burmester.verdicts.ranking import DEFAULT_TOLERANCE, ranked
+from burmester.verdicts.ranking import ranked
 from burmester.verdicts.requirement_check import (
     mistimed,
     places_between,
@@ -74,7 +75,6 @@ EXACT_WEIGHT = 1e8  # weight of an exact pose in the covariance
 ACTIVE_LIMIT = 1e-9  # lengths; a limit nearer than this is active
 DRIVEN_FROM_THE_OTHER_SIDE = {"crank-rocker": "rocker-crank", "rocker-crank": "crank-rocker"}
 SIDES: tuple[Side, Side] = ("first", "second")
-SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
 # Sensitivity and uncertainty are computed at so many places at most, evenly chosen: a sum over an
 # even part of a motion is that part of the sum over all.
 MAX_PLACES_OF_QUALITY = 2000
@@ -362,37 +362,25 @@ class Evaluation:
 
         sensitivity: (k,), as `sensitivities` has it.
         """
-        shape = (len(own), self.task.poses.shape[0])
-        position = np.array([error.position for error in errors]).reshape(shape)
-        turn = np.array([error.angle for error in errors]).reshape(shape)
-        asked, usual = self.task.requirements, DEFAULT_TOLERANCE * float(self.target.frames.length)
-        reach, length = asked.reach(usual, self.problem.length_per_radian)
-        missed = np.maximum(position, length * turn)
-        slack = None
-        shares, tolerances = None, self.task.tolerances
-        if tolerances is not None and tolerances.gives_room:  # else the errors alone are judged
-            shares = shares_used(places, self.task, float(self.target.frames.length))
-            slack = 2 * np.nan_to_num(np.hypot(position, length * turn)).max(axis=1)
-            stated = asked.within is not None or asked.within_deg is not None
-            missed = np.maximum(shares.max(axis=-1), missed / reach if stated else 0.0)
-            reach = 1 + SHARE_ROUNDING
+        size, radian = float(self.target.frames.length), self.problem.length_per_radian
+        misses = Misses.of(places, errors, self.task, radian, size=size)
         numbers = self.problem.pose_numbers
         given = self.task.names or ("",) * len(numbers)
         names = [name or str(number + 1) for name, number in zip(given, numbers, strict=True)]
         verdicts = judge(
             own,
             places,
-            missed=missed,
-            reach=reach,
-            length=length,
+            missed=misses.missed,
+            reach=misses.reach,
+            length=misses.length,
             names=names,
-            any_order=asked.any_order,
-            order_slack=slack,
+            any_order=self.task.requirements.any_order,
+            order_slack=misses.slack,
         )
-        if shares is not None:
+        if misses.shares is not None:
             verdicts = [
                 in_words_of_tolerances(verdict, share, names)
-                for verdict, share in zip(verdicts, shares, strict=True)
+                for verdict, share in zip(verdicts, misses.shares, strict=True)
             ]
         verdicts = stray_defects(own, verdicts, self.task, names)
         if list(numbers) != list(range(len(numbers))):

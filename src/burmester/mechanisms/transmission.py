@@ -7,11 +7,17 @@ is told; it is zero at the driver's dead points and nowhere else.
 
 from __future__ import annotations
 
+from typing import Final
+
 import numpy as np
 
 from burmester.mechanisms.circles import acute_angle
 from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import ComplexArray, FloatArray
+
+# Radians (0.06°).  A place with a smaller transmission angle is beside a dead point: whether the
+# linkage locks there is uncertain.
+DEAD_POINT_ANGLE: Final = 1e-3
 
 
 def least_transmission_angle(skeleton: Skeleton, joints: ComplexArray, pivot: str) -> FloatArray:

@@ -14,15 +14,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import Finding, InputError
-from burmester.fourbar.defect_messages import (
+from burmester.fourbar.pose_error import PoseError
+from burmester.geometry.displacement import Displacement
+from burmester.linkages.misses import Misses
+from burmester.mechanisms.branches import Branch, branches_of
+from burmester.mechanisms.circuits import circuits_of
+from burmester.mechanisms.contract import body_of
+from burmester.mechanisms.defect_messages import (
     PoseNames,
-    changes,
+    branch_defect,
+    circuit_defect,
     in_another_order,
-    locks_between,
     pose_numbers,
 )
-from burmester.fourbar.pose_error import PoseError
-from burmester.fourbar.pose_order import (
+from burmester.mechanisms.nearest_places import least_along, minima_of, nearest_shares
+from burmester.mechanisms.pose_order import (
     REPEATED_POSE_STEP,
     OrderTolerance,
     PoseOrder,
@@ -31,13 +37,7 @@ from burmester.fourbar.pose_order import (
     smallest_arc,
     tolerated_step,
 )
-from burmester.fourbar.traversal import DEAD_POINT_ANGLE
-from burmester.geometry.displacement import Displacement
-from burmester.mechanisms.branches import Branch, branches_of
-from burmester.mechanisms.circuits import circuits_of
-from burmester.mechanisms.contract import body_of
-from burmester.mechanisms.nearest_places import least_along, minima_of, nearest_shares
-from burmester.mechanisms.transmission import least_transmission_angle
+from burmester.mechanisms.transmission import DEAD_POINT_ANGLE, least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray, wrapped_angle
 from burmester.numerics.weights import weights_or_ones
 from burmester.refinement.tolerance_boxes import EXACT_ROUNDING, counted_error, shares_used
@@ -50,10 +50,8 @@ from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import too_short
 from burmester.verdicts.explanation import too_far_from
-from burmester.verdicts.ranking import DEFAULT_TOLERANCE
 from burmester.verdicts.tolerance_words import outside
 
-SHARE_ROUNDING = 1e-9  # relative; a tolerance that is exceeded by less is kept
 ALIKE = 1e-6  # sizes of the motion; errors that differ by less are one
 MERIT_DIGITS = 6  # decimals of a degree by which branches are compared
 
@@ -158,10 +156,11 @@ def _driven(
     joints = np.array([each.at_share(linkage, shares[k]) for k, each in rows])
     places = body_of(linkage, joints)
     errors = [counted_error(places[k], task) for k, _ in rows]
-    missed, used, slack = _missed(places, errors, problem)
+    size, radian = problem.length, problem.length_per_radian
+    misses = Misses.of(places, errors, task, radian, size=size)
     at_poses = np.array([each.drive(linkage, shares[k]) for k, each in rows])
     turns = np.array([each.turns for each in branches])
-    order = _along(at_poses, places, turns, slack, problem)
+    order = _along(at_poses, places, turns, misses.slack, problem)
     drive = order.along
     ranges = np.stack([drive.min(axis=-1), drive.max(axis=-1)], axis=-1)
     ends = np.array([each.ends for each in branches])
@@ -172,9 +171,9 @@ def _driven(
         drive=drive,
         room=np.abs(ends - ranges),
         errors=errors,
-        missed=missed,
+        missed=misses.missed / misses.reach,
         combined=np.sqrt((off**2 @ weights) / weights.sum()),
-        shares=used,
+        shares=misses.shares,
         out_of_order=order.is_another,
         at_poses=least_transmission_angle(linkage.skeleton, joints, branches[0].pivot),
         transmission=np.array([least for least, _ in ranged]),
@@ -191,28 +190,6 @@ def _over_range(linkage: SixBar, branch: Branch, ends: FloatArray) -> tuple[floa
     low, high = branch.share(linkage, ends).tolist()
     extent = box_diagonal(branch.at(linkage, steps_along(ends[None])[0]))
     return least_along(linkage, branch, low, high, transmission), float(extent)
-
-
-def _missed(
-    places: Displacement, errors: list[PoseError], problem: SynthesisProblem
-) -> tuple[FloatArray, FloatArray | None, FloatArray]:
-    """How far places (k, N) miss the poses, in what is allowed: (k, N), as of four-bars.
-
-    Then the shares of tolerances, where these decide, and (k,) how near to each other along a
-    branch poses have no order: twice the distance by which one is missed.
-    """
-    task, asked = problem.given, problem.given.requirements
-    position = np.array([each.position for each in errors])
-    turn = np.array([each.angle for each in errors])
-    reach, length = asked.reach(DEFAULT_TOLERANCE * problem.length, problem.length_per_radian)
-    missed = np.maximum(position, length * turn)
-    if not _by_tolerances(problem):
-        return missed / reach, None, 2 * np.minimum(missed, reach).max(axis=-1)
-    shares = shares_used(places, task, problem.length)
-    stated = asked.within is not None or asked.within_deg is not None
-    used = np.maximum(shares.max(axis=-1), missed / reach if stated else 0.0)
-    distance = np.hypot(position, problem.length_per_radian * turn)
-    return used / (1 + SHARE_ROUNDING), shares, 2 * distance.max(axis=-1)
 
 
 def _along(
@@ -252,7 +229,7 @@ def _along(
 def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProblem) -> _Verdict:
     """What is wrong with one branch."""
     task, full = problem.given, driven.branches[k].turns > 0
-    size = problem.motion_size
+    size, least = problem.motion_size, least_bars(problem, linkage.skeleton)
     figures = figures_of(linkage, driven.transmission[k], full, driven.extent[k])
     return _Verdict(
         far=float(np.log1p(driven.missed[k]).mean()),
@@ -262,7 +239,7 @@ def _verdict(linkage: SixBar, driven: _OneDriver, k: int, problem: SynthesisProb
         branch=k,
         defects=(
             *_defects(driven, k, task),
-            *_degenerate(linkage, problem),
+            *(Finding("degenerate", each) for each in too_short(linkage.lengths(), least, task)),
         ),
         violations=violations(linkage, figures, task, size),
         shortcomings=shortcomings(figures, size, task),
@@ -287,36 +264,20 @@ def _defects(driven: _OneDriver, k: int, task: Task) -> Iterator[Finding]:
             else outside(far, shares[k], names)
         )
         yield Finding("assembly", text, far)
-    one = pose_numbers(here)
-    if other := pose_numbers(apart):
-        verb = "is" if len(one) == 1 else "are"
-        text = f"{told.phrase(one)} {verb} on one assembly, {told.listed(other)} on another"
-        between = "between them" if any_order else told.between(changes(here, here | apart))
-        yield Finding("circuit", f"{text}: it must be taken apart {between}", other)
-    if (other := pose_numbers(locked)) and any_order:
-        text = f"locks at a dead point between {told.phrase(one)} and {told.listed(other)}"
-        yield Finding("branch", text, other)
-    elif other:
-        pairs = changes(here, here | locked)
-        poses = tuple(sorted({pose for pair in pairs for pose in pair}))
-        yield Finding("branch", locks_between(pairs, told), poses)
+    elsewhere = missed.astype(np.int8)
+    if apart.any():
+        on = here | apart
+        yield circuit_defect(
+            on, elsewhere, 0, any_order=any_order, names=told, other_name="another"
+        )
+    if locked.any():
+        yield branch_defect(here | locked, elsewhere, any_order=any_order, names=told)
     if stuck := pose_numbers(here & (driven.at_poses[k] < DEAD_POINT_ANGLE)):
         text = f"is at a dead point at {told.phrase(stuck)}"
         yield Finding("branch", text, stuck, certain=False)
     if driven.out_of_order[k] and not (locked | apart).any():  # an order is that of one branch
         steps = np.round(driven.drive[k] / REPEATED_POSE_STEP)
         yield in_another_order(np.arange(len(steps)), steps, told, all_round=branch.turns > 0)
-
-
-def _degenerate(linkage: SixBar, problem: SynthesisProblem) -> list[Finding]:
-    """That two joints of one link are too near to each other."""
-    lengths, least = linkage.lengths(), least_bars(problem, linkage.skeleton)
-    short = lengths < least
-    if not short.any():
-        return []
-    at = int(np.where(short, lengths, np.inf).argmin())
-    message = too_short(float(lengths[at]), float(least[at]), problem.given)
-    return [Finding("degenerate", message, ())]
 
 
 def _found(linkage: SixBar, best: _Verdict, problem: SynthesisProblem) -> FoundSixBar:

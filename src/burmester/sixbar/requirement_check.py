@@ -20,7 +20,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.degeneracy import least_cranks, least_link
-from burmester.verdicts.limit_check import LIMIT_TOLERANCE, outside, wrong_length
+from burmester.verdicts.limit_check import LIMIT_TOLERANCE, off_region, outside, wrong_length
 
 
 def violations(linkage: SixBar, figures: Figures, task: Task, size: float) -> tuple[Finding, ...]:
@@ -44,10 +44,7 @@ def _broken(
     ):
         out = _least_outside(regions, list(pivots.values()))
         for (joint, at), away in zip(pivots.items(), out, strict=True):
-            if not away <= slack:
-                x, y = (f"{float(value):.6g}" for value in at)
-                far = length_of(away, task)
-                yield f"the {name} pivot {joint} at ({x}, {y}) is {far} outside its region"
+            yield from off_region(f"the {name} pivot {joint}", at, away, slack, task.length_unit)
     lengths = dict(zip(skeleton.bars, linkage.lengths().tolist(), strict=True))
     for pivot in skeleton.drivers:
         arm = next(bar for bar in lengths if set(bar) == set(skeleton.arm(pivot)))

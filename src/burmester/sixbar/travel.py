@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 
 from burmester.mechanisms.contract import drive_of
 from burmester.mechanisms.four_bar_loop import FourBarLoop
+from burmester.mechanisms.pose_order import PoseOrder, along_interval, around_circuit, smallest_arc
 from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.bundles import take, where
 from burmester.sixbar.watt import (
     WATT_I,
     Sides,
@@ -126,31 +127,15 @@ def along(
     forward = np.mod(drive - start, TURN)
     offset = np.where(forward < up[:, None], forward, forward - TURN)
     held = (offset > CLOSE - down[:, None]) & (offset < up[:, None] - CLOSE)
-    steps = np.diff(offset, axis=-1)
-    monotone = (steps > 0).all(axis=-1) | (steps < 0).all(axis=-1)
-    # All the way round: the sum of the steps in one direction is less than a turn.
-    steps = np.mod(np.diff(drive, axis=-1), TURN)
-    ways = [np.cumsum(each, axis=-1) for each in (steps, steps - TURN)]
-    forwards, backwards = ways[0][:, -1] < TURN, ways[1][:, -1] > -TURN
-    round_ = np.concatenate([np.zeros_like(start), np.where(forwards[:, None], *ways)], axis=-1)
-    offset = np.where(full[:, None], round_, offset)
-    in_order = np.where(full, forwards | backwards, monotone) | any_order
-    if any_order:  # the shortest piece of the turn that holds all poses
-        offset = np.where(full[:, None], _shortest(forward), offset)
-    one = same & (full | held.all(axis=-1))
-    low, high = offset.min(axis=-1), offset.max(axis=-1)
-    room = np.stack([down + low, up - high], axis=-1)
+    room = np.stack([down + offset.min(axis=-1), up - offset.max(axis=-1)], axis=-1)
+    one, none = same & (full | held.all(axis=-1)), np.zeros(len(drive))
+    order = where(full, around_circuit(drive, none), along_interval(start + offset, none + 1, none))
+    if any_order:
+        shortest = np.where(full[:, None], smallest_arc(drive), order.along)
+        order = PoseOrder(shortest, none, none)
     return Travel(
         one,
-        in_order,
-        np.where(one[:, None], start + offset, np.nan),
+        ~order.is_another,
+        np.where(one[:, None], order.along, np.nan),
         np.where(full[:, None], np.inf, room),
     )
-
-
-def _shortest(forward: FloatArray) -> FloatArray:
-    """Angles (n, N) in [0, 2 pi) with the greatest gap between them outside of their range."""
-    order = np.sort(forward, axis=-1)
-    gaps = np.diff(np.concatenate([order, order[:, :1] + TURN], axis=-1), axis=-1)
-    last = np.take_along_axis(order, gaps.argmax(axis=-1)[:, None], axis=-1)
-    return np.where(forward > last, forward - TURN, forward)

@@ -6,6 +6,7 @@ together.  The bounds are conventions, far below those of a linkage to build (`r
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Final
 
 import numpy as np
@@ -63,12 +64,7 @@ def degenerate_defects(
     lengths, least = pin_distances(batch), least_links(problem)
     out = []
     for length, each in zip(lengths, sensitivity, strict=True):
-        reasons = []
-        with np.errstate(invalid="ignore"):
-            short = np.flatnonzero(length < least)
-        if len(short):
-            at = short[int(length[short].argmin())]
-            reasons.append(too_short(float(length[at]), float(least[at]), problem.given))
+        reasons = list(too_short(length, least, problem.given))
         if each > MAX_SENSITIVITY:
             # At a change point it is infinite but for rounding, and its digits say nothing.
             times = f"up to {figure(each)}" if each < 1e6 else "over a million"
@@ -77,10 +73,14 @@ def degenerate_defects(
     return out
 
 
-def too_short(length: float, least: float, task: Task) -> str:
-    """What is said of a link that is shorter than the least length."""
-    share = f"1/{1 / MIN_LINK_SHARE:.0f}"
-    return (
-        f"has a link of {length_of(length, task)}, shorter than {share} of the motion's span "
-        f"({length_of(least, task)})"
-    )
+def too_short(lengths: FloatArray, least: FloatArray, task: Task) -> Iterator[str]:
+    """That of links (b,) some are shorter than the least lengths, the shortest of these; or not."""
+    with np.errstate(invalid="ignore"):
+        short = np.where(lengths < least, lengths, np.inf)
+    if np.isfinite(short).any():
+        at = int(short.argmin())
+        share = f"1/{1 / MIN_LINK_SHARE:.0f}"
+        yield (
+            f"has a link of {length_of(float(lengths[at]), task)}, shorter than {share} of the "
+            f"motion's span ({length_of(float(least[at]), task)})"
+        )

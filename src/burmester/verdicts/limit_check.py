@@ -60,12 +60,18 @@ def _broken(dyad: Dyad, limits: Limits, slack: float, unit: str | None) -> Itera
     for name, region, at in pivots:
         if region is None:
             continue
-        out = outside(region, at)
-        if not out <= slack:
-            x, y = (f"{float(value):.6g}" for value in at)
-            yield f"the {name} pivot at ({x}, {y}) is {_length(out, unit)} outside its region"
+        yield from off_region(f"the {name} pivot", at, outside(region, at), slack, unit)
     if isinstance(dyad, RR):
         yield from wrong_length("a link", float(dyad.radius), limits, slack)
+
+
+def off_region(
+    what: str, at: FloatArray, away: float, slack: float, unit: str | None
+) -> Iterator[str]:
+    """That a pivot is so far outside its region, if it is."""
+    if not away <= slack:
+        x, y = (f"{float(value):.6g}" for value in at)
+        yield f"{what} at ({x}, {y}) is {_length(away, unit)} outside its region"
 
 
 def wrong_length(what: str, length: float, limits: Limits, slack: float) -> Iterator[str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import pairwise
 from typing import Final, NamedTuple
 
@@ -11,15 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import Finding
-from burmester.fourbar.pose_order import CERTAIN_STEP_BACK, REPEATED_POSE_STEP, BoolArray
-from burmester.fourbar.traversal import DEAD_POINT_ANGLE, PoseRange, Traversal
+from burmester.mechanisms.pose_order import BoolArray
 from burmester.numerics.arrays import FloatArray
 from burmester.wording import LEAST_RUN, count, figure, in_runs, listed, shortened
 
 MAX_NAMES: Final = 6  # poses, ranges of poses, or pairs of poses that one message lists
 MAX_ORDER: Final = 12  # poses whose order is told one by one; of more, runs in order are one
-# Degrees.  A smaller distance from a dead point is not worth a number in a message.
-SHOWN_ANGLE: Final = 1e-4
 UNSURE: Final = ": too close to call"  # the end of messages on defects that are not certain
 
 
@@ -107,18 +103,19 @@ def circuit_defect(
     labels: NDArray[np.int8],
     main: int,
     *,
-    change: bool,
     any_order: bool,
     names: PoseNames,
+    change: bool = False,
+    other_name: str = "the other",
 ) -> Finding:
-    """The defect of one linkage with clear poses (N,) on both circuits.
+    """The defect of one linkage with clear poses (N,) on several circuits.
 
     labels: (N,), the circuits of the poses; main: the circuit with most of them.
-    change: whether the linkage is at a change point.
+    change: whether the linkage is at a change point; other_name: of a circuit but the first.
     """
     one, other = _parts(labels, clear, names)
     verb = "is" if one.startswith("pose ") else "are"
-    text = f"{one} {verb} on one assembly, {other} on the other"
+    text = f"{one} {verb} on one assembly, {other} on {other_name}"
     if change:
         text += f", and both meet at a change point{UNSURE}"
     elif any_order:
@@ -128,10 +125,18 @@ def circuit_defect(
     return Finding("circuit", text, pose_numbers(clear & (labels != main)), not change)
 
 
-def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseNames) -> Finding:
-    """The defect of linkage k, whose poses are on two branches."""
-    clear, key = traversal.clear[k], traversal.branch_key[k]
-    change = bool(traversal.circuits.near_change_point[k])
+def branch_defect(
+    clear: BoolArray,
+    key: NDArray[np.int8],
+    *,
+    any_order: bool,
+    names: PoseNames,
+    change: bool = False,
+) -> Finding:
+    """The defect of one linkage with clear poses (N,) on several branches of a circuit.
+
+    key: (N,), the branches of the poses; change: whether the linkage is at a change point.
+    """
     pairs = changes(key, clear)
     poses = tuple(sorted({pose for pair in pairs for pose in pair}))
     if any_order:
@@ -141,52 +146,9 @@ def branch_defect(traversal: Traversal, k: int, any_order: bool, names: PoseName
     elif change:
         text = f"passes a change point {names.between(pairs)}"
     else:
-        text = locks_between(pairs, names)
+        at = "a dead point" if len(pairs) == 1 else "dead points"
+        text = f"locks {names.between(pairs)}, at {at}"
     return Finding("branch", text + UNSURE * change, poses, not change)
-
-
-def locks_between(pairs: Sequence[tuple[int, int]], names: PoseNames) -> str:
-    """That a linkage locks between pairs of poses, in words that follow "it"."""
-    return (
-        f"locks {names.between(pairs)}, at {'a dead point' if len(pairs) == 1 else 'dead points'}"
-    )
-
-
-def near_dead_point_defect(
-    traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames
-) -> Finding:
-    """The uncertain defect of linkage k, whose range comes too near to a dead point."""
-    at, worst, count = ranged.along[k], ranged.worst[k], traversal.on_circuit.shape[1]
-    least = np.degrees(ranged.least_transmission[k])
-    if worst < count:
-        poses: tuple[int, ...] = (int(worst),)
-        place = f"at {names.phrase(poses)}"
-    else:
-        along = at[:count]
-        before = int(np.nanargmax(np.where(along <= at[worst], along, np.nan)))
-        after = int(np.nanargmin(np.where(along >= at[worst], along, np.nan)))
-        poses = tuple(sorted((before, after)))
-        place = names.between([(poses[0], poses[1])])
-    if traversal.circuits.near_change_point[k]:
-        text = f"{'is at' if worst < count else 'passes'} a change point {place}"
-    else:
-        within = f"within {least:.1g}° of" if least > SHOWN_ANGLE else "to"
-        text = f"comes {within} a dead point {place}"
-    return Finding("branch", text + UNSURE, poses, certain=False)
-
-
-def order_defect(traversal: Traversal, ranged: PoseRange, k: int, names: PoseNames) -> Finding:
-    """The defect of linkage k, which meets its poses in another order."""
-    on_circuit, order = traversal.on_circuit[k], traversal.order
-    # At a change point the linkage may go either way: it passes one where the range comes to it,
-    # and wherever it goes from one branch to another.
-    passed = ranged.least_transmission[k] < DEAD_POINT_ANGLE or traversal.crosses_branches[k]
-    passed = passed and traversal.circuits.near_change_point[k]
-    certain = order.back[k] > CERTAIN_STEP_BACK and not traversal.order_doubtful[k] and not passed
-    poses = np.flatnonzero(on_circuit)
-    steps = np.round(order.along[k][on_circuit] / (REPEATED_POSE_STEP * traversal.step_unit[k]))
-    defect = in_another_order(poses, steps, names, all_round=bool(traversal.all_round[k]))
-    return replace(defect, message=defect.message + UNSURE * (not certain), certain=bool(certain))
 
 
 def in_another_order(
@@ -220,7 +182,7 @@ def pose_numbers(mask: BoolArray) -> tuple[int, ...]:
     return tuple(np.flatnonzero(mask).tolist())
 
 
-def changes(key: NDArray[np.int8] | BoolArray, clear: BoolArray) -> list[tuple[int, int]]:
+def changes(key: NDArray[np.int8], clear: BoolArray) -> list[tuple[int, int]]:
     """The pairs of successive poses between which the key changes."""
     return [(a, b) for a, b in pairwise(pose_numbers(clear)) if key[a] != key[b]]
 
