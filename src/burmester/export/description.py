@@ -81,15 +81,15 @@ def _of_six_bar(chosen: FoundSixBar) -> list[str]:
 def length_decimals(chosen: Candidate, options: Options, unit: str = "mm") -> int:
     """With how many decimals lengths in a unit keep the linkage's error."""
     reference = Reference.of(chosen, options, unit)
-    if reference.dyads is None:
+    if reference.found is not None:
         return figures_of(FINEST * reference.span)
     return _decimals(chosen, reference).lengths
 
 
 def _decimals(chosen: Candidate, reference: Reference) -> Decimals:
     """With how many decimals the dimensions of a four-bar keep its error."""
-    linkage = reference.dyads
-    assert linkage is not None
+    assert isinstance(reference.own, FoundLinkage)
+    linkage = reference.own.driver_first
     size = characteristic_length(chosen.task) * reference.scale
     error = PoseError.at(reference.places, reference.poses)
     length = default_length_per_radian(chosen.task) * reference.scale
@@ -100,14 +100,12 @@ def _decimals(chosen: Candidate, reference: Reference) -> Decimals:
 def dimension_notes(chosen: Candidate, options: Options, unit: str = "mm") -> list[str]:
     """The dimensions in a unit, a line for each link, and what a builder gets of them."""
     reference = Reference.of(chosen, options, unit)
-    if reference.found is not None:
-        found = reference.found
+    if (found := reference.found) is not None:
         links = six_bar_words.dimension_rows(found)
         return [f"{name}: {' '.join(each for each in own if each)}." for name, *own in links]
-    linkage = reference.dyads
-    assert linkage is not None
     assert isinstance(chosen, FoundLinkage)
     decimals = _decimals(chosen, reference)
+    linkage = chosen.scaled(reference.scale).driver_first
     rows = dimensions_of((linkage.first, linkage.second), chosen.ids, decimals)
     notes = []
     for name in chosen.ids:

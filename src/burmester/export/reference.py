@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Self, final
+from typing import TYPE_CHECKING, Self, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,8 +15,6 @@ from numpy.typing import ArrayLike
 from burmester.cures import Cure, Help
 from burmester.errors import BurmesterError, InputError
 from burmester.export.options import Options, unit_of
-from burmester.fourbar.bodies import bodies_of_four_bar, places_of_bodies, scaled_linkage
-from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
@@ -36,13 +34,12 @@ PRECISION = 1e-9  # of the span: the largest deviation of a file from the linkag
 class Reference(Bodies):
     """A linkage in a unit of length.
 
-    dyads, found: its dimensions in that unit: of a four-bar, the driver first, or of another class.
+    own: the same linkage in that unit.
     at_poses: where the bodies are for the poses (N,); poses: (N,) of the task.
     span: diagonal of the box around all joints; scale: of this unit per unit of the task.
     """
 
-    dyads: Linkage | None
-    found: FoundSixBar | None
+    own: Candidate
     at_poses: LinkPlaces
     poses: Displacement
     span: float
@@ -54,55 +51,27 @@ class Reference(Bodies):
         scale = 1.0
         if unit is not None:
             scale = MILLIMETRES[unit_of(chosen, options)] / MILLIMETRES[unit]
-        if isinstance(chosen, FoundLinkage):
-            return cls._of_dyads(chosen, scale)
-        return cls._of_skeleton(chosen, scale)
-
-    @classmethod
-    def _of_dyads(cls, chosen: FoundLinkage, scale: float) -> Self:
         require_places(chosen)
-        places, poses = (
-            Displacement(each.translation * scale, each.angle)
-            for each in (chosen.error.places, poses_counted(chosen.error.places, chosen.task))
-        )
-        linkage = scaled_linkage(chosen.driver_first, scale)
-        bodies = bodies_of_four_bar(linkage)
-        at_poses = places_of_bodies(linkage, places)
+        poses, own = poses_counted(chosen.error.places, chosen.task), chosen.scaled(scale)
+        bodies, at_poses = own.bodies, own.at_poses()
         return cls(
-            **_parts(bodies),
-            dyads=linkage,
-            found=None,
+            **{each.name: getattr(bodies, each.name) for each in fields(bodies)},
+            own=own,
             at_poses=at_poses,
-            poses=poses,
-            span=_diagonal([places.translation, *bodies.pins(at_poses)]),
+            poses=Displacement(poses.translation * scale, poses.angle),
+            span=_diagonal([own.error.places.translation, *bodies.pins(at_poses)]),
             scale=scale,
         )
 
-    @classmethod
-    def _of_skeleton(cls, chosen: FoundSixBar, scale: float) -> Self:
-        found, poses = chosen.scaled(scale), chosen.task.poses
-        at = found.joints(found.drive)
-        return cls(
-            **_parts(found.bodies),
-            dyads=None,
-            found=found,
-            at_poses=found.bodies_at(found.drive, poses),
-            poses=Displacement(poses.translation * scale, poses.angle),
-            span=_diagonal([found.body(found.drive).translation, *at.values()]),
-            scale=scale,
-        )
+    @property
+    def found(self) -> FoundSixBar | None:
+        """Its dimensions in that unit, unless it is a four-bar."""
+        return None if isinstance(self.own, FoundLinkage) else self.own
 
     @property
     def places(self) -> Displacement:
         """Where the body is for the poses (N,)."""
         return self.at_poses[self.body]
-
-    def bodies(self, drive: FloatArray, places: Displacement) -> LinkPlaces:
-        """Where the bodies are when the driver is at (*,) and M at places (*,)."""
-        if self.found is None:
-            assert self.dyads is not None
-            return places_of_bodies(self.dyads, places)
-        return self.found.bodies_at(drive, places)
 
     def closure_error(self, places: LinkPlaces) -> float:
         """The largest misfit of a joint where the bodies are, in the unit of lengths."""
@@ -119,15 +88,11 @@ class Reference(Bodies):
         return worst
 
 
-def _parts(bodies: Bodies) -> dict[str, Any]:
-    return {each.name: getattr(bodies, each.name) for each in fields(bodies)}
-
-
 def _diagonal(points: list[FloatArray]) -> float:
     return math.hypot(*np.ptp(np.concatenate(points), axis=0).tolist())
 
 
-def require_places(chosen: FoundLinkage) -> None:
+def require_places(chosen: Candidate) -> None:
     """Raise E163 where the linkage cannot be put together near some pose."""
     places = chosen.error.places
     missing = ~(np.isfinite(places.angle) & np.isfinite(places.translation).all(axis=-1))

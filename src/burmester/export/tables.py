@@ -56,7 +56,7 @@ def write_csv(chosen: Candidate, path: Path, options: Options) -> None:
     motion = Motion.of(chosen, shares)
     reference = Reference.of(chosen, options, None)
     drive = np.degrees(motion.drive) if motion.in_turns else motion.drive
-    bodies, named = reference.bodies(motion.drive, motion.places), _named(reference)
+    bodies, named = reference.own.bodies_at(motion.drive, motion.places), _named(reference)
     joints = {name: bodies[link].act(hole) for name, (link, hole) in named.items()}
     unit = "" if named else stated_unit(chosen, options)
     in_unit = f"_{unit}" if unit else ""
@@ -165,7 +165,7 @@ def _driver_angle(reference: Reference, bodies: LinkPlaces) -> FloatArray:
 def _bodies(reference: Reference, places: Displacement, joints: FloatArray) -> LinkPlaces:
     """Where the bodies are by the columns of the joints (n, 2 j); without any, by the places."""
     if reference.found is None:
-        return reference.bodies(places.angle, places)
+        return reference.own.bodies_at(places.angle, places)
     columns = np.moveaxis(joints.reshape(len(joints), -1, 2), 1, 0)
     at = dict(zip(_named(reference), columns, strict=True))
     there = reference.found.skeleton.places(reference.found.frames, at)

@@ -63,6 +63,11 @@ class PoseError:
         found = nearest(on_circuits(batch, seen, unit), seen, unit)
         return cls.at(frames.from_canonical(found)[0], poses)
 
+    def scaled(self, scale: float) -> PoseError:
+        """The same in another unit of length, `scale` of them for one."""
+        places = Displacement(self.places.translation * scale, self.places.angle)
+        return PoseError(places, self.position * scale, self.angle)
+
     def combined(self, length: float) -> FloatArray:
         """Both errors in one, (N,): the position error, and the angle's as if `length` a radian.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -170,14 +171,15 @@ class FoundSixBar(LinkageAtPoses):
         """
         return least_transmission_angle(self.skeleton, self._joints(drive), self.driver_pivot)
 
-    def scaled(self, scale: float) -> FoundSixBar:
+    def scaled(self, scale: float) -> Self:
         """The same in another unit of length, `scale` of them for one."""
         frames = {
             link: {name: at * scale for name, at in joints.items()}
             for link, joints in self.frames.items()
         }
         linkage = KINDS[self.skeleton.name].of(self.carries, frames)
-        return replace(self, linkage=linkage, extent=self.extent * scale)
+        error = self.error.scaled(scale)
+        return replace(self, linkage=linkage, extent=self.extent * scale, error=error)
 
     def along(self, count: int) -> FloatArray:
         """So many angles of the driver, evenly over the range of the poses, in radians.
@@ -197,6 +199,15 @@ class FoundSixBar(LinkageAtPoses):
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
         named = plate_names(self.skeleton)
         return LinkPlaces({named[link]: each for link, each in self.links(drive).items()})
+
+    def at_poses(self) -> LinkPlaces:
+        """Where its bodies are for the poses (N,)."""
+        return self.bodies_at(self.drive, self.error.places)
+
+    def all_places(self, count: int) -> LinkPlaces:
+        """Where its bodies are along the branch of the poses, and for these."""
+        drive = np.union1d(self.along(count), self.drive)
+        return self.bodies_at(drive, self.body(drive))
 
     def travel(self, whole: bool = False) -> Way:
         """Its motion, at whatever shares of it; see `Motion.of`."""

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Literal, Self, TypeAlias
 
 from burmester.dyads.selection import FoundDyad
 from burmester.errors import Finding
@@ -15,7 +15,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
-from burmester.verdicts.four_bar_motion import way_of_four_bar
+from burmester.verdicts.four_bar_motion import places_on_branches, way_of_four_bar
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Way
 from burmester.verdicts.quality import Quality
@@ -172,6 +172,20 @@ class FoundLinkage(LinkageAtPoses):
     def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
         return places_of_bodies(self.driver_first, body)
+
+    def scaled(self, scale: float) -> Self:
+        """The same in another unit of length; raises E163 for PP dyads."""
+        linkage = scaled_linkage(self.linkage, scale)
+        return replace(self, linkage=linkage, error=self.error.scaled(scale))
+
+    def at_poses(self) -> LinkPlaces:
+        """Where its bodies are for the poses (N,)."""
+        return places_of_bodies(self.driver_first, self.error.places)
+
+    def all_places(self, count: int) -> LinkPlaces:
+        """Where its bodies are along all branches that have poses, and for these."""
+        places = places_on_branches(self.driver_first, self.error.places, count)
+        return places_of_bodies(self.driver_first, places)
 
     def travel(self, whole: bool = False) -> Way:
         """Its motion, at whatever shares of it; see `Motion.of`."""

@@ -16,6 +16,7 @@ from burmester.fourbar.defects import Driven, judge
 from burmester.fourbar.dyad import PP
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.pose_order import smallest_arc
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.motion_task import characteristic_length
 from burmester.verdicts.motion import Motion, Way
@@ -111,6 +112,28 @@ def _driven(chosen: FoundLinkage) -> Driven:
         keep = on & (here.branch == int(more))
         driven, _ = judged(replace(places, angle=np.where(keep, places.angle, np.nan)))
     return driven
+
+
+def places_on_branches(linkage: Linkage, places: Displacement, count: int) -> Displacement:
+    """Coupler places (n,) along each branch of a circuit from its first to its last of places (N,).
+
+    The places themselves are among them, in their order along the way.
+    """
+    circuits = Circuits.of(linkage, as_given=True)
+    here = circuits.locate(places)
+    rows: list[FloatArray] = []
+    on = np.isfinite(here.parameter) & (here.circuit >= 0)
+    for circuit, branch in sorted(set(zip(here.circuit[on], here.branch[on], strict=True))):
+        own = circuits[int(circuit)]
+        s = here.parameter[on & (here.circuit == circuit) & (here.branch == branch)]
+        if own.turns_fully:
+            s = smallest_arc(s[None])[0]
+        s = np.unique(np.concatenate([np.linspace(s.min(), s.max(), count), s]))
+        with np.errstate(invalid="ignore", divide="ignore"):
+            along = own.couplers(s)
+        rows.append(np.column_stack([along.translation, along.angle]))
+    table = np.concatenate(rows or [np.column_stack([places.translation, places.angle])])
+    return Displacement.from_poses(table[np.isfinite(table).all(axis=1)])
 
 
 def _turns(own: Circuits, start: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Self
 
 from burmester.errors import Finding
 from burmester.fourbar.pose_error import PoseError
@@ -109,6 +109,21 @@ class LinkageAtPoses(JudgedLinkage):
     @abstractmethod
     def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
+
+    @abstractmethod
+    def scaled(self, scale: float) -> Self:
+        """The same in another unit of length: its dimensions, and its errors at the poses."""
+
+    @abstractmethod
+    def at_poses(self) -> LinkPlaces:
+        """Where its bodies are for the poses (N,)."""
+
+    @abstractmethod
+    def all_places(self, count: int) -> LinkPlaces:
+        """Where its bodies are along all branches that have poses, and for these; count: of each.
+
+        Whole turns are cut where the poses leave the widest gap.
+        """
 
     @abstractmethod
     def travel(self, whole: bool = False) -> Way:

@@ -19,6 +19,7 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.pose_order import around_circuit
 from burmester.numerics.arrays import FloatArray
 from burmester.verdicts.found_linkage import FoundLinkage
 
@@ -27,7 +28,6 @@ REACH_WITHOUT_POSES = 3.0  # the same for a way on which no pose is
 SAMPLES = 2001  # along an endless way, to find where it leaves the scene
 WIDEST_ANGLE = 0.999  # quarter turns: the last sample of a way that runs to infinity
 EDGE = 1e-3  # radians left out at either end of a way that runs to infinity at its ends
-SAME = 1e-9  # radians: poses nearer than that are at one place of a turn
 DIGITS = 12  # significant digits of a place, counted from the size of the scene
 
 
@@ -113,7 +113,7 @@ def _branches(circuits: Circuits, circuit: np.ndarray, parameter: FloatArray) ->
     found = []
     for number in np.flatnonzero(circuits.exists).tolist():
         own = circuits[number]
-        if own.branches == 1 and own.closed:
+        if own.turns_fully:
             start = _cut(parameter[(circuit == number) & np.isfinite(parameter)])
             found.append(_Branch(number, 0, (start, start + 2 * np.pi), True, (False, False)))
         elif own.branches == 1:
@@ -136,18 +136,8 @@ def _cut(parameter: FloatArray) -> float:
     """
     if not len(parameter):
         return 0.0
-    turn = 2 * np.pi
-    s = parameter % turn
-    steps = np.diff(s) % turn
-    steps[steps > turn - SAME] = 0.0
-    rising, falling = float(steps.sum()), float((-steps % turn).sum())
-    if min(rising, falling) < turn:
-        start, end = (s[0], rising) if rising <= falling else (s[-1], falling)
-        return float(start - (turn - end) / 2)
-    s = np.sort(s)
-    gap = np.append(s[1:], s[0] + turn) - s
-    widest = int(gap.argmax())
-    return float(s[widest] + gap[widest] / 2 - turn)
+    along = around_circuit(parameter[None], np.zeros(1)).along
+    return float(along.min() + along.max()) / 2 - np.pi
 
 
 def _within(

@@ -53,7 +53,7 @@ class JointMotion(NamedTuple):
                 motion = Motion.of(chosen, shares)
                 poses, drive = np.searchsorted(shares, first.pose_shares), motion.drive
                 places = motion.places.translation * reference.scale, motion.places.angle
-                along = reference.bodies(drive, Displacement(*places))
+                along = reference.own.bodies_at(drive, Displacement(*places))
         rows = _coordinates(reference, along)
         rows[:, turning] = np.unwrap(rows[:, turning], axis=0)
         exact = _coordinates(reference, reference.at_poses)

@@ -10,16 +10,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, product
-from typing import NamedTuple, Self
+from typing import Final, NamedTuple, Self
 
 import numpy as np
 
-from burmester.export.all_places import all_places
 from burmester.export.parts.outlines import distances
 from burmester.export.reference import Reference
 from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray
-from burmester.synthesis.result import Candidate
+
+ALL_PLACES: Final = 721  # places along the motion at which plates are compared
 
 
 class Spacing(NamedTuple):
@@ -50,9 +50,9 @@ class Links:
     features: Mapping[str, Sequence[FloatArray]]
 
     @classmethod
-    def of(cls, chosen: Candidate, reference: Reference) -> Self:
+    def of(cls, reference: Reference) -> Self:
         """The links of a linkage; slots reach as far as their pins travel."""
-        motion = all_places(chosen, reference)
+        motion = reference.own.all_places(ALL_PLACES)
         features = dict[str, list[FloatArray]]()
         for link, joints in reference.links.items():
             features[link] = []

@@ -74,7 +74,7 @@ def assembly_of(chosen: Candidate, options: Options) -> Assembly:
             why=f"the task has {number} poses",
             help=Help.of(f"give {{}}, or another up to {number}", Cure("pose", 1)),
         )
-    links = Links.of(chosen, reference)
+    links = Links.of(reference)
     assumed = chosen.unit is None and options.unit is None
     stock = None if assumed else stock_for(unit)
     made = dimensions_of(links, options, reference.scale, unit, stock)
