@@ -13,21 +13,15 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, TypeVar, cast, final
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from burmester.api.python_words import in_python_words
 from burmester.api.table import as_line, dimensions_as_html, plain_html
 from burmester.describe import six_bar_words
 from burmester.errors import InputError
-from burmester.fourbar.circuits import Circuits, circuit_of
-from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage import Configuration
-from burmester.geometry.displacement import Displacement
 from burmester.io import files
-from burmester.numerics.arrays import FloatArray
 from burmester.sixbar.found import FoundSixBar
 from burmester.tasks.loads import malformed
-from burmester.values import real_numbers, shown
+from burmester.values import shown
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.still import still
 from burmester.wording import listed, with_article
@@ -42,6 +36,7 @@ if TYPE_CHECKING:
     from burmester.synthesis.result import Candidate
     from burmester.tasks.loads import Drive
     from burmester.tasks.motion_task import Task
+    from burmester.verdicts.motion import Configuration
 
 
 SWEPT_PLACES = 49  # of the body along the motion; each is a thin outline
@@ -350,71 +345,6 @@ class ResultLinkage(FoundLinkage, Chosen):
     >>> best
     L1: crank-rocker of D2 and D3, passes every pose exactly, transmission angle 29.1° or more
     """
-
-    def at(self, driver: ArrayLike) -> Configuration:
-        """Where body and joints are for the driver's angle, or for an array of angles.
-
-        Parameters
-        ----------
-        driver : float or array_like
-            Angles of the driving link in degrees in F, or lengths along its line where a slider
-            drives: the range is `driven.input_range`.  The linkage stays on the branch of the
-            poses.
-
-        Returns
-        -------
-        Configuration
-            The driver's values, the poses of the body, and its joints: "driver_fixed",
-            "driver_moving", "follower_fixed" and "follower_moving", as far as there are pins.  Not
-            a number where the driver cannot go.
-
-        Raises
-        ------
-        InputError
-            E125 (no real numbers) and E163 (a linkage that goes from no pose to another).
-
-        Examples
-        --------
-        >>> import burmester
-        >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
-        >>> here = best.at(best.motion(3).driver)
-        >>> here.body.translation.shape, here.joints["follower_moving"].shape
-        ((3, 2), (3, 2))
-        """
-        from burmester.verdicts.motion import Motion  # noqa: PLC0415
-
-        given = real_numbers(driver, (...,), "the driver")
-        middle = circuit_of(self.driver_first, Motion.of(self, 3).places[1], as_given=True)
-        own = Circuits.of(self.driver_first, as_given=True)[int(middle.circuit)]
-        inputs = np.radians(given) if own.turns else given
-        places = own.reached_at(np.ravel(inputs), int(middle.branch))
-        shaped = Displacement(
-            places.translation.reshape(*given.shape, 2), places.angle.reshape(given.shape)
-        )
-        return self._configuration(given, shaped)
-
-    def motion(self, count: int = 100) -> Configuration:
-        """So many places of body and joints from the first pose to the last, at even steps.
-
-        See `at`.  Raises InputError E163 where it goes from no pose to another.
-        """
-        from burmester.verdicts.motion import Motion  # noqa: PLC0415
-
-        motion = Motion.of(self, count)
-        driver = np.degrees(motion.drive) if motion.in_turns else motion.drive
-        return self._configuration(driver, motion.places)
-
-    def _configuration(self, driver: FloatArray, places: Displacement) -> Configuration:
-        """The joints at places (*,) of the body."""
-        joints = dict[str, FloatArray]()
-        dyads = self.driver_first.first, self.driver_first.second
-        for name, dyad in zip(("driver", "follower"), dyads, strict=True):
-            if isinstance(dyad, RR | RP):
-                shape = places.translation.shape
-                joints[f"{name}_fixed"] = np.broadcast_to(dyad.fixed_pivot, shape)
-            if isinstance(dyad, RR | PR):
-                joints[f"{name}_moving"] = places.act(dyad.moving_pivot)
-        return Configuration(driver, places, joints)
 
     def _dimensions(self) -> str:
         return dimensions_as_html(self)

@@ -58,18 +58,6 @@ class Links(NamedTuple):
     follower: FloatArray
 
 
-class Configuration(NamedTuple):
-    """Where a linkage is for values (*,) of its driver; nan where these are beyond a dead point.
-
-    driver: (*,), degrees in F, or lengths along its line where the driver slides; body: the poses
-    (*,) of M in F; joints: their places (*, 2) in F by name, in the unit of the task.
-    """
-
-    driver: FloatArray
-    body: Displacement
-    joints: dict[str, FloatArray]
-
-
 @final
 @dataclass(frozen=True, slots=True, eq=False)
 class Linkage:

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.errors import Finding
-from burmester.fourbar.linkage import Configuration
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces, bodies_of_skeleton, plate_names
 from burmester.mechanisms.branches import Branch
@@ -23,7 +22,7 @@ from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.values import real_numbers
 from burmester.verdicts.judged_linkage import LinkageAtPoses
-from burmester.verdicts.motion import Motion, Way
+from burmester.verdicts.motion import Configuration, Motion, Way
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -160,9 +159,9 @@ class FoundSixBar(LinkageAtPoses):
         drive = np.radians(given)
         return Configuration(given, self.body(drive), self.joints(drive))
 
-    def motion(self, count: int = 100) -> Configuration:
-        """So many places of body and joints from the first pose to the last, at even steps."""
-        return self.at(np.degrees(self.along(count)))
+    def joints_at(self, drive: FloatArray, body: Displacement) -> dict[str, FloatArray]:
+        """Its joints (*, 2) by name when the driver is at (*,)."""
+        return self.joints(drive)
 
     def transmission_at(self, drive: FloatArray) -> FloatArray:
         """The lesser transmission angle of both loops when the driver is at angles (*,).

@@ -5,19 +5,25 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Literal, Self, TypeAlias
 
+import numpy as np
+from numpy.typing import ArrayLike
+
 from burmester.dyads.selection import FoundDyad
 from burmester.errors import Finding
 from burmester.fourbar.bodies import bodies_of_four_bar, places_of_bodies, scaled_linkage
+from burmester.fourbar.circuits import Circuits, circuit_of
 from burmester.fourbar.defects import Driven, Verdict
+from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
+from burmester.values import real_numbers
 from burmester.verdicts.four_bar_motion import places_on_branches, way_of_four_bar
 from burmester.verdicts.judged_linkage import LinkageAtPoses
-from burmester.verdicts.motion import Way
+from burmester.verdicts.motion import Configuration, Motion, Way
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.requirement_check import four_bar_figures
 from burmester.verdicts.tolerances import Spread
@@ -172,6 +178,58 @@ class FoundLinkage(LinkageAtPoses):
     def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
         return places_of_bodies(self.driver_first, body)
+
+    def at(self, driver: ArrayLike) -> Configuration:
+        """Where body and joints are for the driver's angle, or for an array of angles.
+
+        Parameters
+        ----------
+        driver : float or array_like
+            Angles of the driving link in degrees in F, or lengths along its line where a slider
+            drives: the range is `driven.input_range`.  The linkage stays on the branch of the
+            poses.
+
+        Returns
+        -------
+        Configuration
+            The driver's values, the poses of the body, and its joints: "driver_fixed",
+            "driver_moving", "follower_fixed" and "follower_moving", as far as there are pins.  Not
+            a number where the driver cannot go.
+
+        Raises
+        ------
+        InputError
+            E125 (no real numbers) and E163 (a linkage that goes from no pose to another).
+
+        Examples
+        --------
+        >>> import burmester
+        >>> best = burmester.synthesize(burmester.read_task("case:motiongen-shoulder")).best
+        >>> here = best.at(best.motion(3).driver)
+        >>> here.body.translation.shape, here.joints["follower_moving"].shape
+        ((3, 2), (3, 2))
+        """
+        given = real_numbers(driver, (...,), "the driver")
+        middle = circuit_of(self.driver_first, Motion.of(self, 3).places[1], as_given=True)
+        own = Circuits.of(self.driver_first, as_given=True)[int(middle.circuit)]
+        inputs = np.radians(given) if own.turns else given
+        places = own.reached_at(np.ravel(inputs), int(middle.branch))
+        shaped = Displacement(
+            places.translation.reshape(*given.shape, 2), places.angle.reshape(given.shape)
+        )
+        return Configuration(given, shaped, self.joints_at(inputs, shaped))
+
+    def joints_at(self, drive: FloatArray, body: Displacement) -> dict[str, FloatArray]:
+        """Its joints (*, 2) by name when M is at places (*,)."""
+        joints = dict[str, FloatArray]()
+        dyads = self.driver_first.first, self.driver_first.second
+        for name, dyad in zip(("driver", "follower"), dyads, strict=True):
+            if isinstance(dyad, RR | RP):
+                shape = body.translation.shape
+                joints[f"{name}_fixed"] = np.broadcast_to(dyad.fixed_pivot, shape)
+            if isinstance(dyad, RR | PR):
+                joints[f"{name}_moving"] = body.act(dyad.moving_pivot)
+        return joints
 
     def scaled(self, scale: float) -> Self:
         """The same in another unit of length; raises E163 for PP dyads."""

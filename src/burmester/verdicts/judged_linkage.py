@@ -6,6 +6,8 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Self
 
+import numpy as np
+
 from burmester.errors import Finding
 from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
@@ -13,7 +15,7 @@ from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
 from burmester.tasks.motion_task import Task
-from burmester.verdicts.motion import Way
+from burmester.verdicts.motion import Configuration, Motion, Way
 
 if TYPE_CHECKING:  # few tasks have any of these
     from burmester.loads.load_figures import LoadFigures
@@ -109,6 +111,19 @@ class LinkageAtPoses(JudgedLinkage):
     @abstractmethod
     def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
+
+    @abstractmethod
+    def joints_at(self, drive: FloatArray, body: Displacement) -> dict[str, FloatArray]:
+        """Its joints (*, 2) by name when the driver is at (*,) and M at places (*,)."""
+
+    def motion(self, count: int = 100) -> Configuration:
+        """So many places of body and joints from the first pose to the last, at even steps.
+
+        See `at`.  Raises InputError E163 where it goes from no pose to another.
+        """
+        motion = Motion.of(self, count)
+        driver = np.degrees(motion.drive) if motion.in_turns else motion.drive
+        return Configuration(driver, motion.places, self.joints_at(motion.drive, motion.places))
 
     @abstractmethod
     def scaled(self, scale: float) -> Self:

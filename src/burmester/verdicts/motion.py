@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Final, Protocol, TypeAlias, final
+from typing import Final, NamedTuple, Protocol, TypeAlias, final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,6 +19,18 @@ from burmester.numerics.arrays import FloatArray
 LOOKS: Final = 721  # places in which the driver's way is tabled
 CORRECTIONS: Final = 4  # of a share; each is nearly LOOKS times as close
 CLOSE: Final = 1e-12  # of the driver's way
+
+
+class Configuration(NamedTuple):
+    """Where a linkage is for values (*,) of its driver; nan where these are beyond a dead point.
+
+    driver: (*,), degrees in F, or lengths along its line where the driver slides; body: the poses
+    (*,) of M in F; joints: their places (*, 2) in F by name, in the unit of the task.
+    """
+
+    driver: FloatArray
+    body: Displacement
+    joints: dict[str, FloatArray]
 
 
 class Travels(Protocol):
