@@ -88,12 +88,10 @@ class MotionFrames:
 
 def _link_values(dyad: RR | PR, places: Displacement) -> FloatArray:
     """The angle of a link with two pins, or the coordinate of a slider on its line, (*,)."""
-    pin = places.act(dyad.moving_pivot)
-    if isinstance(dyad, RR):
-        arm = pin - dyad.fixed_pivot
-        return np.asarray(np.arctan2(arm[..., 1], arm[..., 0]))
-    normal = dyad.normal_angle
-    return np.asarray(pin[..., 1] * np.cos(normal) - pin[..., 0] * np.sin(normal))
+    if isinstance(dyad, PR):
+        return dyad.along(places)
+    arm = places.act(dyad.moving_pivot) - dyad.fixed_pivot
+    return np.asarray(np.arctan2(arm[..., 1], arm[..., 0]))
 
 
 def _turning_points(linkage: Linkage, circuit: Circuits, low: float, high: float) -> FloatArray:

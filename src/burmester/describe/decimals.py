@@ -195,7 +195,7 @@ def _trials(
         dyad.middle_of_travel(places) if isinstance(dyad, PR | RP) else None for dyad in dyads
     )
     lines = [dyad for dyad in dyads if isinstance(dyad, PR | RP)]
-    lever = max((_half_travel(dyad, places) for dyad in lines), default=0.0)
+    lever = max((float(np.ptp(each.along(places))) / 2 for each in lines), default=0.0)
     turned = figures_of(math.degrees(angle))
     out = []
     for lengths in range(first, first + MOST_TRIALS):
@@ -203,17 +203,6 @@ def _trials(
         decimals = max(turned, math.ceil(along))
         out.append(Decimals(lengths, decimals, (math.nan, math.nan), middles))
     return out
-
-
-def _half_travel(line: PR | RP, places: Displacement) -> float:
-    """The distance of the farthest point in use of a line from the middle of these points."""
-    if isinstance(line, PR):
-        point = places.act(line.moving_pivot)
-    else:
-        point = places.inverse().act(line.fixed_pivot)
-    angle = float(line.normal_angle)
-    along = point @ np.array([-math.sin(angle), math.cos(angle)])
-    return float(np.ptp(along)) / 2 if len(along) else 0.0
 
 
 def _errors_of(

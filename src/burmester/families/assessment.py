@@ -156,9 +156,7 @@ def _beyond(
     for dyad, rail in zip((linkage.first, linkage.second), rails, strict=True):
         if rail is None or not isinstance(dyad, PR | RP):
             continue
-        pin = dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot
-        seen = frames if isinstance(dyad, PR) else frames.inverse()
-        beyond = rail.rail.travel_excess(seen.act(pin[:, None])).max(axis=1)
+        beyond = rail.rail.travel_excess(dyad.pins(frames)).max(axis=1)
         out += np.where(beyond > TRAVEL_ROUNDING, beyond, 0.0)
     return out
 

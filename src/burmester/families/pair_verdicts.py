@@ -264,9 +264,7 @@ def meets_limits(
     if (line := limits.line) is not None and isinstance(dyad, PR | RP):
         off, equal = line.line_excess(dyad.normal_angle, dyad.offset)
         good &= (np.where(equal, np.abs(off), off) <= slack).all(axis=-1)
-        seen, pin = task.poses, dyad.moving_pivot if isinstance(dyad, PR) else dyad.fixed_pivot
-        seen = seen if isinstance(dyad, PR) else seen.inverse()
-        good &= (line.travel_excess(seen.act(pin[..., None, :])) <= slack).all(axis=-1)
+        good &= (line.travel_excess(dyad.pins(task.poses)) <= slack).all(axis=-1)
     if isinstance(dyad, RR):
         least, most = limits.length
         good &= (dyad.radius >= least * (1 - MET)) & (dyad.radius <= most * (1 + MET))

@@ -133,6 +133,15 @@ class PR(_Dimensions):
         normal = np.stack([np.cos(self.normal_angle), np.sin(self.normal_angle)], axis=-1)
         return _wrench(normal, poses.rotate(self.moving_pivot))
 
+    def pins(self, places: Displacement) -> FloatArray:
+        """Where the pin is, (*, N, 2) in F, at places (*, N)."""
+        return places.act(self.moving_pivot[..., None, :])
+
+    def along(self, places: Displacement) -> FloatArray:
+        """The pin's coordinates (*, N) on the line, a quarter turn ahead of the normal."""
+        pins, angle = self.pins(places), self.normal_angle[..., None]
+        return np.asarray(np.cos(angle) * pins[..., 1] - np.sin(angle) * pins[..., 0])
+
     def middle_of_travel(self, places: Displacement) -> FloatArray:
         """The middles (*, 2) in F of the stretches of lines (*,) that places (*, N) use.
 
@@ -140,8 +149,7 @@ class PR(_Dimensions):
         """
         n = np.stack([np.cos(self.normal_angle), np.sin(self.normal_angle)], axis=-1)
         ahead = np.stack([-n[..., 1], n[..., 0]], axis=-1)
-        points = places.act(self.moving_pivot[..., None, :])
-        along = (points * ahead[..., None, :]).sum(axis=-1)
+        along = self.along(places)
         low, high = (f.reduce(along, axis=-1, initial=np.nan) for f in (np.fmin, np.fmax))
         middle = np.nan_to_num((low + high) / 2)
         return np.asarray(self.offset[..., None] * n + middle[..., None] * ahead)
@@ -183,7 +191,7 @@ class RP(_Dimensions):
 
     def residual(self, poses: Displacement) -> FloatArray:
         """The distance of the fixed pivot from the line, n · R⁻¹(c - d) - offset."""
-        return PR(self.normal_angle, self.offset, self.fixed_pivot).residual(poses.inverse())
+        return self._held.residual(poses.inverse())
 
     def gradient(self, poses: Displacement) -> FloatArray:
         """The derivatives (*, 3) of the residual by d1, d2 and the angle."""
@@ -195,8 +203,20 @@ class RP(_Dimensions):
 
         Places that are nan do not count; without any it is the foot of the normal.
         """
-        turned = PR(self.normal_angle, self.offset, self.fixed_pivot)
-        return turned.middle_of_travel(places.inverse())
+        return self._held.middle_of_travel(places.inverse())
+
+    def pins(self, places: Displacement) -> FloatArray:
+        """Where the pin is, (*, N, 2) in M, at places (*, N)."""
+        return self._held.pins(places.inverse())
+
+    def along(self, places: Displacement) -> FloatArray:
+        """The pin's coordinates (*, N) on the line, a quarter turn ahead of the normal."""
+        return self._held.along(places.inverse())
+
+    @property
+    def _held(self) -> PR:
+        """The same as one sees it from M, where the line stays."""
+        return PR(self.normal_angle, self.offset, self.fixed_pivot)
 
 
 @final

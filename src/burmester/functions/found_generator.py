@@ -15,6 +15,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.functions.refinement import at_bounds
+from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.requirements.figures import Figures
 from burmester.requirements.table import NOT_ASKED, shortcomings, standard
@@ -234,17 +235,11 @@ def _defects(
 
 def _dead_inputs(generator: Generator, low: float, high: float) -> list[float]:
     """The inputs between low and high at which coupler and output link are in line, radians."""
-    a, b, r = (float(v) for v in (generator.input_link, generator.output_link, generator.coupler))
-    found = []
-    for length in (abs(b - r), b + r):
-        cosine = (1 + a * a - length * length) / (2 * a)
-        if abs(cosine) > 1:
-            continue
-        for theta in {math.acos(cosine), -math.acos(cosine)}:
-            at = low + (theta - float(generator.input_phase) - low) % (2 * math.pi)
-            if at <= high:
-                found.append(at)
-    return sorted(found)
+    a, b = np.array([0j, 1.0])
+    loop = FourBarLoop.of(a, b, generator.input_link, generator.coupler, generator.output_link)
+    locked = loop.locked(first=True)
+    at = low + np.mod(locked - generator.input_phase - low, 2 * math.pi)
+    return list(np.unique(at[at <= high]).tolist())
 
 
 def _extent(generator: Generator, inputs: FloatArray) -> float:

@@ -142,7 +142,7 @@ def parameters(circuits: Circuits, samples: int = 721, reach: float = 1.0) -> li
     if closed:
         ends = [(0.0, np.pi), (np.pi, 2 * np.pi)] if two else [(0.0, 2 * np.pi)]
     elif circuits.loop.turns:
-        ends = [(0.0, np.pi / 2), (np.pi / 2, np.pi)] if two else [(0.0, np.pi)]
+        ends = [(0.0, np.pi)]
     else:
         ends = [(-reach, 0.0), (0.0, reach)] if two else [(-reach, reach)]
     return [np.linspace(low, high, samples) for low, high in ends]

@@ -111,7 +111,7 @@ def scene_with(linkage: Linkage, place: Displacement, travel: Displacement) -> S
         elif isinstance(dyad, PR):
             assert moving is not None
             normal, along = _directions(dyad)
-            every = np.append(travel.act(dyad.moving_pivot) @ along, moving @ along)
+            every = np.append(dyad.along(travel), moving @ along)
             shapes.append(Shape("rail", _ends(dyad, every, size)))
             corners.append(moving)
             on_rail = dyad.offset * normal + along * (moving @ along)
@@ -119,9 +119,7 @@ def scene_with(linkage: Linkage, place: Displacement, travel: Displacement) -> S
         else:
             assert fixed is not None
             _, along = _directions(dyad)
-            every = np.append(
-                travel.inverse().act(fixed) @ along, place.inverse().act(fixed) @ along
-            )
+            every = np.append(dyad.along(travel), place.inverse().act(fixed) @ along)
             ends = _ends(dyad, every, size)
             shapes.append(Shape("slot", place.act(ends)))
             corners.append(place.act(ends[int(np.hypot(*ends.T).argmin())]))

@@ -102,9 +102,7 @@ def _off_rail(
         yield f"its {what} lies {_length(beside, unit)} beside {place}"
     if places is None or rail.travel is None:
         return
-    seen = places.act(dyad.moving_pivot) if isinstance(dyad, PR) else None
-    pins = places.inverse().act(dyad.fixed_pivot) if isinstance(dyad, RP) else seen
-    if pins is not None and (beyond := float(np.nanmax(rail.travel_excess(pins)))) > slack:
+    if (beyond := float(np.nanmax(rail.travel_excess(dyad.pins(places))))) > slack:
         yield f"the pin on its {what} goes {_length(beyond, unit)} beyond its travel"
 
 

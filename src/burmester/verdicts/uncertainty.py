@@ -366,18 +366,10 @@ def line_middle(batch: LinkageBatch, places: Displacement) -> FloatArray:
     for index, pair in batch.alike():
         here = places[index]
         for side, dyad in enumerate((pair.first, pair.second)):
-            if isinstance(dyad, RR):
-                continue
-            one = dyad[:, None]
-            if isinstance(one, PR):
-                point = here.act(one.moving_pivot)
-            else:
-                assert isinstance(one, RP)
-                point = here.inverse().act(one.fixed_pivot)
-            angle = one.normal_angle
-            along = np.cos(angle) * point[..., 1] - np.sin(angle) * point[..., 0]
-            low, high = np.fmin.reduce(along, axis=-1), np.fmax.reduce(along, axis=-1)
-            middle[index, side] = np.nan_to_num((low + high) / 2)
+            if isinstance(dyad, PR | RP):
+                along = dyad.along(here)
+                low, high = np.fmin.reduce(along, axis=-1), np.fmax.reduce(along, axis=-1)
+                middle[index, side] = np.nan_to_num((low + high) / 2)
     return middle
 
 
