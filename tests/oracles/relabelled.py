@@ -62,6 +62,9 @@ class Relabelled:
 
     bodies = FoundSixBar.bodies
     bodies_at = FoundSixBar.bodies_at
+    joints_at = FoundSixBar.joints_at
+    at_poses = FoundSixBar.at_poses
+    all_places = FoundSixBar.all_places
     travel = FoundSixBar.travel
 
     @property
