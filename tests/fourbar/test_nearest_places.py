@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits, on_own_circuits
@@ -246,7 +247,9 @@ def test_a_place_in_another_valley_is_brought_to_the_nearest_of_its_circuit(seco
             [swept[k].rows(rng.uniform(swept[k].low, swept[k].high, 1))[0] for k in on]
         )
         batch = LinkageBatch.of([Linkage(*dyads)])
-        ours = on_own_circuits(batch, start[None], Displacement.from_poses(poses), 1.0)[0]
+        wanted_at = Displacement.from_poses(poses)
+        both = rows_of(on_circuits(batch, wanted_at, 1.0), 1.0)
+        ours = on_own_circuits(batch, start[None], both, wanted_at, 1.0)[0]
         assert on_both(dyads, ours) < 1e-9
         mixed = len(set(on)) > 1
         wanted = near.min(axis=0) if mixed else near[on[0]]

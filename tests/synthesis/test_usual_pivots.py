@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 from benchmarks.planted_limits import planted
+from benchmarks.speed import by_hand
 
 from burmester.fourbar.dyad import PR, RP, RR
+from burmester.io.reading.poses import read_task
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.motion_task import Task
 from tests.oracles.hard_tasks import comes_by
@@ -62,6 +64,18 @@ def test_a_linkage_with_far_pivots_comes_first_where_the_poses_are_its_own():
     found = sorted(float(dyad.radius) for dyad in (first.linkage.first, first.linkage.second))
     assert found == pytest.approx(own, rel=1e-2)
     assert not any(each.code == "W215" for each in result.warnings)
+
+
+@pytest.mark.parametrize("count", [210, 400])
+def test_a_long_recording_by_hand_has_an_answer_whatever_joins_the_sample(count, tmp_path):
+    """Linkages of the whole recording start the search by a sample; 400 poses hid 8 odd ones."""
+    file = tmp_path / "recording.csv"
+    file.write_text(by_hand(count))
+    task = read_task(file)
+    first = synthesize(task).linkages[0]
+    assert first.error.places.shape == (count,)
+    gap = np.linalg.norm(first.error.places.translation - task.poses.translation, axis=1)
+    assert 1 < gap.max() < 60
 
 
 def test_a_footprint_away_from_the_motion_holds_the_pivots_itself():

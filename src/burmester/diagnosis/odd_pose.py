@@ -282,7 +282,7 @@ def _among_many(
     count, weights = motion.distinct, None
     if task.weights is not None:
         weights = np.bincount(motion.group, task.weights).astype(float)
-    poses, some = task.poses[motion.first], even_numbers(count, MAX_POSES)
+    poses, some = task.poses[motion.first], even_numbers(count, MAX_POSES - MANY_SUSPECTS)
     normalized = NormalizedPoses.of(poses, weights)
     sample = normalized._replace(
         poses=normalized.poses[some], rows=normalized.rows[some], weights=normalized.weights[some]

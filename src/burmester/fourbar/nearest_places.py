@@ -86,15 +86,15 @@ def on_circuits(batch: LinkageBatch, poses: Displacement, length: float) -> Disp
 
 
 def on_own_circuits(
-    batch: LinkageBatch, rows: FloatArray, poses: Displacement, length: float
+    batch: LinkageBatch, rows: FloatArray, both: FloatArray, poses: Displacement, length: float
 ) -> FloatArray:
     """The nearest places (k, N, 3) to poses (N,), on the circuits of given places (k, N, 3).
 
+    both: (k, 2, N, 3), the rows of those on each circuit (`on_circuits`).
     A descent may have left the given places in one local minimum while another one on the same
     circuit is nearer.  Of linkages with given places on both circuits, the nearest ones on either.
     A given place stays where it is on no circuit, and where it is on the linkage and nearer.
     """
-    both = rows_of(on_circuits(batch, poses, length), length)
     target = rows_of(poses, length)
     linkage, pose = np.indices(rows.shape[:2])
     places = places_of(rows, length)

@@ -60,7 +60,8 @@ def refined_by_all(candidates: Candidates, target: Target) -> Candidates:
         )
         if refined.met[0]:
             dimensions[k], rows[k] = refined.batch.dimensions[0], refined.rows[0, index]
-    return candidates._replace(batch=LinkageBatch(candidates.batch.kinds, dimensions), rows=rows)
+    batch = LinkageBatch(candidates.batch.kinds, dimensions)
+    return candidates._replace(batch=batch, rows=rows, both=None)
 
 
 def worst_left_out(
@@ -104,7 +105,7 @@ def places_along(rows: FloatArray, whole: Target) -> FloatArray:
 
 
 def judged_at_all(found: Sequence[FoundLinkage], evaluation: Evaluation) -> list[FoundLinkage]:
-    """Linkages of a sample, evaluated at all poses, and ranked."""
+    """Linkages judged at other poses, evaluated at those of the evaluation, and ranked."""
     out: list[FoundLinkage] = []
     for each in found:
         own = LinkageBatch.of([each.linkage])

@@ -96,6 +96,7 @@ class Candidates(NamedTuple):
     from_search: (k,), which come from the search for defect-free linkages, or whether all do.
     own: the same linkages in the task's own frames, with all their digits.
     drivers: (k,), the sides that drive, where that is settled; else the better one does.
+    both: (k, 2, N, 3), the nearest places on each circuit, where they are known.
     """
 
     batch: LinkageBatch
@@ -104,6 +105,7 @@ class Candidates(NamedTuple):
     from_search: NDArray[np.bool_] | bool = False
     own: LinkageBatch | None = None
     drivers: NDArray[np.intp] | None = None
+    both: FloatArray | None = None
 
     @classmethod
     def of_own_dyads(
@@ -183,9 +185,9 @@ class Evaluation:
         own, frames = candidates.own, self.target.frames
         if own is None:  # judged by the numbers that are told, to the last digit
             own = candidates.batch.from_canonical(frames)
-            candidates = candidates._replace(own=own, batch=own.to_canonical(frames))
+            candidates = candidates._replace(own=own, batch=own.to_canonical(frames), both=None)
         every, boxes = np.arange(len(candidates.batch)), self.target.boxes
-        index, rows, _ = NearestPlaces.of(candidates.batch, self.target).ways()
+        index, rows, _ = NearestPlaces.of(candidates.batch, self.target, candidates.both).ways()
         if boxes is not None:
             deepest = self.target.places(candidates.batch, on_both=True)
             index, rows = np.r_[every, index], np.concatenate([candidates.rows, rows])

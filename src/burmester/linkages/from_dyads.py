@@ -13,11 +13,11 @@ from math import inf
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PP
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
-from burmester.fourbar.nearest_places import on_own_circuits
 from burmester.fourbar.pose_error import error_frames
 from burmester.linkages.bearing_linkages import bearing_linkages, bears_too_much
 from burmester.linkages.best_within import best_within
@@ -28,7 +28,7 @@ from burmester.linkages.further_pairs import (
     PairsToSearch,
     closer_linkages,
 )
-from burmester.linkages.judged_places import NearestPlaces
+from burmester.linkages.judged_places import NearestPlaces, at_nearest
 from burmester.linkages.sound_linkages import sound_linkages, trade_offs
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.numerics.bundles import replaced, take
@@ -194,24 +194,30 @@ def _of_pairs(start: LinkageBatch, pairs: list[Pair], target: Target, refine: bo
     if target.boxes is not None:
         candidates = Candidates(start, target.places(start), pairs)
         return into_boxes(candidates, target) if refine else candidates
-    _, _, one, best, apart = NearestPlaces.of(start, target)
-    both = apart & np.isfinite(one).all(axis=(1, 2)) & refine
-    index = np.concatenate([every, np.flatnonzero(both)])
-    rows = np.concatenate([np.where(apart[:, None, None], best, one), one[both]])
+    both, _, one, best, apart = NearestPlaces.of(start, target)
+    twice = apart & np.isfinite(one).all(axis=(1, 2)) & refine
+    index = np.concatenate([every, np.flatnonzero(twice)])
+    rows = np.concatenate([np.where(apart[:, None, None], best, one), one[twice]])
     rows = target.at_angles(start[index], rows)
-    candidates = Candidates(start[index], rows, [pairs[k] for k in index])
+    candidates = Candidates(start[index], rows, [pairs[k] for k in index], both=both[index])
     if refine:
         candidates = _refined(candidates, target)
         # Refinement may leave places in local minima that are not the nearest.
-        rows = on_own_circuits(candidates.batch, candidates.rows, target.poses, target.length)
-        rows = target.at_angles(candidates.batch, rows)
-        candidates = refined_by_all(candidates._replace(rows=rows), target)
+        some = np.flatnonzero(_differ(candidates.batch, start[index]))
+        near, around = at_nearest(candidates.batch[some], candidates.rows[some], target)
+        there = target.at_angles(candidates.batch[some], near), around
+        rows, both = replaced((candidates.rows, both[index]), some, there)
+        candidates = refined_by_all(candidates._replace(rows=rows, both=both), target)
     # Linkages that did not change keep all their digits.
     own = LinkageBatch.of([Linkage(a.dyad, b.dyad) for a, b in candidates.pairs]).dimensions
-    changed = candidates.batch.dimensions != start.dimensions[index]
-    changed = changed.any(axis=(1, 2), keepdims=True)
+    changed = _differ(candidates.batch, start[index])[:, None, None]
     own = np.where(changed, candidates.batch.from_canonical(target.frames).dimensions, own)
     return candidates._replace(own=LinkageBatch(candidates.batch.kinds, own))
+
+
+def _differ(one: LinkageBatch, other: LinkageBatch) -> NDArray[np.bool_]:
+    """Which (k,) of linkages have other dimensions."""
+    return np.asarray((one.dimensions != other.dimensions).any(axis=(1, 2)))
 
 
 def _refined(candidates: Candidates, target: Target) -> Candidates:

@@ -19,8 +19,8 @@ from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import on_own_circuits
 from burmester.linkages.evaluation import Candidates, Evaluation
+from burmester.linkages.judged_places import at_nearest
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import concatenate
 from burmester.refinement.constraints import AllConstraints
@@ -178,9 +178,11 @@ def closer_linkages(
         return []
     if target is not evaluation.target:
         rows = evaluation.target.places(batch)
-    rows = on_own_circuits(batch, rows, evaluation.target.poses, evaluation.target.length)
+    own = batch.from_canonical(evaluation.target.frames)
+    batch = own.to_canonical(evaluation.target.frames)  # by the numbers that are told
+    rows, both = at_nearest(batch, rows, evaluation.target)
     origins = [further.origin(k) for k in index.tolist()]
-    return evaluation.evaluate(Candidates(batch, rows, origins))
+    return evaluation.evaluate(Candidates(batch, rows, origins, own=own, both=both))
 
 
 def _rows(found: list[FoundLinkage], evaluation: Evaluation, target: Target) -> FloatArray:

@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.foot_points import rows_of
+from burmester.fourbar.foot_points import places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.nearest_places import nearest, on_circuits
+from burmester.fourbar.nearest_places import nearest, on_circuits, on_own_circuits
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.refinement.target import ONE_CIRCUIT_RATIO, Target
@@ -38,9 +38,16 @@ class NearestPlaces(NamedTuple):
     apart: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, batch: LinkageBatch, target: Target) -> NearestPlaces:
-        """Those of linkages (k,) of one task, whichever of their dyads is the first."""
-        return cls.to(batch, target.poses, target.length, target.cost)
+    def of(
+        cls, batch: LinkageBatch, target: Target, both: FloatArray | None = None
+    ) -> NearestPlaces:
+        """Those of linkages (k,) of one task, whichever of their dyads is the first.
+
+        both: as of the attribute, where they are known.
+        """
+        if both is None:
+            return cls.to(batch, target.poses, target.length, target.cost)
+        return cls._of_both(both, target.poses, target.length, target.cost)
 
     @classmethod
     def to(
@@ -51,8 +58,18 @@ class NearestPlaces(NamedTuple):
         cost: Callable[[FloatArray], FloatArray],
     ) -> NearestPlaces:
         """Those to poses (N,) of all linkages (k,), or (k, N) of each; cost: of rows, (k, 2)."""
-        found = on_circuits(_in_one_order(batch), poses, length)
-        both, wanted = (rows_of(each, length) for each in (found, poses))
+        both = rows_of(on_circuits(_in_one_order(batch), poses, length), length)
+        return cls._of_both(both, poses, length, cost)
+
+    @classmethod
+    def _of_both(
+        cls,
+        both: FloatArray,
+        poses: Displacement,
+        length: float,
+        cost: Callable[[FloatArray], FloatArray],
+    ) -> NearestPlaces:
+        found, wanted = places_of(both, length), rows_of(poses, length)
         nearer = np.nan_to_num(cost(both), nan=np.inf).argmin(axis=1)
         one = both[np.arange(len(both)), nearer]
         best = rows_of(nearest(found, poses, length), length)
@@ -75,6 +92,18 @@ class NearestPlaces(NamedTuple):
         none = ~exists.any(axis=1)
         index, way = np.nonzero(np.column_stack([exists, self.apart | none]))
         return index, every[index, way], way == np.where(none, 2, self.nearer)[index]
+
+
+def at_nearest(
+    batch: LinkageBatch, rows: FloatArray, target: Target
+) -> tuple[FloatArray, FloatArray]:
+    """The places (k, N, 3) nearest to the poses on the circuits of given places (k, N, 3).
+
+    Also returns those on each circuit, (k, 2, N, 3).
+    """
+    batch, length = _in_one_order(batch), target.length
+    both = rows_of(on_circuits(batch, target.poses, length), length)
+    return on_own_circuits(batch, rows, both, target.poses, length), both
 
 
 def _in_one_order(batch: LinkageBatch) -> LinkageBatch:

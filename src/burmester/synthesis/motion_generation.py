@@ -44,7 +44,7 @@ from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.special_motions import CircularTranslation
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
-from burmester.verdicts.ranking import ranked
+from burmester.verdicts.ranking import digits_leave_open, ranked
 
 if TYPE_CHECKING:  # loaded where a task asks for it
     from burmester.certificates.certificate import Certificate
@@ -53,6 +53,7 @@ FEW_POSES = 2  # a rail or slot leaves so many to be met exactly, or not at all
 # Outcomes that a limit may be to blame for: nothing works, or nothing but what falls short.
 MAY_BE_BARRED = ("R301", "R302", "R306", "R308", "R309")
 MAX_POSES = 200_000  # of a task, so that no method takes more than a gigabyte of memory
+FAR_BEYOND_DIGITS = 10.0  # times the error of the digits; farther off none is looked for in them
 
 
 def synthesize(
@@ -341,10 +342,14 @@ def with_linkages_within_digits(
 ) -> tuple[FoundLinkage, ...]:
     """The known linkages and those that pass within the digits of the poses, by rank.
 
-    pairs: of the dyads.  Nothing is added where the poses are exact, or have tolerances already.
+    pairs: of the dyads.  Nothing is added where the poses are exact, or have tolerances already,
+    and where the nearest of the known ones misses them by far more than their digits.
     """
     tolerances = tolerances_of_digits(problem.task)
     if tolerances is None or not problem.options.refines or problem.options.rounds:
+        return tuple(known)
+    nearest = min((each.combined_error for each in known), default=0.0)
+    if nearest > FAR_BEYOND_DIGITS * digits_leave_open(problem):
         return tuple(known)
     if not time_for("looking for the best linkages within the digits"):
         return tuple(known)

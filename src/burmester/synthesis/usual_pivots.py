@@ -140,6 +140,8 @@ def _with_more(
     starts = FurtherPairs.of([], replace(evaluation, problem=inside))
     closer = closer_linkages(starts, evaluation, [])
     own = [each for each in linkages if _is_within(each, regions, problem)]
+    if any(each.error.places.shape != evaluation.target.poses.shape for each in own):
+        own = judged_at_all(own, evaluation)  # they have places at poses left out or merged here
     near = [each for each in (*closer, *own) if each.combined_error <= most]
     found = [*closer, *sound_linkages(near, evaluation, most)] if near else []
     if sample is not None:
