@@ -40,7 +40,7 @@ def test_springs_are_between_their_ends_at_every_pose(best):
     for pose in range(len(best.task.poses.angle)):
         scene = scene_at(best, pose)
         own = best.error.places[pose].act(np.array(ENDS[1].point))
-        coil, straight = scene.of("spring")  # a torsion spring is at a joint
+        coil, straight, *_ = scene.of("spring")
         for line in (coil, straight):
             assert line[0] == pytest.approx(ENDS[0].point)
             assert line[-1] == pytest.approx(own, abs=1e-6)
@@ -64,7 +64,9 @@ def test_pictures_have_them(best, tmp_path):
     drawing = best._repr_mimebundle_()["image/svg+xml"]
     bare = replace(best, loads=None)
     lines = bare._repr_mimebundle_()["image/svg+xml"].count("<polyline")
-    assert drawing.count("<polyline") == lines + 3  # two springs and the hand
+    assert (
+        drawing.count("<polyline") == lines + 3
+    )  # two springs and the hand; the body is on no pin of the ground
     with_loads, without = (len(each.plot().axes[0].lines) for each in (best, bare))
     assert with_loads == without + 3
     best.export(tmp_path / "picture.gif", seconds=0.4, frames_per_second=10, width_px=240)
@@ -79,3 +81,19 @@ def test_a_spring_goes_from_end_to_end_and_keeps_its_width(kind):
     along = (line - one) @ np.array([0.6, 0.8])
     assert along.min() == pytest.approx(0)
     assert along.max() == pytest.approx(5)
+
+
+def test_a_counterweight_is_about_its_point_and_a_torsion_spring_about_its_joint():
+    """On the driver and at its pivot, wherever the linkage is."""
+    springs = (
+        Spring("torsion", (End("ground", (0, 0)), End("driver", (0, 0))), {"rate_Nm_per_deg": 0.1}),
+        Spring("counterweight", (End("ground", (0, 0)), End("body", (-9.0, 4.0))), {"mass_kg": 1}),
+    )
+    loads = replace(LOADS, springs=springs)
+    rows = ROWS["four-bar"]
+    task = burmester.Task.from_rows(rows, angle_unit="deg", length_unit="mm", loads=loads)
+    best = burmester.synthesize(task).best
+    for pose, place in enumerate(best.error.places):
+        spiral, disc = scene_at(best, pose).of("spring")
+        assert spiral[0] == pytest.approx(best.driver_first.first.fixed_pivot, abs=1e-9)
+        assert disc[:36].mean(axis=0) == pytest.approx(place.act(np.array([-9.0, 4.0])), abs=1e-9)

@@ -82,7 +82,8 @@ def test_curves_are_those_of_python_over_the_angles_of_the_page(solved):
 
 def test_springs_are_drawn_between_their_ends(solved):
     report, linkages = solved
-    (spring,) = report["loads"]["springs"]  # the counterweight has no ends to be drawn between
+    spring, weight = report["loads"]["springs"]
+    assert weight["ends"] == [{"link": "body", "point": [-9, 0]}]  # a counterweight has its own end
     assert spring["kind"] == "extension"
     assert report["loads"]["hand"] == [70.0, 5.0]
     for data, found in zip(report["linkages"], linkages, strict=True):
@@ -106,3 +107,29 @@ def test_without_loads_nothing_is_told():
     report = report_data(burmester.synthesize(burmester.read_task("case:motiongen-shoulder")))
     assert report["loads"] is None
     assert {each["loads"] for each in report["linkages"]} == {None}
+
+
+def test_what_the_ground_bears_balances_weights_and_the_spring(solved):
+    """The arrows of the pins on the ground, the weights and the pull of the spring sum to zero."""
+    report, _ = solved
+    told = 0
+    for data in report["linkages"]:
+        if (loads := data["loads"]) is None or any("P" in each["kind"] for each in data["led"]):
+            continue
+        told += 1
+        (end,) = (each for each in loads["moved"] if each["spring"] == 0)
+        apart = np.stack([each["y"] for each in end["at"]], axis=-1) - [0.0, -80.0]
+        length = np.hypot(*apart.T)
+        total = -apart / length[:, None] * 0.5 * (length - 1.0)[:, None]
+        total[:, 1] -= (4 + 1) * 9.80665
+        greatest = 0.0
+        for pin in loads["pins"]:
+            force = np.stack(pin["force"], axis=-1)
+            greatest = max(greatest, np.hypot(*force.T).max())
+            size = next(each["y"] for each in loads["panels"][2]["lines"]
+                        if each["name"] == pin["name"])  # fmt: skip
+            assert np.hypot(*force.T) == pytest.approx(size, rel=1e-4, abs=1e-4 * greatest)
+            if max(np.ptp(each["y"]) for each in pin["at"]) < 1e-6:
+                total += force
+        assert np.abs(total).max() <= 1e-4 * greatest
+    assert told

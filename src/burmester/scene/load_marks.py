@@ -1,4 +1,4 @@
-"""Springs between their ends, and the arrow of a hand, as lines of a display list."""
+"""Springs, counterweights and the arrow of a hand, as lines of a display list."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from burmester.loads.masses import body_named
-from burmester.mechanisms.bodies import Bodies, LinkPlaces
+from burmester.mechanisms.bodies import Bodies, Joint, LinkPlaces
 from burmester.mechanisms.rates import rates
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
@@ -22,6 +22,8 @@ BARREL: Final = 0.6  # of a gas spring's length: its cylinder
 HALF_WIDTH: Final = 0.022  # of the linkage's size: half the width of a spring
 ARROW: Final = 0.35  # of the linkage's size: the length of a hand's arrow
 STRAIGHT: Final = ("extension", "compression", "gas", "constant")
+TURNS: Final = 2.25  # of the spiral of a torsion spring
+ROUND: Final = 3.0  # half widths of a spring: the radius of a spiral or a counterweight
 
 
 def spring_line(kind: str, one: FloatArray, other: FloatArray, half: float) -> FloatArray:
@@ -50,15 +52,42 @@ def ends_of(spring: Spring, bodies: Bodies, places: LinkPlaces) -> tuple[FloatAr
     return next(at), next(at)
 
 
+def joint_of(spring: Spring, bodies: Bodies) -> Joint | None:
+    """The joint that a torsion spring turns about; None where its links share none."""
+    links = {body_named(end.link, bodies) for end in spring.ends}
+    return next((each for each in bodies.joints if {*each.links} == links), None)
+
+
+def middle_of(spring: Spring, bodies: Bodies, places: LinkPlaces) -> FloatArray | None:
+    """Where a torsion spring or a counterweight is (*, 2), with the bodies at places (*,)."""
+    if spring.kind == "counterweight":
+        return ends_of(spring, bodies, places)[1]
+    joint = joint_of(spring, bodies)
+    return None if joint is None else places[joint.holder].act(joint.hole(joint.holder))
+
+
+def round_line(kind: str, at: FloatArray, half: float) -> FloatArray:
+    """A torsion spring, a spiral, or a counterweight, a disc with a cross, about a point (2,)."""
+    if kind == "torsion":
+        turn = np.linspace(0.0, 2 * np.pi * TURNS, 73)
+        way = np.stack([np.cos(turn), np.sin(turn)], axis=-1) * (turn / turn[-1])[:, None]
+    else:
+        turn = np.linspace(0.0, 2 * np.pi, 37)
+        rim = np.stack([np.cos(turn), np.sin(turn)], axis=-1)
+        way = np.concatenate([rim, rim[[18]], rim[27:], rim[[0]], rim[[9]], rim[[27]]])
+    return np.asarray(at + ROUND * half * way)
+
+
 def drawn_springs(chosen: Candidate, places: LinkPlaces, size: float) -> list[FloatArray]:
     """The springs of a linkage with its bodies at a place (), as lines."""
     assert chosen.task.loads is not None
-    bodies = chosen.bodies
-    return [
-        spring_line(each.kind, *ends_of(each, bodies, places), HALF_WIDTH * size)
-        for each in chosen.task.loads.springs
-        if each.kind in STRAIGHT
-    ]
+    bodies, half, out = chosen.bodies, HALF_WIDTH * size, list[FloatArray]()
+    for each in chosen.task.loads.springs:
+        if each.kind in STRAIGHT:
+            out.append(spring_line(each.kind, *ends_of(each, bodies, places), half))
+        elif (at := middle_of(each, bodies, places)) is not None:
+            out.append(round_line(each.kind, at, half))
+    return out
 
 
 @lru_cache(maxsize=4)

@@ -12,14 +12,15 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.loads.load_curves import LoadCurves, MovingCurves, curves_in_time, load_curves
-from burmester.loads.loaded_motion import LoadedLinkage
+from burmester.loads.loaded_motion import LoadedLinkage, letter
 from burmester.numerics.arrays import FloatArray
-from burmester.scene.load_marks import STRAIGHT, ends_of
+from burmester.scene.load_marks import STRAIGHT, ends_of, middle_of
 from burmester.synthesis.result import Candidate
-from burmester.tasks.loads import BODY, GROUND
+from burmester.tasks.loads import BODY, GROUND, End, Spring
 from burmester.tasks.motion_task import Task
 
 PLACES: Final = 121  # of a curve
+JOINT: Final = "joint"  # in place of a link: the joint of a torsion spring
 DIGITS: Final = 6  # significant ones of a curve, counted from its greatest value
 
 
@@ -33,12 +34,18 @@ def loads_report(task: Task) -> dict[str, Any] | None:
         "springs": [
             {
                 "kind": each.kind,
-                "ends": [{"link": end.link, "point": [*end.point]} for end in each.ends],
+                "ends": [{"link": end.link, "point": [*end.point]} for end in _drawn(each)],
             }
             for each in loads.springs
-            if each.kind in STRAIGHT
         ],
     }
+
+
+def _drawn(spring: Spring) -> tuple[End, ...]:
+    """The ends that are drawn: of a counterweight its own, of a torsion spring none that it has."""
+    if spring.kind == "torsion":
+        return (End(JOINT, (0.0, 0.0)),)
+    return spring.ends if spring.kind in STRAIGHT else spring.ends[1:]
 
 
 def loads_of(
@@ -49,7 +56,8 @@ def loads_of(
     way: on which they are.  panels: over the driver.  timed: over time, where there is a drive,
     with the time for each place of the driver.  hand: the direction in which the hand pushes, in
     radians, and its force as a share of the greatest.  moved: ends of springs on links that are
-    neither the ground nor the body.
+    neither the ground nor the body.  pins: where each pin is, and the force of the ground or of the
+    link that holds it on the other link.
     """
     if found.loads is None:
         return None
@@ -71,6 +79,7 @@ def loads_of(
         "panels": [over.panel(*each) for each in _still(curves)],
         "hand": _hand(linkage, curves, over),
         "moved": _moved(found, linkage, over),
+        "pins": _pins(found, linkage, curves, over),
         "timed": None,
     }
     if found.loads.drive is not None:
@@ -153,18 +162,39 @@ def _hand(linkage: LoadedLinkage, curves: LoadCurves, over: _Over) -> dict[str, 
     return {**over.curve(angle), "force": over.along(curves.hand / most)}
 
 
+def _pins(
+    found: Candidate, linkage: LoadedLinkage, curves: LoadCurves, over: _Over
+) -> list[dict[str, Any]]:
+    """Pins by their letters: their places, and forces in N; of the ground always on the links."""
+    motion = linkage.way(curves.shares)
+    places, bodies = found.bodies_at(motion.drive, motion.places), found.bodies
+    joints = {letter(each): each for each in bodies.joints}
+    at = {name: places[each.holder].act(each.hole(each.holder)) for name, each in joints.items()}
+    onto = {  # where the ground holds no pin but a link does, it is the ground that pushes
+        name: 1.0 if GROUND in each.links and each.holder != GROUND else -1.0
+        for name, each in joints.items()
+    }
+    return [
+        {
+            "name": name,
+            "at": [over.curve(each) for each in np.broadcast_to(at[name], force.shape).T],
+            "force": [over.along(each) for each in onto[name] * force.T],
+        }
+        for name, force in curves.pins.items()
+    ]
+
+
 def _moved(found: Candidate, linkage: LoadedLinkage, over: _Over) -> list[dict[str, Any]]:
     """The ends of springs that are on other links: spring and end by number, and their places."""
     assert found.task.loads is not None
-    straight = [each for each in found.task.loads.springs if each.kind in STRAIGHT]
     motion = linkage.way(np.linspace(0.0, 1.0, PLACES))
-    places = found.bodies_at(motion.drive, motion.places)
+    places, bodies = found.bodies_at(motion.drive, motion.places), found.bodies
     out = []
-    for number, spring in enumerate(straight):
-        for k, (end, at) in enumerate(
-            zip(spring.ends, ends_of(spring, found.bodies, places), strict=True)
-        ):
-            if end.link not in (GROUND, BODY):
-                own = [over.curve(each) for each in at.T]
+    for number, spring in enumerate(found.task.loads.springs):
+        middle = middle_of(spring, bodies, places)
+        ends = ends_of(spring, bodies, places) if spring.kind in STRAIGHT else (middle,)
+        for k, (end, at) in enumerate(zip(_drawn(spring), ends, strict=True)):
+            if end.link not in (GROUND, BODY) and at is not None:
+                own = [over.curve(each) for each in np.broadcast_to(at, (PLACES, 2)).T]
                 out.append({"spring": number, "end": k, "at": own})
     return out

@@ -416,111 +416,114 @@ iver-solid); fill-opacity: 0.45; }\n.bm-ternary.bm-side1 .bm-core { fill: var(--
 m-coupler); fill-opacity: 0.12; }\n.bm-ternary.bm-carried .bm-core { fill: var(--bm-plate); }\n.bm-plate-rim { fill: none; stroke: var(--bm-coupler); stroke-width\
 : 17; stroke-linejoin: round; stroke-linecap: round; opacity: 0.9; }\n.bm-plate { fill: var(--bm-plate); stroke: var(--bm-plate); stroke-width: 14; stroke-linejo\
 in: round; stroke-linecap: round; }\n.bm-coupler { opacity: 0.86; }\n.bm-spring { fill: none; stroke: var(--bm-spring); stroke-width: 2; stroke-linejoin: round; }\
-\n.bm-springs [data-spring="gas"] .bm-spring { fill: var(--bm-panel); fill-opacity: 0.75; }\n.bm-spring-end { fill: var(--bm-spring); }\n.bm-hand { fill: none; str\
-oke: var(--bm-hand); stroke-width: 3; stroke-linecap: round; stroke-linejoin: round; }\n.bm-slot-rim { stroke: var(--bm-coupler); stroke-width: 21; stroke-lineca\
-p: round; }\n.bm-slot-plate { stroke: var(--bm-plate); stroke-width: 18; stroke-linecap: round; }\n.bm-slot-edge { stroke: var(--bm-coupler); stroke-width: 12.5; \
-}\n.bm-slot { stroke: var(--bm-panel); stroke-width: 10; }\n.bm-block rect { stroke-width: 1.6; }\n.bm-block.bm-side0 rect { fill: var(--bm-driver-solid); stroke: \
-var(--bm-driver); }\n.bm-block.bm-side1 rect { fill: var(--bm-panel); stroke: var(--bm-follower); }\n.bm-pin { fill: var(--bm-panel); stroke: var(--bm-ink); strok\
-e-width: 1.8; }\n.bm-origin { fill: var(--bm-ink); }\n.bm-body-frame { fill: none; stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm .bm-letter { font-weight: 700; \
-font-style: italic; }\n.bm-far-mark { fill: none; stroke-width: 2.4; stroke-linecap: round; stroke-linejoin: round; }\n.bm-far-mark.bm-side0 { stroke: var(--bm-dr\
-iver); }\n.bm-far-mark.bm-side1 { stroke: var(--bm-follower); }\n.bm-drive-mark { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; stroke-linecap: round; \
-stroke-linejoin: round; }\n\n.bm-controls { display: grid; gap: 6px; margin: 0 0 10px; }\n.bm-row { display: flex; flex-wrap: wrap; gap: 8px; align-items: flex-sta\
-rt; }\n.bm-button { font: inherit; font-size: 0.9rem; color: inherit; background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 8px; padding:\
- 5px 11px; min-height: 34px; cursor: pointer; display: inline-flex; gap: 7px; align-items: center; white-space: nowrap; }\n.bm-button:hover { border-color: var(-\
--bm-muted); }\n.bm-button:disabled { opacity: 0.45; cursor: default; }\n.bm-play { background: var(--bm-accent); border-color: var(--bm-accent); color: var(--bm-p\
-anel); min-width: 92px; justify-content: center; font-weight: 600; }\n.bm-play svg { fill: currentColor; }\n.bm-whole { display: inline-flex; gap: 6px; align-item\
-s: center; min-height: 34px; font-size: 0.9rem; white-space: nowrap; cursor: pointer; }\n.bm-whole input, .bm-far-pivots input { accent-color: var(--bm-accent); \
-margin: 0; }\n.bm-whole:has(:disabled) { opacity: 0.45; cursor: default; }\n.bm-track { min-width: 0; }\n.bm-slider { display: block; width: 100%; margin: 0 0 2px;\
- height: 18px; accent-color: var(--bm-accent); }\n.bm-stops { width: 100%; overflow: visible; }\n.bm-stops path { stroke: var(--bm-muted); }\n.bm .bm-stops text { \
-font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-now { display: block; font-size: 0.88rem; min-h\
-eight: 1.5em; }\n.bm-now span { display: inline-block; max-width: 100%; }\n.bm-under { display: flex; flex-wrap: wrap; gap: 8px 18px; justify-content: space-betwe\
-en; align-items: flex-end; margin-top: 10px; }\n.bm-choose { display: flex; flex-wrap: wrap; gap: 4px 18px; }\n.bm-far-pivots { display: inline-flex; gap: 6px; al\
-ign-items: center; cursor: pointer; }\n.bm-far-pivots[hidden], .bm-ways[hidden] { display: none; }\n.bm-factor { white-space: nowrap; font-size: 0.86rem; color: v\
-ar(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--bm-ink); background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 6px; pa\
-dding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: 1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\
-\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-aside { display: grid; gap: 16px; grid-template-columns: minm\
-ax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content: space-between; gap: 14px; border-bot\
-tom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-note-text { font-size: 0.82re\
-m; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm table { border-collapse: c\
-ollapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: now\
-rap; }\n.bm-dimensions caption, .bm-every caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; font-weight: 600; padding: 6p\
-x 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top; white-space: nowrap; font\
--weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-align: bottom; }\n.bm tbody th { text-a\
-lign: left; font-weight: 650; }\n.bm .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-table td.bm-words { white-sp\
-ace: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td:nth-child(4) { white-space\
-: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbody th { position: sticky; l\
-eft: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-table) { max-height: 34rem; o\
-verflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\n.bm .bm-dimensions td { pa\
-dding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-top: 0; }\n.bm-numbers .bm-fa\
-cts { margin-top: 10px; }\n.bm-line-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-every { margin-top: 12px; fo\
-nt-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid-template-columns: repeat(a\
-uto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: none; stroke: var(--bm-line); \
-}\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11px; fi\
-ll: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted);\
- }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-s\
-ize: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: var(--bm\
--follower); stroke-dasharray: 6 4; }\n.bm-stale { opacity: 0.35; }\n.bm-line.bm-curve1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve2 {\
- stroke: var(--bm-error); }\n.bm-line.bm-curve3 { stroke: var(--bm-good); stroke-dasharray: 6 4; }\n.bm-line.bm-curve4 { stroke: var(--bm-coupler); }\n.bm-line.bm-\
-curve5 { stroke: var(--bm-body); stroke-dasharray: 6 4; }\n.bm-line.bm-curve6 { stroke: var(--bm-muted); }\n.bm .bm-title tspan { font-weight: 700; fill: var(--bm\
--driver); }\n.bm .bm-title .bm-curve1 { fill: var(--bm-follower); }\n.bm .bm-title .bm-curve2 { fill: var(--bm-error); }\n.bm .bm-title .bm-curve3 { fill: var(--bm\
--good); }\n.bm .bm-title .bm-curve4 { fill: var(--bm-coupler); }\n.bm .bm-title .bm-curve5 { fill: var(--bm-body); }\n.bm .bm-title .bm-curve6 { fill: var(--bm-mut\
-ed); }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\
-\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-\
-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: \
-crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n\
-.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: \
-3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-orde\
-r: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify\
--content: start; }\n.bm-pairs-map { position: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-ma\
-p svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius:\
- 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke:\
- var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; \
-}\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: va\
-r(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-\
-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\
-\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-li\
-nejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\
-\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--b\
-m-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pa\
-ir-scale { display: inline-block; width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gra\
-dient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { b\
-ackground: var(--bm-pair-outside); }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circui\
-t { background: var(--bm-pair-circuit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend\
- { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px\
-; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-spa\
-ce { position: relative; border: 1px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none;\
- }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--b\
-m-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(-\
--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacit\
-y: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.b\
-m-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-ru\
-nner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36p\
-x) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list \
-{ order: -2; }\n  .bm-main > .bm-aside, .bm-main > .bm-loaded { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-ch\
-oice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14p\
-x; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { pad\
-ding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks\
- tbody { display: block; }\n  .bm .bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr \
-{ display: block; padding: 6px 0; border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: flex; justify-content: spac\
-e-between; gap: 14px; border: 0; padding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-\
-child { text-align: right; white-space: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-muted); white-space: now\
-rap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last\
--child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { gri\
-d-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .\
-bm-list { position: sticky; top: 0; align-self: start; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .bm-choices { flex-direct\
-ion: column; align-items: stretch; overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main { grid-template-columns: repeat(10, mi\
-nmax(0, 1fr)); }\n  .bm-stage, .bm-aside, .bm-loaded, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-col\
-umns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-colu\
-mn: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-main:not(:has(.bm-aside)) \
-.bm-stage { grid-column: 1 / -1; }\n  .bm-main:has(.bm-loaded) { grid-template-rows: auto 1fr; }\n  .bm-main:has(.bm-loaded) .bm-aside { grid-row: span 2; }\n  .bm\
--loaded { grid-column: span 6; align-self: start; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; --bm-line: #bbb;\
- --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --bm-follower-solid\
-: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c; --bm-spring: #6b43ab; --bm\
--hand: #9a5a00;\n    font-size: 10pt; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { \
-display: none !important; }\n  .bm-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n \
- .bm-card { border: 0; padding: 8px 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt\
-; }\n  .bm .bm-scroll { overflow: visible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { br\
-eak-inside: avoid; }\n  .bm th, .bm td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+\n.bm-springs [data-spring="gas"] .bm-spring { fill: var(--bm-panel); fill-opacity: 0.75; }\n.bm-spring-end { fill: var(--bm-spring); }\n.bm-pin-forces { display: \
+none; }\n:root:has(.bm-forces:not([hidden]) .bm-show-forces:checked) .bm-pin-forces { display: inline; }\n.bm-pin-force { fill: none; stroke: currentColor; stroke\
+-width: 2; stroke-linejoin: round; }\n.bm-pin-newtons { fill: currentColor; font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.\
+bm-forces { display: flex; gap: 6px; align-items: baseline; }\n.bm-forces[hidden] { display: none; }\n.bm-hand { fill: none; stroke: var(--bm-hand); stroke-width:\
+ 3; stroke-linecap: round; stroke-linejoin: round; }\n.bm-slot-rim { stroke: var(--bm-coupler); stroke-width: 21; stroke-linecap: round; }\n.bm-slot-plate { strok\
+e: var(--bm-plate); stroke-width: 18; stroke-linecap: round; }\n.bm-slot-edge { stroke: var(--bm-coupler); stroke-width: 12.5; }\n.bm-slot { stroke: var(--bm-pane\
+l); stroke-width: 10; }\n.bm-block rect { stroke-width: 1.6; }\n.bm-block.bm-side0 rect { fill: var(--bm-driver-solid); stroke: var(--bm-driver); }\n.bm-block.bm-s\
+ide1 rect { fill: var(--bm-panel); stroke: var(--bm-follower); }\n.bm-pin { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-origin { fill:\
+ var(--bm-ink); }\n.bm-body-frame { fill: none; stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm .bm-letter { font-weight: 700; font-style: italic; }\n.bm-far-mark\
+ { fill: none; stroke-width: 2.4; stroke-linecap: round; stroke-linejoin: round; }\n.bm-far-mark.bm-side0 { stroke: var(--bm-driver); }\n.bm-far-mark.bm-side1 { s\
+troke: var(--bm-follower); }\n.bm-drive-mark { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; stroke-linecap: round; stroke-linejoin: round; }\n\n.bm-con\
+trols { display: grid; gap: 6px; margin: 0 0 10px; }\n.bm-row { display: flex; flex-wrap: wrap; gap: 8px; align-items: flex-start; }\n.bm-button { font: inherit; \
+font-size: 0.9rem; color: inherit; background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 8px; padding: 5px 11px; min-height: 34px; curso\
+r: pointer; display: inline-flex; gap: 7px; align-items: center; white-space: nowrap; }\n.bm-button:hover { border-color: var(--bm-muted); }\n.bm-button:disabled \
+{ opacity: 0.45; cursor: default; }\n.bm-play { background: var(--bm-accent); border-color: var(--bm-accent); color: var(--bm-panel); min-width: 92px; justify-co\
+ntent: center; font-weight: 600; }\n.bm-play svg { fill: currentColor; }\n.bm-whole { display: inline-flex; gap: 6px; align-items: center; min-height: 34px; font-\
+size: 0.9rem; white-space: nowrap; cursor: pointer; }\n.bm-whole input, .bm-far-pivots input { accent-color: var(--bm-accent); margin: 0; }\n.bm-whole:has(:disabl\
+ed) { opacity: 0.45; cursor: default; }\n.bm-track { min-width: 0; }\n.bm-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-color: var(-\
+-bm-accent); }\n.bm-stops { width: 100%; overflow: visible; }\n.bm-stops path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-\
+muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { dis\
+play: inline-block; max-width: 100%; }\n.bm-under { display: flex; flex-wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-\
+top: 10px; }\n.bm-choose { display: flex; flex-wrap: wrap; gap: 4px 18px; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer\
+; }\n.bm-far-pivots[hidden], .bm-ways[hidden] { display: none; }\n.bm-factor { white-space: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor selec\
+t { font: inherit; color: var(--bm-ink); background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { l\
+ist-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: 1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-fle\
+x; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-aside { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-fa\
+cts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content: space-between; gap: 14px; border-bottom: 1px solid var(--bm-faint); pa\
+dding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-note-text { font-size: 0.82rem; color: var(--bm-muted); margin-\
+top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm table { border-collapse: collapse; width: 100%; font-size: 0\
+.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm\
+-every caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; font-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-a\
+lign: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top; white-space: nowrap; font-weight: 400; }\n.bm thead th { col\
+or: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-align: bottom; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.b\
+m .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-table td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th\
+, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:la\
+st-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbody th { position: sticky; left: 0; background: var(--bm-panel\
+); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-table) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-chi\
+ld, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimens\
+ions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-top: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line\
+-of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-every { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summa\
+ry { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px),\
+ 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: none; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-fain\
+t); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-hal\
+o { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-m\
+uted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill:\
+ var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4;\
+ }\n.bm-stale { opacity: 0.35; }\n.bm-line.bm-curve1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve2 { stroke: var(--bm-error); }\n.bm-li\
+ne.bm-curve3 { stroke: var(--bm-good); stroke-dasharray: 6 4; }\n.bm-line.bm-curve4 { stroke: var(--bm-coupler); }\n.bm-line.bm-curve5 { stroke: var(--bm-body); s\
+troke-dasharray: 6 4; }\n.bm-line.bm-curve6 { stroke: var(--bm-muted); }\n.bm .bm-title tspan { font-weight: 700; fill: var(--bm-driver); }\n.bm .bm-title .bm-curv\
+e1 { fill: var(--bm-follower); }\n.bm .bm-title .bm-curve2 { fill: var(--bm-error); }\n.bm .bm-title .bm-curve3 { fill: var(--bm-good); }\n.bm .bm-title .bm-curve4\
+ { fill: var(--bm-coupler); }\n.bm .bm-title .bm-curve5 { fill: var(--bm-body); }\n.bm .bm-title .bm-curve6 { fill: var(--bm-muted); }\n.bm-dot.bm-loop0 { fill: va\
+r(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--b\
+m-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.\
+bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus\
+-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink);\
+ opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stro\
+ke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel)\
+; stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map {\
+ position: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset:\
+ 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: \
+1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\
+\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: non\
+e; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-pane\
+l); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fil\
+l: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); s\
+troke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke\
+; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: \
+var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-si\
+de1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; \
+width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low)\
+, var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside);\
+ }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circ\
+uit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch {\
+ display: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.\
+bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1\
+px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grab\
+bing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width\
+: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: n\
+one; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { \
+stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm\
+-image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stro\
+ke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); f\
+ont-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-as\
+ide, .bm-main > .bm-loaded { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.\
+bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-s\
+ize: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named t\
+body th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .\
+bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; \
+border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: flex; justify-content: space-between; gap: 14px; border: 0; p\
+adding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-s\
+pace: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm\
+-linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14p\
+x; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minm\
+ax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0\
+; align-self: start; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch;\
+ overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage, .bm-\
+aside, .bm-loaded, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\
+\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n \
+ .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\
+\n  .bm-main:has(.bm-loaded) { grid-template-rows: auto 1fr; }\n  .bm-main:has(.bm-loaded) .bm-aside { grid-row: span 2; }\n  .bm-loaded { grid-column: span 6; ali\
+gn-self: start; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver\
+: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c758\
+0; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c; --bm-spring: #6b43ab; --bm-hand: #9a5a00;\n    font-size: 10p\
+t; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !important; }\n  .bm-\
+body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border: 0; padding: 8p\
+x 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scroll { overflow: v\
+isible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid; }\n  .bm th, .bm\
+ td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
@@ -616,26 +619,37 @@ const count=Math.min(6,values.length),first=clamp(Math.floor(u)-2,0,values.lengt
 null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems=false},at){
 const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){
 let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=
-wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var BARB=[9,4.5];function springPath(kind,[x,y],[u,v]){const length=Math.
-hypot(u-x,v-y)||1,across=[-HALF_WIDTH*(v-y)/length,HALF_WIDTH*(u-x)/length];const at=(share,side)=>`${px(x+share*(u-x)+side*across[0])} ${px(y+share*(v-y)+side*
-across[1])}`;if(kind==="constant")return`M${at(0,0)}L${at(1,0)}`;if(kind==="gas")return`M${at(0,1)}L${at(BARREL,1)}L${at(BARREL,-1)}L${at(0,-1)}ZM${at(BARREL,0)}\
-L${at(1,0)}`;const teeth=Array.from({length:2*COILS+1},(_,k)=>at(LEAD+(1-2*LEAD)*k/(2*COILS),k%(2*COILS)?k%2?1:-1:0));return`M${[at(0,0),...teeth,at(1,0)].join(
-"L")}`}function markPoints({loads},places){if(!loads)return[];const ends=loads.springs.flatMap(spring=>spring.ends),on=name=>ends.filter(({link})=>link===name).
-map(({point})=>point);return[...on("ground"),...places.flatMap(place=>[...on("body"),...loads.hand?[loads.hand]:[]].map(point=>act(place,point)))]}function arrowPath([
-x,y],angle,length){const c=Math.cos(angle),d=-Math.sin(angle),tip=[x+length*c,y+length*d];const barb=side=>`${px(tip[0]-BARB[0]*c-side*BARB[1]*d)} ${px(tip[1]-BARB[0]*
-d+side*BARB[1]*c)}`;return`M${px(x)} ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`}var LoadMarks=class{constructor(){this.springs=
-s("g",{class:"bm-springs"});this.hand=s("path",{class:"bm-hand"});this.group=s("g",{class:"bm-loads"},this.springs,this.hand)}shape(data,linkage,view){this.view=
-view;this.loads=data.loads??null;this.known=(linkage.followed?null:linkage.loads)??null;const springs=this.loads?.springs??[];while(this.springs.children.length>
-springs.length)this.springs.lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),s("\
-circle",{class:"bm-spring-end",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind},k)=>put(this.springs.children[k],"data-spring",kind))}show(place,drive){
-const{loads,view}=this;if(!loads||!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,
-drive)),group=this.springs.children[k];put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",springPath(
-kind,at[0],at[1]));at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});const pushes=this.known?.hand,angle=pushes&&
-drive!==null?valueAt(pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+
-(LONGEST_ARROW-LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}seen([x,y]){const{
-view}=this;return view?[view.X(x),view.Y(y)]:[0,0]}endOf({link,point},spring,end,place,drive){if(link==="ground")return this.seen(point);if(link==="body")return this.
-seen(act(place,point));const known=this.known?.moved.find(each=>each.spring===spring&&each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,
-drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
+wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var RADIUS=11;var TURNS=2.25;var LONGEST_FORCE=90;var LEAST_FORCE=2;
+var BARB=[9,4.5];function springPath(kind,[x,y],[u,v]){const length=Math.hypot(u-x,v-y)||1,across=[-HALF_WIDTH*(v-y)/length,HALF_WIDTH*(u-x)/length];const at=(share,side)=>`${px(
+x+share*(u-x)+side*across[0])} ${px(y+share*(v-y)+side*across[1])}`;if(kind==="constant")return`M${at(0,0)}L${at(1,0)}`;if(kind==="gas")return`M${at(0,1)}L${at(
+BARREL,1)}L${at(BARREL,-1)}L${at(0,-1)}ZM${at(BARREL,0)}L${at(1,0)}`;const teeth=Array.from({length:2*COILS+1},(_,k)=>at(LEAD+(1-2*LEAD)*k/(2*COILS),k%(2*COILS)?
+k%2?1:-1:0));return`M${[at(0,0),...teeth,at(1,0)].join("L")}`}function roundPath(kind,[x,y]){if(kind!=="torsion")return`M${px(x-RADIUS)} ${px(y)}a${RADIUS} ${RADIUS}\
+ 0 1 0 ${2*RADIUS} 0a${RADIUS} ${RADIUS} 0 1 0 ${-2*RADIUS} 0h${2*RADIUS}M${px(x)} ${px(y-RADIUS)}v${2*RADIUS}`;const points=Array.from({length:55},(_,k)=>[k/54*
+RADIUS,k/54*2*Math.PI*TURNS]);return`M${points.map(([r,turn])=>`${px(x+r*Math.cos(turn))} ${px(y-r*Math.sin(turn))}`).join("L")}`}function markPoints({loads},places){
+if(!loads)return[];const ends=loads.springs.flatMap(spring=>spring.ends),on=name=>ends.filter(({link})=>link===name).map(({point})=>point);return[...on("ground"),
+...places.flatMap(place=>[...on("body"),...loads.hand?[loads.hand]:[]].map(point=>act(place,point)))]}function arrowPath([x,y],angle,length){const c=Math.cos(angle),
+d=-Math.sin(angle),tip=[x+length*c,y+length*d];const barb=side=>`${px(tip[0]-BARB[0]*c-side*BARB[1]*d)} ${px(tip[1]-BARB[0]*d+side*BARB[1]*c)}`;return`M${px(x)}\
+ ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`}var LoadMarks=class{constructor(){this.springs=s("g",{class:"bm-springs"});this.
+hand=s("path",{class:"bm-hand"});this.forces=s("g",{class:"bm-pin-forces"});this.group=s("g",{class:"bm-loads"},this.springs,this.hand,this.forces)}shape(data,linkage,view){
+this.view=view;this.loads=data.loads??null;this.known=(linkage.followed?null:linkage.loads)??null;const springs=this.loads?.springs??[];while(this.springs.children.
+length>springs.length)this.springs.lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),
+s("circle",{class:"bm-spring-end",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind,ends},k)=>{const[,...marks]=this.springs.children[k].
+children;put(this.springs.children[k],"data-spring",kind);for(const mark of marks)put(mark,"visibility",ends.length>1?"inherit":"hidden")});const pins=this.known?.
+pins??[];this.greatest=Math.max(0,...pins.flatMap(({force:[x,y]})=>x.map((each,i)=>each===null||y[i]===null?0:Math.hypot(each,y[i]))));this.forces.replaceChildren(
+...pins.map(({name})=>s("g",{"data-pin":name},s("path",{class:"bm-pin-force"}),s("text",{class:"bm-pin-newtons"}))))}show(place,drive){const{loads,view}=this;if(!loads||
+!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,drive)),group=this.springs.children[k];
+put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",at.length>1?springPath(kind,at[0],at[1]):roundPath(
+kind,at[0]));at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});(this.known?.pins??[]).forEach((pin,k)=>this.showForce(
+this.forces.children[k],pin,drive));const pushes=this.known?.hand,angle=pushes&&drive!==null?valueAt(pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,
+"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+(LONGEST_ARROW-LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(
+this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}showForce(group,{at,force},drive){const place=drive===null?[null]:at.map(each=>valueAt(each,
+drive)),[x,y]=drive===null?[null,null]:force.map(each=>valueAt({x:at[0].x,y:each},drive));const known=place.every(each=>each!==null)&&x!==null&&y!==null,size2=known?
+Math.hypot(x,y):0,long=this.greatest?LONGEST_FORCE*size2/this.greatest:0;put(group,"visibility",long>LEAST_FORCE?"inherit":"hidden");if(!(long>LEAST_FORCE))return;
+const from=this.seen(place),c=x/size2,d=y/size2;put(group.children[0],"d",arrowPath(from,Math.atan2(y,x),long));put(group.children[1],"x",px(from[0]+(long+6)*c));
+put(group.children[1],"y",px(from[1]-(long+6)*d+4));put(group.children[1],"text-anchor",c<-.3?"end":c>.3?"start":"middle");group.children[1].textContent=`${group.
+dataset.pin} ${Number(size2.toPrecision(3))} N`}seen([x,y]){const{view}=this;return view?[view.X(x),view.Y(y)]:[0,0]}endOf({link,point},spring,end,place,drive){
+if(link==="ground")return this.seen(point);if(link==="body")return this.seen(act(place,point));const known=this.known?.moved.find(each=>each.spring===spring&&each.
+end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
 x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(
 a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3}\
  16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){

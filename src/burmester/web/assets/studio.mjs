@@ -104,26 +104,37 @@ const count=Math.min(6,values.length),first=clamp(Math.floor(u)-2,0,values.lengt
 null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems=false},at){
 const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){
 let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=
-wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var BARB=[9,4.5];function springPath(kind,[x,y],[u,v]){const length=Math.
-hypot(u-x,v-y)||1,across=[-HALF_WIDTH*(v-y)/length,HALF_WIDTH*(u-x)/length];const at=(share,side)=>`${px(x+share*(u-x)+side*across[0])} ${px(y+share*(v-y)+side*
-across[1])}`;if(kind==="constant")return`M${at(0,0)}L${at(1,0)}`;if(kind==="gas")return`M${at(0,1)}L${at(BARREL,1)}L${at(BARREL,-1)}L${at(0,-1)}ZM${at(BARREL,0)}\
-L${at(1,0)}`;const teeth=Array.from({length:2*COILS+1},(_,k)=>at(LEAD+(1-2*LEAD)*k/(2*COILS),k%(2*COILS)?k%2?1:-1:0));return`M${[at(0,0),...teeth,at(1,0)].join(
-"L")}`}function markPoints({loads},places){if(!loads)return[];const ends=loads.springs.flatMap(spring=>spring.ends),on=name=>ends.filter(({link})=>link===name).
-map(({point:point2})=>point2);return[...on("ground"),...places.flatMap(place=>[...on("body"),...loads.hand?[loads.hand]:[]].map(point2=>act(place,point2)))]}function arrowPath([
-x,y],angle,length){const c=Math.cos(angle),d=-Math.sin(angle),tip=[x+length*c,y+length*d];const barb=side=>`${px(tip[0]-BARB[0]*c-side*BARB[1]*d)} ${px(tip[1]-BARB[0]*
-d+side*BARB[1]*c)}`;return`M${px(x)} ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`}var LoadMarks=class{constructor(){this.springs=
-s("g",{class:"bm-springs"});this.hand=s("path",{class:"bm-hand"});this.group=s("g",{class:"bm-loads"},this.springs,this.hand)}shape(data,linkage,view){this.view=
-view;this.loads=data.loads??null;this.known=(linkage.followed?null:linkage.loads)??null;const springs=this.loads?.springs??[];while(this.springs.children.length>
-springs.length)this.springs.lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),s("\
-circle",{class:"bm-spring-end",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind},k)=>put(this.springs.children[k],"data-spring",kind))}show(place,drive){
-const{loads,view}=this;if(!loads||!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,
-drive)),group=this.springs.children[k];put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",springPath(
-kind,at[0],at[1]));at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});const pushes=this.known?.hand,angle=pushes&&
-drive!==null?valueAt(pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+
-(LONGEST_ARROW-LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}seen([x,y]){const{
-view}=this;return view?[view.X(x),view.Y(y)]:[0,0]}endOf({link,point:point2},spring,end,place,drive){if(link==="ground")return this.seen(point2);if(link==="body")
-return this.seen(act(place,point2));const known=this.known?.moved.find(each=>each.spring===spring&&each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(
-each,drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.
+wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var RADIUS=11;var TURNS=2.25;var LONGEST_FORCE=90;var LEAST_FORCE=2;
+var BARB=[9,4.5];function springPath(kind,[x,y],[u,v]){const length=Math.hypot(u-x,v-y)||1,across=[-HALF_WIDTH*(v-y)/length,HALF_WIDTH*(u-x)/length];const at=(share,side)=>`${px(
+x+share*(u-x)+side*across[0])} ${px(y+share*(v-y)+side*across[1])}`;if(kind==="constant")return`M${at(0,0)}L${at(1,0)}`;if(kind==="gas")return`M${at(0,1)}L${at(
+BARREL,1)}L${at(BARREL,-1)}L${at(0,-1)}ZM${at(BARREL,0)}L${at(1,0)}`;const teeth=Array.from({length:2*COILS+1},(_,k)=>at(LEAD+(1-2*LEAD)*k/(2*COILS),k%(2*COILS)?
+k%2?1:-1:0));return`M${[at(0,0),...teeth,at(1,0)].join("L")}`}function roundPath(kind,[x,y]){if(kind!=="torsion")return`M${px(x-RADIUS)} ${px(y)}a${RADIUS} ${RADIUS}\
+ 0 1 0 ${2*RADIUS} 0a${RADIUS} ${RADIUS} 0 1 0 ${-2*RADIUS} 0h${2*RADIUS}M${px(x)} ${px(y-RADIUS)}v${2*RADIUS}`;const points=Array.from({length:55},(_,k)=>[k/54*
+RADIUS,k/54*2*Math.PI*TURNS]);return`M${points.map(([r,turn])=>`${px(x+r*Math.cos(turn))} ${px(y-r*Math.sin(turn))}`).join("L")}`}function markPoints({loads},places){
+if(!loads)return[];const ends=loads.springs.flatMap(spring=>spring.ends),on=name=>ends.filter(({link})=>link===name).map(({point:point2})=>point2);return[...on(
+"ground"),...places.flatMap(place=>[...on("body"),...loads.hand?[loads.hand]:[]].map(point2=>act(place,point2)))]}function arrowPath([x,y],angle,length){const c=Math.
+cos(angle),d=-Math.sin(angle),tip=[x+length*c,y+length*d];const barb=side=>`${px(tip[0]-BARB[0]*c-side*BARB[1]*d)} ${px(tip[1]-BARB[0]*d+side*BARB[1]*c)}`;return`\
+M${px(x)} ${px(y)}L${tip.map(px).join(" ")}M${barb(1)}L${tip.map(px).join(" ")}L${barb(-1)}`}var LoadMarks=class{constructor(){this.springs=s("g",{class:"bm-spr\
+ings"});this.hand=s("path",{class:"bm-hand"});this.forces=s("g",{class:"bm-pin-forces"});this.group=s("g",{class:"bm-loads"},this.springs,this.hand,this.forces)}shape(data,linkage,view){
+this.view=view;this.loads=data.loads??null;this.known=(linkage.followed?null:linkage.loads)??null;const springs=this.loads?.springs??[];while(this.springs.children.
+length>springs.length)this.springs.lastChild?.remove();while(this.springs.children.length<springs.length)this.springs.append(s("g",{},s("path",{class:"bm-spring"}),
+s("circle",{class:"bm-spring-end",r:2.6}),s("circle",{class:"bm-spring-end",r:2.6})));springs.forEach(({kind,ends},k)=>{const[,...marks]=this.springs.children[k].
+children;put(this.springs.children[k],"data-spring",kind);for(const mark of marks)put(mark,"visibility",ends.length>1?"inherit":"hidden")});const pins=this.known?.
+pins??[];this.greatest=Math.max(0,...pins.flatMap(({force:[x,y]})=>x.map((each,i)=>each===null||y[i]===null?0:Math.hypot(each,y[i]))));this.forces.replaceChildren(
+...pins.map(({name})=>s("g",{"data-pin":name},s("path",{class:"bm-pin-force"}),s("text",{class:"bm-pin-newtons"}))))}show(place,drive){const{loads,view}=this;if(!loads||
+!view){put(this.hand,"d","");return}loads.springs.forEach(({kind,ends},k)=>{const at=ends.map((end,j)=>this.endOf(end,k,j,place,drive)),group=this.springs.children[k];
+put(group,"visibility",at.every(Boolean)?"inherit":"hidden");if(!at.every(Boolean))return;put(group.children[0],"d",at.length>1?springPath(kind,at[0],at[1]):roundPath(
+kind,at[0]));at.forEach(([x,y],j)=>{put(group.children[j+1],"cx",px(x));put(group.children[j+1],"cy",px(y))})});(this.known?.pins??[]).forEach((pin,k)=>this.showForce(
+this.forces.children[k],pin,drive));const pushes=this.known?.hand,angle=pushes&&drive!==null?valueAt(pushes,drive):null;if(!loads.hand||angle===null)put(this.hand,
+"d","");else{const force=valueAt({x:pushes.x,y:pushes.force},drive)??0,size2=LEAST_ARROW+(LONGEST_ARROW-LEAST_ARROW)*Math.abs(force);put(this.hand,"d",arrowPath(
+this.seen(act(place,loads.hand)),force<0?angle+Math.PI:angle,size2))}}showForce(group,{at,force},drive){const place=drive===null?[null]:at.map(each=>valueAt(each,
+drive)),[x,y]=drive===null?[null,null]:force.map(each=>valueAt({x:at[0].x,y:each},drive));const known=place.every(each=>each!==null)&&x!==null&&y!==null,size2=known?
+Math.hypot(x,y):0,long=this.greatest?LONGEST_FORCE*size2/this.greatest:0;put(group,"visibility",long>LEAST_FORCE?"inherit":"hidden");if(!(long>LEAST_FORCE))return;
+const from=this.seen(place),c=x/size2,d=y/size2;put(group.children[0],"d",arrowPath(from,Math.atan2(y,x),long));put(group.children[1],"x",px(from[0]+(long+6)*c));
+put(group.children[1],"y",px(from[1]-(long+6)*d+4));put(group.children[1],"text-anchor",c<-.3?"end":c>.3?"start":"middle");group.children[1].textContent=`${group.
+dataset.pin} ${Number(size2.toPrecision(3))} N`}seen([x,y]){const{view}=this;return view?[view.X(x),view.Y(y)]:[0,0]}endOf({link,point:point2},spring,end,place,drive){
+if(link==="ground")return this.seen(point2);if(link==="body")return this.seen(act(place,point2));const known=this.known?.moved.find(each=>each.spring===spring&&
+each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.
 y[u],a:way.angle[u]}:placeAt(linkage,way,u,data.chart.length));function placesAlong(data,{low,high},at){const places=[at(low)];let before=low;const goTo=u=>{const next=at(
 u),last=places[places.length-1];const count=Math.min(MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=
 count;k+=1)places.push(at(before+k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){
@@ -1026,23 +1037,24 @@ put(this.cursor,"visibility",at===null?"hidden":"visible");if(at===null)return;t
 mark,value,Y}of this.marks){const known=value(at);put(mark,"visibility",known===null?"hidden":"inherit");if(known!==null)put(mark,"cy",px(Y(known)))}}};var TITLE2="Loads";var fieldsets=0;var LoadPlots=class extends Plots{own=null;timed=null;drive;overTime=false;constructor(data,parent,scrub){super(data,parent,scrub);
 const name=`bm-over-${fieldsets+=1}`;const one=(text,overTime)=>h("label",{},h("input",{type:"radio",name,checked:!overTime,onchange:()=>this.take(overTime)}),h(
 "span",{},text));this.choice=h("fieldset",{class:"bm-ways bm-over",hidden:true},one("Over the driver",false),one("Over time",true));this.nothing=h("p",{class:"b\
-m-note-text",hidden:true},"Loads are known from the first pose to the last, of a linkage that leads through all of them with its own driver.");parent.prepend(this.
-choice,this.nothing)}take(overTime){this.overTime=overTime;this.draw();if(this.drive!==void 0)this.show(this.drive)}build(linkage,index){this.svg.classList.toggle(
-"bm-stale",Boolean(linkage?.followed));this.linkage=linkage;const loads=linkage?.loads,here=Boolean(loads)&&loads.way===index&&Boolean(linkage.ways[index]);this.
-own=here?loads:null;this.way=here?linkage.ways[index]:null;this.choice.hidden=!this.own?.timed;this.nothing.hidden=here;this.draw()}draw(){const{svg,own,data}=this;
-svg.replaceChildren();svg.removeAttribute("height");this.cursor=null;if(!own)return;const timed=this.overTime&&own.timed?own.timed:null,panels=(timed??own).panels,
-{x}=panels[0];this.timed=timed;const[driver]=this.linkage.led,slides=driver.kind==="PR";const title=timed?"time (s)":slides?`place of ${driver.id} on its line (${data.
-unit})`:`driver angle (${driver.id})`;svg.setAttribute("aria-label",`${this.linkage.id}: ${TITLE2.toLowerCase()} over ${timed?"time":"the driver"}`);this.frame(
-panels.length,x[0],x[x.length-1],!slides&&!timed,title,()=>{panels.forEach((each,k)=>this.lines(k,each,k+1===panels.length))})}lines(k,{title,x,lines},last){const all=lines.
-flatMap(({y})=>y.filter(each=>each!==null)),[y0,base]=this.heights(k);const least2=Math.min(0,...all),most=Math.max(0,...all),room=.08*(most-least2||1);this.panel(
-title,y0,base,last);const Y=v=>base-(v-least2+room)/(most-least2+2*room)*(base-y0);for(const{at,text}of ticks(least2,most,4))this.rule(Y(at),text);if(least2<0&&
-most>0)this.svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(({y},line2)=>{let d="",pen="M";x.forEach((at,i)=>{
-if(y[i]===null)pen="M";else{d+=`${pen}${px(this.X(at))} ${px(Y(y[i]))}`;pen="L"}});this.svg.append(s("path",{class:`bm-line bm-curve${line2}`,d}));this.mark(at=>valueAt(
-{x,y},at),Y)});if(lines.length>1){const names=s("text",{class:"bm-title",x:this.width-RIGHT,y:y0-7,"text-anchor":"end"});lines.forEach(({name},line2)=>names.append(
-s("tspan",{class:`bm-curve${line2}`,dx:line2?7:0},name)));this.svg.append(names)}}placeOf(drive){const{own,timed}=this;if(this.linkage.followed)return null;if(timed)
-return valueAt(timed.time,drive);const{x}=own.panels[0];return drive<x[0]-1e-6||drive>x[x.length-1]+1e-6?null:drive}driveAt(at){if(!this.timed)return at;const{x,
-y}=this.timed.time;return y[0]<=y[y.length-1]?valueAt({x:y,y:x},at):valueAt({x:[...y].reverse(),y:[...x].reverse()},at)}show(drive){this.drive=drive;super.show(
-drive)}};var NO_MOTION="No linkage is there whose motion could be shown.";var Curves=class{constructor(answers,playing,Kind){this.playing=playing;const fill=h("div",{class:"\
+m-note-text",hidden:true},"Loads are known from the first pose to the last, of a linkage that leads through all of them with its own driver.");this.forces=h("la\
+bel",{class:"bm-forces",hidden:true},h("input",{type:"checkbox",class:"bm-show-forces"}),h("span",{},"Draw the forces of pins: of the link or the ground that ho\
+lds a pin, on the other link; all to one scale"));parent.prepend(this.choice,this.forces,this.nothing)}take(overTime){this.overTime=overTime;this.draw();if(this.
+drive!==void 0)this.show(this.drive)}build(linkage,index){this.svg.classList.toggle("bm-stale",Boolean(linkage?.followed));this.linkage=linkage;const loads=linkage?.
+loads,here=Boolean(loads)&&loads.way===index&&Boolean(linkage.ways[index]);this.own=here?loads:null;this.way=here?linkage.ways[index]:null;this.choice.hidden=!this.
+own?.timed;this.nothing.hidden=here;this.forces.hidden=!here;this.draw()}draw(){const{svg,own,data}=this;svg.replaceChildren();svg.removeAttribute("height");this.
+cursor=null;if(!own)return;const timed=this.overTime&&own.timed?own.timed:null,panels=(timed??own).panels,{x}=panels[0];this.timed=timed;const[driver]=this.linkage.
+led,slides=driver.kind==="PR";const title=timed?"time (s)":slides?`place of ${driver.id} on its line (${data.unit})`:`driver angle (${driver.id})`;svg.setAttribute(
+"aria-label",`${this.linkage.id}: ${TITLE2.toLowerCase()} over ${timed?"time":"the driver"}`);this.frame(panels.length,x[0],x[x.length-1],!slides&&!timed,title,
+()=>{panels.forEach((each,k)=>this.lines(k,each,k+1===panels.length))})}lines(k,{title,x,lines},last){const all=lines.flatMap(({y})=>y.filter(each=>each!==null)),
+[y0,base]=this.heights(k);const least2=Math.min(0,...all),most=Math.max(0,...all),room=.08*(most-least2||1);this.panel(title,y0,base,last);const Y=v=>base-(v-least2+
+room)/(most-least2+2*room)*(base-y0);for(const{at,text}of ticks(least2,most,4))this.rule(Y(at),text);if(least2<0&&most>0)this.svg.append(s("path",{class:"bm-usu\
+al",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(({y},line2)=>{let d="",pen="M";x.forEach((at,i)=>{if(y[i]===null)pen="M";else{d+=`${pen}${px(this.
+X(at))} ${px(Y(y[i]))}`;pen="L"}});this.svg.append(s("path",{class:`bm-line bm-curve${line2}`,d}));this.mark(at=>valueAt({x,y},at),Y)});if(lines.length>1){const names=s(
+"text",{class:"bm-title",x:this.width-RIGHT,y:y0-7,"text-anchor":"end"});lines.forEach(({name},line2)=>names.append(s("tspan",{class:`bm-curve${line2}`,dx:line2?
+7:0},name)));this.svg.append(names)}}placeOf(drive){const{own,timed}=this;if(this.linkage.followed)return null;if(timed)return valueAt(timed.time,drive);const{x}=own.
+panels[0];return drive<x[0]-1e-6||drive>x[x.length-1]+1e-6?null:drive}driveAt(at){if(!this.timed)return at;const{x,y}=this.timed.time;return y[0]<=y[y.length-1]?
+valueAt({x:y,y:x},at):valueAt({x:[...y].reverse(),y:[...x].reverse()},at)}show(drive){this.drive=drive;super.show(drive)}};var NO_MOTION="No linkage is there whose motion could be shown.";var Curves=class{constructor(answers,playing,Kind){this.playing=playing;const fill=h("div",{class:"\
 bm-fill"});this.plots=new Kind(answers.data,fill,u=>playing.player.go(u));this.nothing=h("p",{class:"bs-quiet",hidden:true},NO_MOTION);this.element=h("div",{},this.
 nothing,fill);this.pace=new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive})=>{if(this.isFresh&&isSeen(
 fill))this.plots.show(drive)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);watch(fill,()=>this.pace.ask())}build(){

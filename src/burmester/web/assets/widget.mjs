@@ -344,6 +344,10 @@ var BARREL = 0.6;
 var HALF_WIDTH = 6;
 var LEAST_ARROW = 16;
 var LONGEST_ARROW = 62;
+var RADIUS = 11;
+var TURNS = 2.25;
+var LONGEST_FORCE = 90;
+var LEAST_FORCE = 2;
 var BARB = [9, 4.5];
 function springPath(kind, [x, y], [u, v]) {
   const length = Math.hypot(u - x, v - y) || 1, across = [-HALF_WIDTH * (v - y) / length, HALF_WIDTH * (u - x) / length];
@@ -352,6 +356,11 @@ function springPath(kind, [x, y], [u, v]) {
   if (kind === "gas") return `M${at(0, 1)}L${at(BARREL, 1)}L${at(BARREL, -1)}L${at(0, -1)}ZM${at(BARREL, 0)}L${at(1, 0)}`;
   const teeth = Array.from({ length: 2 * COILS + 1 }, (_, k) => at(LEAD + (1 - 2 * LEAD) * k / (2 * COILS), k % (2 * COILS) ? k % 2 ? 1 : -1 : 0));
   return `M${[at(0, 0), ...teeth, at(1, 0)].join("L")}`;
+}
+function roundPath(kind, [x, y]) {
+  if (kind !== "torsion") return `M${px(x - RADIUS)} ${px(y)}a${RADIUS} ${RADIUS} 0 1 0 ${2 * RADIUS} 0a${RADIUS} ${RADIUS} 0 1 0 ${-2 * RADIUS} 0h${2 * RADIUS}M${px(x)} ${px(y - RADIUS)}v${2 * RADIUS}`;
+  const points = Array.from({ length: 55 }, (_, k) => [k / 54 * RADIUS, k / 54 * 2 * Math.PI * TURNS]);
+  return `M${points.map(([r, turn]) => `${px(x + r * Math.cos(turn))} ${px(y - r * Math.sin(turn))}`).join("L")}`;
 }
 function markPoints({ loads }, places) {
   if (!loads) return [];
@@ -367,7 +376,8 @@ var LoadMarks = class {
   constructor() {
     this.springs = s("g", { class: "bm-springs" });
     this.hand = s("path", { class: "bm-hand" });
-    this.group = s("g", { class: "bm-loads" }, this.springs, this.hand);
+    this.forces = s("g", { class: "bm-pin-forces" });
+    this.group = s("g", { class: "bm-loads" }, this.springs, this.hand, this.forces);
   }
   /** @param {any} data @param {any} linkage @param {import("./types").View} view */
   shape(data, linkage, view) {
@@ -377,7 +387,14 @@ var LoadMarks = class {
     const springs = this.loads?.springs ?? [];
     while (this.springs.children.length > springs.length) this.springs.lastChild?.remove();
     while (this.springs.children.length < springs.length) this.springs.append(s("g", {}, s("path", { class: "bm-spring" }), s("circle", { class: "bm-spring-end", r: 2.6 }), s("circle", { class: "bm-spring-end", r: 2.6 })));
-    springs.forEach(({ kind }, k) => put(this.springs.children[k], "data-spring", kind));
+    springs.forEach(({ kind, ends }, k) => {
+      const [, ...marks] = this.springs.children[k].children;
+      put(this.springs.children[k], "data-spring", kind);
+      for (const mark of marks) put(mark, "visibility", ends.length > 1 ? "inherit" : "hidden");
+    });
+    const pins = this.known?.pins ?? [];
+    this.greatest = Math.max(0, ...pins.flatMap(({ force: [x, y] }) => x.map((each, i) => each === null || y[i] === null ? 0 : Math.hypot(each, y[i]))));
+    this.forces.replaceChildren(...pins.map(({ name }) => s("g", { "data-pin": name }, s("path", { class: "bm-pin-force" }), s("text", { class: "bm-pin-newtons" }))));
   }
   /** @param {import("./types").Place} place @param {number | null} drive */
   show(place, drive) {
@@ -390,18 +407,32 @@ var LoadMarks = class {
       const at = ends.map((end, j) => this.endOf(end, k, j, place, drive)), group = this.springs.children[k];
       put(group, "visibility", at.every(Boolean) ? "inherit" : "hidden");
       if (!at.every(Boolean)) return;
-      put(group.children[0], "d", springPath(kind, at[0], at[1]));
+      put(group.children[0], "d", at.length > 1 ? springPath(kind, at[0], at[1]) : roundPath(kind, at[0]));
       at.forEach(([x, y], j) => {
         put(group.children[j + 1], "cx", px(x));
         put(group.children[j + 1], "cy", px(y));
       });
     });
+    (this.known?.pins ?? []).forEach((pin, k) => this.showForce(this.forces.children[k], pin, drive));
     const pushes = this.known?.hand, angle = pushes && drive !== null ? valueAt(pushes, drive) : null;
     if (!loads.hand || angle === null) put(this.hand, "d", "");
     else {
       const force = valueAt({ x: pushes.x, y: pushes.force }, drive) ?? 0, size = LEAST_ARROW + (LONGEST_ARROW - LEAST_ARROW) * Math.abs(force);
       put(this.hand, "d", arrowPath(this.seen(act(place, loads.hand)), force < 0 ? angle + Math.PI : angle, size));
     }
+  }
+  /** The force of a pin at a drive: an arrow, the longest of which is that of the greatest force, and its newtons. */
+  showForce(group, { at, force }, drive) {
+    const place = drive === null ? [null] : at.map((each) => valueAt(each, drive)), [x, y] = drive === null ? [null, null] : force.map((each) => valueAt({ x: at[0].x, y: each }, drive));
+    const known = place.every((each) => each !== null) && x !== null && y !== null, size = known ? Math.hypot(x, y) : 0, long = this.greatest ? LONGEST_FORCE * size / this.greatest : 0;
+    put(group, "visibility", long > LEAST_FORCE ? "inherit" : "hidden");
+    if (!(long > LEAST_FORCE)) return;
+    const from = this.seen(place), c = x / size, d = y / size;
+    put(group.children[0], "d", arrowPath(from, Math.atan2(y, x), long));
+    put(group.children[1], "x", px(from[0] + (long + 6) * c));
+    put(group.children[1], "y", px(from[1] - (long + 6) * d + 4));
+    put(group.children[1], "text-anchor", c < -0.3 ? "end" : c > 0.3 ? "start" : "middle");
+    group.children[1].textContent = `${group.dataset.pin} ${Number(size.toPrecision(3))} N`;
   }
   /** A point of F in pixels.
    * @param {any} point */
@@ -594,7 +625,9 @@ function keyOf(data, hasLinkages) {
     );
   }
   const { springs = [], hand = null } = data.loads ?? {};
-  if (springs.length) items.push(one(s("path", { class: "bm-spring", d: springs[0].kind === "gas" || springs[0].kind === "constant" ? springPath(springs[0].kind, [-2, -3], [28, -3]) : "M-2 -3H2L5 -9L9 3L13 -9L17 3L21 -9L24 -3H28" }), springs.length > 1 ? "springs" : `${springs[0].kind} spring`));
+  const round = ["torsion", "counterweight"], straight = springs.filter(({ kind }) => !round.includes(kind));
+  if (straight.length) items.push(one(s("path", { class: "bm-spring", d: straight[0].kind === "gas" || straight[0].kind === "constant" ? springPath(straight[0].kind, [-2, -3], [28, -3]) : "M-2 -3H2L5 -9L9 3L13 -9L17 3L21 -9L24 -3H28" }), straight.length > 1 ? "springs" : `${straight[0].kind} spring`));
+  for (const kind of round.filter((each) => springs.some((spring) => spring.kind === each))) items.push(one(s("path", { class: "bm-spring", d: roundPath(kind, [11, -3]) }), kind === "torsion" ? "torsion spring" : kind));
   if (hand && hasLinkages) items.push(one(s("path", { class: "bm-hand", d: "M0 -3H22M15 -7L22 -3L15 1" }), "push of the hand"));
   const box = "M-2 6H26V-10H-2Z";
   if (data.body || data.linkages[0]?.drawn) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
@@ -1967,7 +2000,8 @@ var LoadPlots = class extends Plots {
     const one = (text, overTime) => h("label", {}, h("input", { type: "radio", name, checked: !overTime, onchange: () => this.take(overTime) }), h("span", {}, text));
     this.choice = h("fieldset", { class: "bm-ways bm-over", hidden: true }, one("Over the driver", false), one("Over time", true));
     this.nothing = h("p", { class: "bm-note-text", hidden: true }, "Loads are known from the first pose to the last, of a linkage that leads through all of them with its own driver.");
-    parent.prepend(this.choice, this.nothing);
+    this.forces = h("label", { class: "bm-forces", hidden: true }, h("input", { type: "checkbox", class: "bm-show-forces" }), h("span", {}, "Draw the forces of pins: of the link or the ground that holds a pin, on the other link; all to one scale"));
+    parent.prepend(this.choice, this.forces, this.nothing);
   }
   take(overTime) {
     this.overTime = overTime;
@@ -1983,6 +2017,7 @@ var LoadPlots = class extends Plots {
     this.way = here ? linkage.ways[index] : null;
     this.choice.hidden = !this.own?.timed;
     this.nothing.hidden = here;
+    this.forces.hidden = !here;
     this.draw();
   }
   draw() {

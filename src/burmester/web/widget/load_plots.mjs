@@ -22,7 +22,8 @@ export class LoadPlots extends Plots {
     const one = (text, overTime) => h("label", {}, h("input", { type: "radio", name, checked: !overTime, onchange: () => this.take(overTime) }), h("span", {}, text));
     this.choice = h("fieldset", { class: "bm-ways bm-over", hidden: true }, one("Over the driver", false), one("Over time", true));
     this.nothing = h("p", { class: "bm-note-text", hidden: true }, "Loads are known from the first pose to the last, of a linkage that leads through all of them with its own driver.");
-    parent.prepend(this.choice, this.nothing);
+    this.forces = h("label", { class: "bm-forces", hidden: true }, h("input", { type: "checkbox", class: "bm-show-forces" }), h("span", {}, "Draw the forces of pins: of the link or the ground that holds a pin, on the other link; all to one scale"));
+    parent.prepend(this.choice, this.forces, this.nothing);
   }
 
   take(overTime) {
@@ -40,6 +41,7 @@ export class LoadPlots extends Plots {
     this.way = here ? linkage.ways[index] : null;
     this.choice.hidden = !this.own?.timed;
     this.nothing.hidden = here;
+    this.forces.hidden = !here;
     this.draw();
   }
 

@@ -2,7 +2,7 @@
 
 import { h, s } from "./dom.mjs";
 import { axes } from "./drawing.mjs";
-import { springPath } from "./load_marks.mjs";
+import { roundPath, springPath } from "./load_marks.mjs";
 import { runs } from "./numbers.mjs";
 import { isPoint, nounOf } from "./tables.mjs";
 
@@ -56,7 +56,9 @@ export function keyOf(data, hasLinkages) {
     );
   }
   const { springs = [], hand = null } = data.loads ?? {};
-  if (springs.length) items.push(one(s("path", { class: "bm-spring", d: springs[0].kind === "gas" || springs[0].kind === "constant" ? springPath(springs[0].kind, [-2, -3], [28, -3]) : "M-2 -3H2L5 -9L9 3L13 -9L17 3L21 -9L24 -3H28" }), springs.length > 1 ? "springs" : `${springs[0].kind} spring`));
+  const round = ["torsion", "counterweight"], straight = springs.filter(({ kind }) => !round.includes(kind));
+  if (straight.length) items.push(one(s("path", { class: "bm-spring", d: straight[0].kind === "gas" || straight[0].kind === "constant" ? springPath(straight[0].kind, [-2, -3], [28, -3]) : "M-2 -3H2L5 -9L9 3L13 -9L17 3L21 -9L24 -3H28" }), straight.length > 1 ? "springs" : `${straight[0].kind} spring`));
+  for (const kind of round.filter((each) => springs.some((spring) => spring.kind === each))) items.push(one(s("path", { class: "bm-spring", d: roundPath(kind, [11, -3]) }), kind === "torsion" ? "torsion spring" : kind));
   if (hand && hasLinkages) items.push(one(s("path", { class: "bm-hand", d: "M0 -3H22M15 -7L22 -3L15 1" }), "push of the hand"));
   const box = "M-2 6H26V-10H-2Z";
   if (data.body || data.linkages[0]?.drawn) items.push(one(s("path", { class: "bm-ghost", d: "M-2 5L22 7L26 -1L4 -9Z" }), "body at the poses"));
