@@ -97,6 +97,7 @@ FORMATS: Final[Mapping[str, Format]] = {
     "openscad": Format("solids.openscad", "OpenSCAD model, animated (mm)", ".scad"),
     "mjcf": Format("models.mjcf", "MuJoCo model with a motor (m)", ".xml"),
     "urdf": Format("models.urdf", "robot description; its loop is open (m)", ".urdf"),
+    "sdf": Format("models.sdf", "Gazebo world with the linkage as a model (m)", ".sdf"),
     "pylinkage": Format("pylinkage", "Python script for pylinkage", ".py"),
     "csv": Format("tables", "table of the coupler's places along the motion", ".csv"),
     "json": Format("tables", "the linkage as JSON", ".json"),
