@@ -28,7 +28,7 @@ from benchmarks.judged_alike import noisy_task
 from burmester import InputError, Limits, Requirements, Task, box
 from burmester.export import FORMATS
 
-QUICK = ("json", "csv", "svg", "dxf", "openscad", "mjcf", "urdf", "pylinkage")
+QUICK = ("json", "csv", "svg", "dxf", "openscad", "mjcf", "urdf", "sdf", "pylinkage")
 
 
 def motion(rng, count):

@@ -107,6 +107,8 @@ def xml_structure(path):
     builder = ElementTree.TreeBuilder(insert_comments=True, insert_pis=True)
     root = ElementTree.fromstring(path.read_bytes(), ElementTree.XMLParser(target=builder))
     model = root.attrib.pop("model" if root.tag == "mujoco" else "name", None)
+    for each in root.iter() if root.tag == "sdf" else ():  # the world and its model
+        model = each.attrib.pop("name", None) if each.tag in ("world", "model") else model
     assert root.tag.endswith("svg") or model is not None
     drawn = [each for each in root.iter() if not str(each.tag).endswith(("}text", "}svg"))]
     return [str(each.tag) for each in root.iter()], [each.attrib for each in drawn]
@@ -156,6 +158,7 @@ STRUCTURES = {
     "svg": xml_structure,
     "mjcf": xml_structure,
     "urdf": xml_structure,
+    "sdf": xml_structure,
     "pylinkage": script_structure,
     "openscad": lambda path: tokens(path.read_text("utf-8")),
     "dxf": drawing_structure,

@@ -45,7 +45,7 @@ from tests.samples import some_of
 
 SPANS = 1e-9
 MERE = "visual|collision|geom|site size|statistic|light|text|svg|desc|style|position|polygon"
-FLAT = ("dxf", "svg", "csv", "json", "mjcf", "urdf", "openscad", "pylinkage")
+FLAT = ("dxf", "svg", "csv", "json", "mjcf", "urdf", "sdf", "openscad", "pylinkage")
 
 
 def nearest(points, point):
@@ -553,6 +553,7 @@ TOLD = {
     "json": 0.95,
     "mjcf": 0.95,
     "urdf": 0.8,
+    "sdf": 0.8,
     "openscad": 0.95,
     "pylinkage": 1.0,
 }
@@ -639,7 +640,7 @@ def test_a_body_that_only_translates(tmp_path):
         linkage=Linkage(chosen.linkage.first, PP(np.array(0.0))),
         error=replace(chosen.error, places=places),
     )
-    for to in ("dxf", "svg", "csv", "mjcf", "urdf", "openscad", "pylinkage"):
+    for to in ("dxf", "svg", "csv", "mjcf", "urdf", "sdf", "openscad", "pylinkage"):
         with pytest.raises(InputError) as caught:
             export(still, to, tmp_path / "a.out")
         assert caught.value.code == "E163", to

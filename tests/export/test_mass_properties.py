@@ -365,7 +365,7 @@ def test_links_that_meet_collide(tmp_path):
     assert frozenset({"driver", "follower"}) in met
 
 
-@pytest.mark.parametrize("to", ["mjcf", "urdf"])
+@pytest.mark.parametrize("to", ["mjcf", "urdf", "sdf"])
 def test_what_plates_cannot_hold_has_no_model(to, tmp_path):
     """Two slots that cross where the pins meet: there is no plate to weigh."""
     chosen = saved("", given=(rp([0, 0], 90, 0), rp([50, 0], 0, -30), "mm", (-0.3, 2.9)))

@@ -79,7 +79,7 @@ def test_a_motor_takes_the_model_through_the_poses(chosen, tmp_path):
     steered(model, chosen.task.poses, chosen.own.extent / 1000, exact=1e-7, near=1e-4)
 
 
-@pytest.mark.parametrize("name", ["urdf", "openscad", "json", "pdf", "gif"])
+@pytest.mark.parametrize("name", ["urdf", "sdf", "openscad", "json", "pdf", "gif"])
 def test_what_is_written_is_read_back_as_the_same(name, chosen, tmp_path):
     small = Options(seconds=0.4, frames_per_second=10, width_px=240)
     [path] = export(chosen, name, tmp_path / f"a.{name}", small)

@@ -105,7 +105,7 @@ class Chosen:
         ----------
         path : str or path
             The file.  Its ending names the format: .dxf, .svg, .pdf, .step, .stl, .scad, .xml
-            (MuJoCo), .urdf, .py (pylinkage), .csv, .json, .gif, .mp4.
+            (MuJoCo), .urdf, .sdf, .py (pylinkage), .csv, .json, .gif, .mp4.
         to : str, optional
             The format, one of `burmester.export.FORMATS`, where the ending does not say it.
         force : bool

@@ -16,6 +16,7 @@ FORMAT  dxf, svg       plates with their holes for cutting, and the assembly
         stl            solid parts flat beside each other, for printing
         openscad       a model with its numbers on top, animated
         mjcf, urdf     for simulation (MuJoCo; robots)
+        sdf            for simulation (Gazebo)
         gif, mp4       the motion
         csv, json      the coupler's places, or all joints; the linkage itself
         pylinkage      a Python script
@@ -65,14 +66,15 @@ Lengths are in the unit of the poses."""
     type=Number(),
     metavar="KG/M3",
     default=2700.0,
-    help="Density of plates and pins in mjcf and urdf; steel has 7850.",
+    help="Density of plates and pins in mjcf, urdf and sdf; steel has 7850.",
     show_default="2700, aluminium",
 )
 @click.option(
     "--up",
     metavar="AXIS",
     default="y",
-    help="Direction that is up in mjcf and urdf: x, y, -x or -y; z where the linkage lies flat.",
+    help="Direction that is up in mjcf, urdf and sdf: x, y, -x or -y; z where the linkage lies "
+    "flat.",
     show_default=True,
 )
 @click.option(
