@@ -24,6 +24,7 @@ def balance(
     *,
     ground: ArrayLike | None = None,
     body: ArrayLike | None = None,
+    with_linkage: bool = False,
     progress: Listener | None = None,
 ) -> tuple[Balanced, ...]:
     """The springs with which a hand moves the usable linkages of a task with least force.
@@ -41,6 +42,10 @@ def balance(
     ground, body : (2, 2) array_like, optional
         Two corners of the boxes in which the ends may be, in F and in M; by default around the
         pivots, and around the body.
+    with_linkage : bool
+        Whether pivots move too: those of the best few linkages, for their springs, and the springs
+        for them.  All else that is asked is kept.  Where no tolerance is stated, poses are missed
+        by a hundredth of the motion at most, and not at all where linkages are a family.
     progress : callable, optional
         Told what is being done; see `synthesize`.
 
@@ -49,7 +54,8 @@ def balance(
     tuple of Balanced
         Those that keep all that is asked first, then by the greatest force that is left.  Each has
         `spring`, `worst` and `before` (the greatest force with and without it, N), `figures`, and
-        `found`, the linkage whose task has the spring.
+        `found`, the linkage whose task has the spring.  One whose pivots were moved has `unmoved`,
+        the best with the pivots where they were.
 
     Raises
     ------
@@ -64,7 +70,7 @@ def balance(
         else:
             offers = list(springs)
         regions = balanced.BalanceRegions(_box(ground, "ground"), _box(body, "body"))
-        return tuple(balanced.balance(task, offers, regions)[1])
+        return tuple(balanced.balance(task, offers, regions, with_linkage=with_linkage)[1])
 
 
 def _box(corners: ArrayLike | None, what: str) -> FloatArray | None:

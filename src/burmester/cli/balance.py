@@ -21,6 +21,7 @@ BOX     X,Y:X,Y, two corners in the unit of the poses"""
 @click.option("--springs", metavar="LIST", help="The springs; by default usual gas springs.")
 @click.option("--ground", metavar="BOX", help="Where the spring may attach on the ground.")
 @click.option("--on-body", metavar="BOX", help="Where it may attach on the body, in its frame.")
+@click.option("--with-linkage", is_flag=True, help="Move pivots too, within what is asked.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
 @click.option("-o", "file", metavar="FILE", help="Write the task with the best spring to FILE.")
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
@@ -30,6 +31,7 @@ def balance(
     springs: str | None,
     ground: str | None,
     on_body: str | None,
+    with_linkage: bool,
     as_json: bool,
     file: str | None,
     force: bool,
@@ -56,7 +58,7 @@ def balance(
             springs_of_file(springs)
         )  # fmt: skip
         regions = BalanceRegions(corners_of("--ground", ground), corners_of("--on-body", on_body))
-        answer, found = balanced(task, offers, regions)
+        answer, found = balanced(task, offers, regions, with_linkage=with_linkage)
     if file is not None and found:
         files.write(file, task_file(document_of(found[0].found.task)), force=force)
     if as_json:

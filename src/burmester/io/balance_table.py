@@ -9,17 +9,22 @@ import numpy as np
 from rich.console import Console
 from rich.text import Text
 
+from burmester.describe.decimals import decimals_of_dyad
+from burmester.describe.dimensions import sides_of
 from burmester.describe.load_words import load_notes
 from burmester.errors import InputError
+from burmester.io.linkage_data import dimensions_data
 from burmester.io.linkage_table import table_of
 from burmester.io.loads_data import load_figures_data
 from burmester.io.reading.pose_table import Source
 from burmester.io.reading.trees.loads_tree import loads_data
 from burmester.io.reading.trees.specification_tree import region_from_text
 from burmester.loads.balance import Balanced
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.synthesis.result import Synthesis
-from burmester.wording import count
+from burmester.tasks.notation import length_of, span
+from burmester.verdicts.found_linkage import FoundLinkage
+from burmester.wording import count, listed
 
 BALANCE_SCHEMA = "burmester.balance/1"
 SHOWN = 6  # springs in the table
@@ -52,6 +57,7 @@ def balance_data(answer: Synthesis, found: Sequence[Balanced]) -> dict[str, Any]
                 "keeps_all": each.keeps,
                 "greatest": each.worst,
                 "greatest_without": each.before,
+                **_moved_data(each),
                 "spring": loads_data(each.found.task.loads)["springs"][-1],
                 **load_figures_data(each.figures, each.found.task.names),
             }
@@ -59,6 +65,49 @@ def balance_data(answer: Synthesis, found: Sequence[Balanced]) -> dict[str, Any]
             if each.found.task.loads is not None
         ],
     }
+
+
+def _moved_data(each: Balanced) -> dict[str, Any]:
+    """Of a linkage whose pivots were moved: its dyads, its error, and what it was before."""
+    if each.unmoved is None or not isinstance(each.found, FoundLinkage):
+        return {}
+    return {
+        "dyads": [{"id": one.id, **dimensions_data(one.dyad)} for one in each.found.dyads],
+        "error": _error(each),
+        "unmoved": {"greatest": each.unmoved.worst, "error": _error(each.unmoved)},
+    }
+
+
+def _error(each: Balanced) -> dict[str, float]:
+    error = each.found.error
+    return {"position": error.worst, "angle_deg": float(np.degrees(error.angle.max()))}
+
+
+def _moved(best: Balanced, unit: str) -> list[str]:
+    """What moving its pivots gains and costs, and where they are."""
+    if best.unmoved is None or not isinstance(best.found, FoundLinkage):
+        return []
+    task, before = best.found.task, best.unmoved
+    dyads = [
+        (one.id, *sides_of(one.dyad, decimals_of_dyad(one.dyad, task.poses, span(task))))
+        for one in best.found.dyads
+    ]
+    at = [
+        f"{id} from {ground} on the ground to {body} on the body" for id, ground, body, _ in dyads
+    ]
+    return [
+        f"Its pivots were moved. Where they were, in {before.found.id}, the best spring leaves "
+        f"{before.worst:.3g} {unit}.",
+        f"{best.found.id} meets the poses {_how(best)}, {before.found.id} {_how(before)}.",
+        f"Its links are {listed(at)}.",
+    ]
+
+
+def _how(each: Balanced) -> str:
+    task, error = each.found.task, _error(each)
+    if error["position"] <= ROUNDING * span(task):
+        return "exactly"
+    return f"within {length_of(error['position'], task)} and {error['angle_deg']:.2g}°"
 
 
 def show_balance(
@@ -84,7 +133,7 @@ def show_balance(
     one, two = best.spring.ends
     console.print(Text(f"It goes from {_point(one.point)} on the ground to {_point(two.point)} on "
                        "the body."))  # fmt: skip
-    for note in load_notes(best.figures, task):
+    for note in (*_moved(best, unit), *load_notes(best.figures, task)):
         console.print(Text(note))
     rows = [
         [

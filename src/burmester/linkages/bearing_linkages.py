@@ -73,7 +73,7 @@ def bearing_linkages(
             one
             for one in (judged or evaluation.members)(refined)
             if one.usable
-            and (not _exactly(evaluation) or one.combined_error <= digits_leave_open(problem))
+            and (not meets_exactly(evaluation) or one.combined_error <= digits_leave_open(problem))
             and not any(_alike(one, other, SAME * problem.motion_size) for other in out)
         ]
     return out
@@ -88,7 +88,7 @@ def _alike(one: FoundLinkage, other: FoundLinkage, most: float) -> bool:
     )
 
 
-def _exactly(evaluation: Evaluation) -> bool:
+def meets_exactly(evaluation: Evaluation) -> bool:
     """Whether infinitely many linkages meet the poses, so that none need be missed."""
     return evaluation.target.boxes is None and max(evaluation.problem.missing_conditions) > 0
 
@@ -103,7 +103,7 @@ def refined_under_loads(found: FoundLinkage, evaluation: Evaluation) -> Candidat
     few, index = target.thinned(FEW_POSES), target.thin_numbers(FEW_POSES)
     kept = (*few.kept, _Bearing(found, few, index, len(excesses(found))))
     exact = few.exact
-    if _exactly(evaluation):
+    if meets_exactly(evaluation):
         exact = np.ones(len(index), dtype=bool)
     few = replace(few, requirements=asked, kept=kept, exact=exact)
     side = np.array([int(found.preferred_driver == "second")])

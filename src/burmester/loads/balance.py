@@ -55,6 +55,7 @@ class Balanced:
     worst: the greatest force of the hand with the friction of the spring, N, or the torque of the
     driver where there is no hand;
     before: without the spring.  keeps: whether all that is asked of its loads is kept.
+    unmoved: the best with the pivots where they were, if they were moved for the spring.
     """
 
     found: LinkageAtPoses
@@ -64,6 +65,7 @@ class Balanced:
     worst: float
     before: float
     keeps: bool
+    unmoved: Balanced | None = None
 
 
 class _Course(NamedTuple):

@@ -2,25 +2,41 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.linkages.bearing_linkages import (
+    bears_too_much,
+    meets_exactly,
+    refined_under_loads,
+)
+from burmester.linkages.evaluation import Evaluation, at_given_poses
+from burmester.linkages.from_dyads import target_of
 from burmester.loads.balance import Balanced, Offer, balanced
 from burmester.numerics.arrays import FloatArray
-from burmester.progress import step
-from burmester.requirements.loads import OF_LOADS
+from burmester.progress import step, time_for
+from burmester.requirements.loads import DRIVER_TORQUE, HAND_FORCE, OF_LOADS
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
+from burmester.tasks.problem import SynthesisProblem
+from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.judged_linkage import LinkageAtPoses
+from burmester.verdicts.ranking import digits_leave_open, farthest_recommended
 
 MOST_LINKAGES = 6  # of an answer, the best first
 EACH = 3  # springs that are told of a linkage
+MOST_MOVED = 2  # linkages whose pivots are moved
+TURNS = 6  # at which pivots are moved, then the spring
+LESS, MOST_SHARE = 0.7, 0.95  # of the force that is left, at first and at most the next aim
+ENOUGH = 0.99  # of the force; less gained ends it
+FARTHEST = 0.01  # motion sizes; poses are missed by no more, where the task states no tolerance
 WIDER = 0.5  # sizes of the linkage by which the usual region of the ground is wider than its pivots
 
 
@@ -36,11 +52,14 @@ def balance(
     offers: Sequence[Offer],
     regions: BalanceRegions | None = None,
     options: SynthesisOptions | None = None,
+    *,
+    with_linkage: bool = False,
 ) -> tuple[Synthesis, list[Balanced]]:
     """The answer of a task without bounds on its loads, and its linkages with springs.
 
-    Those that keep all bounds come first, then those with the least force of the hand.  Raises
-    InputError E134 where the task has no loads.
+    Those that keep all bounds come first, then those with the least force of the hand.
+    with_linkage: whether pivots move too, of the best few; the poses stay as near as is asked.
+    Raises InputError E134 where the task has no loads.
     """
     if task.loads is None:
         raise InputError(
@@ -57,12 +76,84 @@ def balance(
     for found in [each for each in answer.linkages if each.usable][:MOST_LINKAGES]:
         step(f"looking at springs for {found.id}")
         own = replace(found, task=replace(found.task, requirements=asked))
-        ground, body = (
-            usual if given is None else given
-            for given, usual in zip(regions or BalanceRegions(), usual_regions(own), strict=True)
+        out += _balanced(own, offers, regions, EACH)
+    out.sort(key=_order)
+    if with_linkage:
+        first = {each.found.id: each for each in reversed(out)}
+        for each in sorted(first.values(), key=_order)[:MOST_MOVED]:
+            if time_for(f"moving the pivots of {each.found.id}"):
+                out += _moved(each, answer, offers, regions)
+        out.sort(key=_order)
+    return answer, out
+
+
+def _order(balanced: Balanced) -> tuple[bool, float]:
+    return not balanced.keeps, balanced.worst
+
+
+def _balanced(
+    found: LinkageAtPoses, offers: Sequence[Offer], regions: BalanceRegions | None, most: int
+) -> list[Balanced]:
+    """The best springs for a linkage, in the regions."""
+    ground, body = (
+        usual if given is None else given
+        for given, usual in zip(regions or BalanceRegions(), usual_regions(found), strict=True)
+    )
+    return balanced(found, offers, ground, body, most)
+
+
+def _moved(
+    start: Balanced, answer: Synthesis, offers: Sequence[Offer], regions: BalanceRegions | None
+) -> list[Balanced]:
+    """A linkage with its pivots moved for its spring, and the spring for them, by turns; or none.
+
+    Each time less force is asked for, and the poses are missed as little as that allows.
+    """
+    asked = start.found.task.requirements
+    given = start.found
+    assert isinstance(given, FoundLinkage)
+    assert given.task.loads is not None
+    bare = replace(
+        given.task, loads=replace(given.task.loads, springs=given.task.loads.springs[:-1])
+    )
+    bound = HAND_FORCE if start.figures.hand is not None else DRIVER_TORQUE
+    best, share = start, LESS
+    for _ in range(TURNS):
+        force: dict[str, Any] = {bound.name: share * best.worst}
+        assert isinstance(best.found, FoundLinkage)
+        found = replace(
+            best.found, task=replace(best.found.task, requirements=replace(asked, **force))
         )
-        out += balanced(own, offers, ground, body, EACH)
-    return answer, sorted(out, key=lambda each: (not each.keeps, each.worst))
+        better = list[Balanced]()
+        for each in _refined(found, answer.problem):
+            own = replace(each, id=f"{given.id}'", task=bare)
+            better += _balanced(own, offers, regions, 1)
+        one = min(better, key=_order, default=best)
+        if one.worst < ENOUGH * best.worst and one.keeps >= best.keeps:
+            best = one
+        elif share < MOST_SHARE:
+            share = math.sqrt(share)
+        else:
+            break
+    return [] if best is start else [replace(best, before=start.before, unmoved=start)]
+
+
+def _refined(found: FoundLinkage, problem: SynthesisProblem) -> list[FoundLinkage]:
+    """A linkage refined under the bounds of its task, if it comes near enough to the poses."""
+    one = replace(problem.task, requirements=found.task.requirements, loads=found.task.loads)
+    problem = replace(problem, given=found.task, task=one)
+    evaluation = Evaluation(problem, target_of(problem))
+    most = farthest_recommended(found, problem)
+    most = digits_leave_open(problem) if meets_exactly(evaluation) else max(
+        most, FARTHEST * problem.motion_size
+    )  # fmt: skip
+    judged = evaluation.members(refined_under_loads(found, evaluation), quality=False)
+    good = [
+        each
+        for each in judged
+        if (each.usable or bears_too_much(each)) and each.combined_error <= most
+    ]
+    return list(at_given_poses(good, problem))
 
 
 def usual_regions(found: LinkageAtPoses) -> tuple[FloatArray, FloatArray]:
