@@ -119,7 +119,8 @@ def _moved(
     bound = HAND_FORCE if start.figures.hand is not None else DRIVER_TORQUE
     best, share = start, LESS
     for _ in range(TURNS):
-        force: dict[str, Any] = {bound.name: share * best.worst}
+        corridor = isinstance(asked.bounds.get(bound), tuple)  # is aimed at as it is
+        force: dict[str, Any] = {} if corridor else {bound.name: share * best.worst}
         assert isinstance(best.found, FoundLinkage)
         found = replace(
             best.found, task=replace(best.found.task, requirements=replace(asked, **force))
@@ -129,7 +130,8 @@ def _moved(
             own = replace(each, id=f"{given.id}'", task=bare)
             better += _balanced(own, offers, regions, 1)
         one = min(better, key=_order, default=best)
-        if one.worst < ENOUGH * best.worst and one.keeps >= best.keeps:
+        gains = one.keeps > best.keeps or one.worst < ENOUGH * best.worst
+        if gains and one.keeps >= best.keeps:
             best = one
         elif share < MOST_SHARE:
             share = math.sqrt(share)
