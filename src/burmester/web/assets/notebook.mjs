@@ -526,8 +526,8 @@ isible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: norma
  td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
-0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
-2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));const step=[1,2,5,10].map(k=>k*power).find(
+0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e").map(Number);if(power>=
+-4&&power<2)return String(Number(rounded));if(power>0)return`${digits}e${power}`;return`${digits}e-${String(-power).padStart(2,"0")}`}function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));const step=[1,2,5,10].map(k=>k*power).find(
 each=>each>=rough*.999)??10*power;const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+step*
 1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function listed(words){if(words.length<2)return words.join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){
 const parts=[];for(let k=0;k<numbers.length;){let end=k;while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-
@@ -610,16 +610,17 @@ qq-pq*pq;if(!(det>1e-9*pp*qq))return{x,y,a};const u=(f*qq-g*pq)/det,v=(g*pp-f*pq
 Math.abs(g)<1e-14*length)break}return{x,y,a}}function catmullRom(values,i,share,round){const last=values.length-1;const at=k=>{if(k>=0&&k<=last)return values[k];
 if(!round)return k<0?2*values[0]-values[-k]:2*values[last]-values[2*last-k];const wrap=k<0?k+last:k-last;return values[wrap]+(k<0?-1:1)*(values[last]-values[0])};
 const[p,q,r,t]=[at(i-1),at(i),at(i+1),at(i+2)];return q+share/2*(r-p+share*(2*p-5*q+4*r-t+share*(3*(q-r)+t-p)))}function placeAt(linkage,way,u,length){if(way.joints)
-return placeOfJoints(linkage,way,u);const stop=linkage.pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.y,a:radians(
-stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,way.round),
-a:catmullRom(way.angle,i,share,way.round)};return project(linkage.led,place,length)}function placeOfJoints({ground},way,u){const at=values=>smooth(values,u),joints={
-...ground};for(const[name,[x,y]]of Object.entries(way.joints))joints[name]=[at(x),at(y)];return{x:at(way.x),y:at(way.y),a:at(way.angle),joints}}function smooth(values,u){
+return placeOfJoints(linkage,way,way.joints,u);const stop=linkage.pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.
+y,a:radians(stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,
+way.round),a:catmullRom(way.angle,i,share,way.round)};return project(linkage.led,place,length)}function placeOfJoints({ground},way,moving,u){const at=values=>smooth(
+values,u),joints={...ground};for(const[name,[x,y]]of Object.entries(moving))joints[name]=[at(x),at(y)];return{x:at(way.x),y:at(way.y),a:at(way.angle),joints}}function smooth(values,u){
 const count=Math.min(6,values.length),first=clamp(Math.floor(u)-2,0,values.length-count);let sum=0;for(let j=0;j<count;j+=1){let weight=1;for(let k=0;k<count;k+=
-1)if(k!==j)weight*=(u-first-k)/(j-k);sum+=weight*values[first+j]}return sum}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===
-null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems=false},at){
-const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){
-let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=
-wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var RADIUS=11;var TURNS=2.25;var LONGEST_FORCE=90;var LEAST_FORCE=2;
+1)if(k!==j)weight*=(u-first-k)/(j-k);sum+=weight*values[first+j]}return sum}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;const before=values[i],
+after=values[i+1];if(before===null||after===null)return null;const value=before+share*(after-before);return Number.isNaN(value)?null:value}function valueAt({x,y,
+stems=false},at){if(at===null)return null;const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-
+1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;
+while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-
+values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var RADIUS=11;var TURNS=2.25;var LONGEST_FORCE=90;var LEAST_FORCE=2;
 var BARB=[9,4.5];function springPath(kind,[x,y],[u,v]){const length=Math.hypot(u-x,v-y)||1,across=[-HALF_WIDTH*(v-y)/length,HALF_WIDTH*(u-x)/length];const at=(share,side)=>`${px(
 x+share*(u-x)+side*across[0])} ${px(y+share*(v-y)+side*across[1])}`;if(kind==="constant")return`M${at(0,0)}L${at(1,0)}`;if(kind==="gas")return`M${at(0,1)}L${at(
 BARREL,1)}L${at(BARREL,-1)}L${at(0,-1)}ZM${at(BARREL,0)}L${at(1,0)}`;const teeth=Array.from({length:2*COILS+1},(_,k)=>at(LEAD+(1-2*LEAD)*k/(2*COILS),k%(2*COILS)?
@@ -1035,7 +1036,7 @@ led,piece,chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEac
 ways[row.way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
 way.branches=ways.filter(each=>each.circuit===way.circuit).length;named.set(way.circuit,(named.get(way.circuit)??0)+1);way.branch=named.get(way.circuit)}const pose_errors=linkage.
 pose_errors.map((row,k)=>({...row,way:places[k]?.[0]??null,frame:places[k]?.[1]??null,at:places[k]?ways[places[k][0]]:null,transmission_deg:row.x===null?null:transmissionOf(
-...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,loads:null,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
+led[0],led[1],{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,loads:null,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
 ways.map(way=>way.circuit))){const own=ways.map((way,number)=>({way,number})).filter(({way})=>way.circuit===circuit);const stations=({way,number},turned)=>{const all=Array.
 from(way.x,(_,u)=>({way:number,u}));return turned?all.reverse():all};const[one,other]=own;const joined=(end,start)=>other&&one.way.dead[end]&&other.way.dead[start]&&
 near(one.way,end,other.way,start);if(!other||!(joined(0,0)||joined(1,1))){for(const each of own)chains.push({circuit,closed:each.way.round,stations:stations(each,
@@ -1060,10 +1061,10 @@ const drive=[];places.forEach((place,k)=>{let value=driveOf(led[0],place);if(!sl
 2*Math.PI*Math.round((place.a-places[k-1].a)/(2*Math.PI));drive.push(value)});const falls=drive[drive.length-1]<drive[0];if(falls)[drive,places].forEach(each=>each.
 reverse());const turns=slides?0:2*Math.PI*Math.round((drive[0]+drive[drive.length-1])/(4*Math.PI));return{circuit:chain.circuit,round:piece.round,dead:falls?[...piece.
 dead].reverse():piece.dead,poses:[],falls,drive:drive.map(value=>slides?value:degrees(value-turns)),x:places.map(({x})=>x),y:places.map(({y})=>y),angle:places.map(
-({a})=>a),transmission:places.map(place=>transmissionOf(...led,place))}}function frameIn({stations},{way,frame},last){for(let k=0;k+1<stations.length;k+=1){const[
-a,b]=[stations[k],stations[k+1]];if(a.way!==way||b.way!==way){if(a.way===way&&Math.abs(a.u-frame)<1e-9)return k;if(b.way===way&&Math.abs(b.u-frame)<1e-9)return k+
-1;continue}const[u,v]=Math.abs(b.u-a.u)>last/2?[a,b].map(each=>each.u+(each.u<last/2?last:0)):[a.u,b.u];for(const at of[frame,frame+last]){if(at>=Math.min(u,v)-
-1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.
+({a})=>a),transmission:places.map(place=>transmissionOf(led[0],led[1],place))}}function frameIn({stations},{way,frame},last){for(let k=0;k+1<stations.length;k+=
+1){const[a,b]=[stations[k],stations[k+1]];if(a.way!==way||b.way!==way){if(a.way===way&&Math.abs(a.u-frame)<1e-9)return k;if(b.way===way&&Math.abs(b.u-frame)<1e-9)
+return k+1;continue}const[u,v]=Math.abs(b.u-a.u)>last/2?[a,b].map(each=>each.u+(each.u<last/2?last:0)):[a.u,b.u];for(const at of[frame,frame+last]){if(at>=Math.
+min(u,v)-1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.
 answers=answers;this.isOther=false;this.here=null;this.player=new Player(answers.data,(place,drive,transmission,near2)=>this.placed({place,drive,transmission,near:near2}),
 ()=>this.rebuild());this.assemblies=new Assemblies(answers.data,index=>this.player.take(index));this.drivers=h("fieldset",{class:"bm-ways bs-drivers",hidden:true});
 this.note=h("p",{class:"bs-quiet bs-driver-note"});this.element=h("div",{class:"bs-player"},this.player.element,h("div",{class:"bs-player-ways"},this.drivers,this.
@@ -1196,7 +1197,7 @@ const angle=leastOf(linkage);return angle==="–"?angle:angle==="0°"?"down to 0
 Boolean(on))}function labelled(button2,id){put(button2,"aria-label",`${button2.textContent}: ${id}`)}var MOST2=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
 gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST2)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
 this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
-if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
+if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop()?.value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
 0}};var REST2=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var FEWEST=2;var QUICK=1.2;var NO_ANSWER={linkages:[],dyads:[],best:[],warnings:[],pivot_map:null,
 family_map:null,outcome:{message:"Two poses or more make a task"}};var PLACED2="placed";var kindOf=({poses,path})=>`${poses.map(({free})=>free?.join("")??"-").join()}\
  ${path?path.closed:""}`;var Store=class{solving;placing;solved;constructor({connection,document:document2,options={},name="task",settings={},mostFlying=MOST_FLYING}){

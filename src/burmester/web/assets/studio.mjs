@@ -73,8 +73,8 @@ save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the 
 and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
-0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e");if(power>=-4&&power<
-2)return String(Number(rounded));if(power>0)return`${Number(digits)}e${Number(power)}`;return`${Number(digits)}e-${String(-power).padStart(2,"0")}`}var spans=extent=>`${figure(
+0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e").map(Number);if(power>=
+-4&&power<2)return String(Number(rounded));if(power>0)return`${digits}e${power}`;return`${digits}e-${String(-power).padStart(2,"0")}`}var spans=extent=>`${figure(
 extent)} span${figure(extent)==="1"?"":"s"}`;function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));
 const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999)??10*power;const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.
 ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function angleTicks(low,high,about){const step=[
@@ -95,16 +95,17 @@ const det=pp*qq-pq*pq;if(!(det>1e-9*pp*qq))return{x,y,a};const u=(f*qq-g*pq)/det
 abs(f)+Math.abs(g)<1e-14*length)break}return{x,y,a}}function catmullRom(values,i,share,round){const last=values.length-1;const at=k=>{if(k>=0&&k<=last)return values[k];
 if(!round)return k<0?2*values[0]-values[-k]:2*values[last]-values[2*last-k];const wrap=k<0?k+last:k-last;return values[wrap]+(k<0?-1:1)*(values[last]-values[0])};
 const[p,q,r,t]=[at(i-1),at(i),at(i+1),at(i+2)];return q+share/2*(r-p+share*(2*p-5*q+4*r-t+share*(3*(q-r)+t-p)))}function placeAt(linkage,way,u,length){if(way.joints)
-return placeOfJoints(linkage,way,u);const stop=linkage.pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.y,a:radians(
-stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,way.round),
-a:catmullRom(way.angle,i,share,way.round)};return project(linkage.led,place,length)}function placeOfJoints({ground},way,u){const at=values=>smooth(values,u),joints={
-...ground};for(const[name,[x,y]]of Object.entries(way.joints))joints[name]=[at(x),at(y)];return{x:at(way.x),y:at(way.y),a:at(way.angle),joints}}function smooth(values,u){
+return placeOfJoints(linkage,way,way.joints,u);const stop=linkage.pose_errors.find(row=>row.at===way&&Math.abs(row.frame-u)<1e-6);if(stop)return{x:stop.x,y:stop.
+y,a:radians(stop.angle_deg)};const i=clamp(Math.floor(u),0,way.x.length-2),share=u-i;const place={x:catmullRom(way.x,i,share,way.round),y:catmullRom(way.y,i,share,
+way.round),a:catmullRom(way.angle,i,share,way.round)};return project(linkage.led,place,length)}function placeOfJoints({ground},way,moving,u){const at=values=>smooth(
+values,u),joints={...ground};for(const[name,[x,y]]of Object.entries(moving))joints[name]=[at(x),at(y)];return{x:at(way.x),y:at(way.y),a:at(way.angle),joints}}function smooth(values,u){
 const count=Math.min(6,values.length),first=clamp(Math.floor(u)-2,0,values.length-count);let sum=0;for(let j=0;j<count;j+=1){let weight=1;for(let k=0;k<count;k+=
-1)if(k!==j)weight*=(u-first-k)/(j-k);sum+=weight*values[first+j]}return sum}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;if(values[i]===
-null||values[i+1]===null)return null;const value=values[i]+share*(values[i+1]-values[i]);return Number.isNaN(value)?null:value}function valueAt({x,y,stems=false},at){
-const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){
-let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=
-wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var RADIUS=11;var TURNS=2.25;var LONGEST_FORCE=90;var LEAST_FORCE=2;
+1)if(k!==j)weight*=(u-first-k)/(j-k);sum+=weight*values[first+j]}return sum}function linear(values,u){const i=clamp(Math.floor(u),0,values.length-2),share=u-i;const before=values[i],
+after=values[i+1];if(before===null||after===null)return null;const value=before+share*(after-before);return Number.isNaN(value)?null:value}function valueAt({x,y,
+stems=false},at){if(at===null)return null;const here=x.findIndex(each=>Math.abs(each-at)<1e-6);if(here>=0)return y[here];return stems||!(at>x[0]&&at<x[x.length-
+1])?null:linear(y,frameAt(x,at))}function frameAt(values,wanted){let low=0,high=values.length-1;if(wanted<=values[low])return low;if(wanted>=values[high])return high;
+while(high-low>1){const middle2=low+high>>1;if(values[middle2]<=wanted)low=middle2;else high=middle2}const step=values[high]-values[low];return low+(step>0?(wanted-
+values[low])/step:0)}var COILS=9;var LEAD=.15;var BARREL=.6;var HALF_WIDTH=6;var LEAST_ARROW=16;var LONGEST_ARROW=62;var RADIUS=11;var TURNS=2.25;var LONGEST_FORCE=90;var LEAST_FORCE=2;
 var BARB=[9,4.5];function springPath(kind,[x,y],[u,v]){const length=Math.hypot(u-x,v-y)||1,across=[-HALF_WIDTH*(v-y)/length,HALF_WIDTH*(u-x)/length];const at=(share,side)=>`${px(
 x+share*(u-x)+side*across[0])} ${px(y+share*(v-y)+side*across[1])}`;if(kind==="constant")return`M${at(0,0)}L${at(1,0)}`;if(kind==="gas")return`M${at(0,1)}L${at(
 BARREL,1)}L${at(BARREL,-1)}L${at(0,-1)}ZM${at(BARREL,0)}L${at(1,0)}`;const teeth=Array.from({length:2*COILS+1},(_,k)=>at(LEAD+(1-2*LEAD)*k/(2*COILS),k%(2*COILS)?
@@ -199,7 +200,7 @@ if(this.timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now()
 clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
 var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
 (fact,k)=>!Object.is(fact,before[k]))}var sights=new WeakMap;var callers=new WeakMap;var observer=null;function watch(element,fn){observer??=new IntersectionObserver(
-entries=>{for(const{target,isIntersecting}of entries){sights.set(target,isIntersecting);if(isIntersecting)callers.get(target)()}});callers.set(element,fn);observer.
+entries=>{for(const{target,isIntersecting}of entries){sights.set(target,isIntersecting);if(isIntersecting)callers.get(target)?.()}});callers.set(element,fn);observer.
 observe(element)}var isSeen=element=>printing||sights.get(element)===true;var paces=new Set;var printing=false;function catchUpForPrint(){addEventListener("befo\
 reprint",()=>{printing=true;for(const pace of paces)if(pace.wanted())pace.now()});addEventListener("afterprint",()=>printing=false)}var MOST_NAMES=24;var NAME_STEP=5;var MOST_ROWS=40;var NONE="–";function table(caption,heads,rows,attributes){return h("div",{class:"bm-scroll",tabindex:"0",role:"\
 region","aria-label":caption},h("table",attributes,h("caption",{},caption),h("thead",{},h("tr",{},heads.map(head=>h("th",{scope:"col",class:head.text?"bm-words":
@@ -662,8 +663,8 @@ meets,apart,smooth:smooth2=0}){const gap=Math.hypot(stroke[0][0]-stroke.at(-1)[0
 ...stroke.map(each=>each[k]))-Math.min(...stroke.map(each=>each[k]))));let length=0;for(let k=1;k<stroke.length;k+=1)length+=Math.hypot(stroke[k][0]-stroke[k-1][0],
 stroke[k][1]-stroke[k-1][1]);const closed2=gap<Math.max(meets,SHARE3*size2)&&length>3*gap+size2;const line2=closed2?[...stroke,stroke[0]]:stroke,along2=[0];for(let k=1;k<
 line2.length;k+=1)along2.push(along2[k-1]+Math.hypot(line2[k][0]-line2[k-1][0],line2[k][1]-line2[k-1][1]));const whole=along2[along2.length-1],count=clamp(Math.
-round(whole/apart),...POINTS);const at=wanted=>{const u=closed2?(wanted%whole+whole)%whole:clamp(wanted,0,whole);let k=1;while(k<line2.length-1&&along2[k]<u)k+=
-1;const t=along2[k]>along2[k-1]?(u-along2[k-1])/(along2[k]-along2[k-1]):0;return[0,1].map(axis=>line2[k-1][axis]+t*(line2[k][axis]-line2[k-1][axis]))};const near2=(u,k)=>{
+round(whole/apart),POINTS[0],POINTS[1]);const at=wanted=>{const u=closed2?(wanted%whole+whole)%whole:clamp(wanted,0,whole);let k=1;while(k<line2.length-1&&along2[k]<
+u)k+=1;const t=along2[k]>along2[k-1]?(u-along2[k-1])/(along2[k]-along2[k-1]):0;return[0,1].map(axis=>line2[k-1][axis]+t*(line2[k][axis]-line2[k-1][axis]))};const near2=(u,k)=>{
 const half=closed2?smooth2:Math.min(smooth2,u,whole-u);const parts=[-1,-.5,0,.5,1].map(share=>at(u+share*half));return[0,1].map(axis=>parts.reduce((sum,each)=>sum+
 each[axis],0)/parts.length)};return{closed:closed2,points:Array.from({length:count},(_,k)=>near2(whole*k/(closed2?count:count-1),k))}}var PathTool=class{constructor(store,scene,done){
 this.store=store;this.scene=scene;this.done=done;this.name="path";this.stroke=null;this.hint="Press, draw the curve that a point of the body is to trace, and le\
@@ -671,9 +672,9 @@ t go; where the ends meet it closes. Enter puts an oval in the middle, Escape gi
 append(this.line)}click(){}drag(point2,held){this.stroke??=[[held.from.X,held.from.Y]];this.stroke.push([point2.X,point2.Y]);put(this.line,"d",`M${this.stroke.map(
 each=>each.map(px).join(" ")).join("L")}`);return true}release(){const{stroke}=this;this.stroke=null;put(this.line,"d","");const length=stroke?.slice(1).reduce(
 (sum,[x,y],k)=>sum+Math.hypot(x-stroke[k][0],y-stroke[k][1]),0);if(length>LEAST_LENGTH)this.finish(resampled(stroke,{meets:MEETS,apart:APART,smooth:SMOOTHED}))}finish({
-points,closed:closed2}){const{store,scene}=this,{view}=scene;const there=points.map(([X,Y])=>[scene.rounded(view.x(X)),scene.rounded(view.y(Y))]);const{document:document2,
-options}=store;if(isPath(document2))store.replace({document:pathDocument(document2,there,closed2),options});else store.replace({document:pathDocument({length_unit:document2.
-length_unit,angle_unit:"deg",poses:[]},there,closed2),options,name:"path"});store.select(null);scene.use(null);this.done?.(points.length,closed2)}key(event){if(event.
+points,closed:closed2}){const{store,scene}=this,{view}=scene;const there2=points.map(([X,Y])=>[scene.rounded(view.x(X)),scene.rounded(view.y(Y))]);const{document:document2,
+options}=store;if(isPath(document2))store.replace({document:pathDocument(document2,there2,closed2),options});else store.replace({document:pathDocument({length_unit:document2.
+length_unit,angle_unit:"deg",poses:[]},there2,closed2),options,name:"path"});store.select(null);scene.use(null);this.done?.(points.length,closed2)}key(event){if(event.
 key==="Escape")this.scene.use(null);else if(event.key==="Enter")this.finish(this.oval());else return false;return true}oval(){const{width,height}=this.scene.size,
 size2=.2*Math.min(width,height);const points=Array.from({length:OVAL},(_,k)=>2*Math.PI*k/OVAL).map(a=>[width/2+1.5*size2*Math.cos(a),height/2-size2*Math.sin(a)]);
 return{points,closed:true}}end(){this.line.remove()}};var PathPanel=class{constructor(store,scene){this.store=store;this.title=h("h3",{});this.closed=tick("closed: the last point leads back to the first",on=>store.
@@ -787,9 +788,9 @@ limit ${table3} ${key} ${shape}`,place:()=>this.place({key}),done:points=>{store
 select({kind:"limit",index:limitRegions(store.document).findIndex(each=>each.table===table3&&each.key===key)})}})}footprintTool(shape){const{store}=this;return new ShapeTool(
 this.scene,{shape,name:`footprint ${shape}`,place:()=>GROUND,done:points=>{store.edit(document2=>setRequirement(document2,"footprint",{[shape]:points}));store.select(
 {kind:"footprint",index:0})}})}};function middle(points){const[x,y,u,v]=bounds(points);return[(x+u)/2,(y+v)/2]}function middleOf(points,upper){const[x,y,u,v]=bounds(
-points);return[(x+u)/2,upper?v:y]}function widthOf(points){const[x,,u]=bounds(points);return Number.isFinite(u-x)?u-x:0}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of root.querySelectorAll("details:not([open])")){part.open=true;part.
-dataset.opened=""}},{signal});window.addEventListener("afterprint",()=>{for(const part of root.querySelectorAll("details[data-opened]")){part.open=false;delete part.
-dataset.opened}},{signal})}var Events=class{heard;on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
+points);return[(x+u)/2,upper?v:y]}function widthOf(points){const[x,,u]=bounds(points);return Number.isFinite(u-x)?u-x:0}function unfoldForPrint(root,signal){window.addEventListener("beforeprint",()=>{for(const part of detailsOf(root,":not([open])")){part.open=true;part.dataset.opened=
+""}},{signal});window.addEventListener("afterprint",()=>{for(const part of detailsOf(root,"[data-opened]")){part.open=false;delete part.dataset.opened}},{signal})}
+var detailsOf=(root,which)=>root.querySelectorAll(`details${which}`);var Events=class{heard;on(names,fn){this.heard??=new Map;for(const name of names.split(" "))this.heard.set(name,[...this.heard.get(name)??[],fn])}emit(name,...values){
 for(const fn of this.heard?.get(name)??[])fn(...values)}};var LONGEST_NAME4=5;var FOLLOWED=1e-7;var EXACT_TURN=1e-5;var UNSEEN=1e-6;var PLACED="placed";var NOTHING={poses:[],body:null,keep_out:[],loads:null,scene:1,unit:null,
 dyads:[],linkages:[],dyads_title:"Dyads",chart:{origin:[0,0],angle:0,length:1},space:{centre:[0,0,0],half:[1,1,1],quadrics:[]},pivot_map:null,family_map:null,transmission_limit:{
 deg:40,said:"40°, a usual limit"},keys:[],table:null,best:[],warnings:[],footnotes:""};var Answers=class extends Events{constructor(store){super();this.store=store;
@@ -919,31 +920,31 @@ data,[])].filter(near2)}obstacles(){const{playing:{linkage},scene:{view}}=this,p
 map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&
 !(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.
 factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place,this.playing.here.drive)}shape(){const{
-playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;const there=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.
-labels])put(part,"visibility",there?"visible":"hidden");if(!there)return;const places=path2?framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,view);
-this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){
-this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){
-const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(
-way=>way!==path2);put(this.others,"d",others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{
-const dyad=linkage.led[side];if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),
-path2.round)});if(!path2){put(this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[
-place.x,place.y])(placeAt(linkage,path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(
-high));set(this.here,list,path2.round&&high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,
-at,name]=[this.rails[side],this.feet[side],this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"d\
-isplay",dyad.fixed_pivot?"inline":"none");put(name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,
-places,view);({x,y}=drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.
-fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,
-x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.
-length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(
-s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.
-size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"\
-display","none");continue}put(group,"display","inline");put(group.children[0],"display",data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(
-view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(
-view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(
-Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*
-(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW2))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(
-x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(
--1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;const there2=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.
+labels])put(part,"visibility",there2?"visible":"hidden");if(!there2)return;const places=path2?framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,
+view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(
+linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,
+view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.
+Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(
+path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(
+element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.
+answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)
+list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;
+linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,
+"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.
+id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.
+children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`\
+translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{
+data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>count)achieved.lastChild.
+remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){
+const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(
+group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group.children[0],"display",data.poses[k]?.
+angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.
+at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(
+way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
+const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW2))
+return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*
+(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
 led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
 point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
 [null,point2&&point2[key]]:[point2?.[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
@@ -957,12 +958,12 @@ shape())}get on(){return this.box.checked&&Boolean(this.playing.path)&&!this.pla
 if(!this.on){this.readout.textContent="";return}const{data}=this.answers,{linkage,path:way}=this.playing,{view}=this.scene;const[pose]=data.poses,both=centrodesOf(
 linkage,way,data.scene,pose?[pose.x,pose.y]:[0,0]);put(this.fixed,"d",path(both.fixed,view.X,view.Y));put(this.moving,"d",path(both.moving,x=>view.scale*x,y=>-view.
 scale*y));if(this.playing.here)this.show(this.playing.here.place)}show(place){if(!this.on)return;const{view}=this.scene,{led}=this.playing.linkage,centre=instantCentre(
-led,place);put(this.moving,"transform",transform(view.X(place.x),view.Y(place.y),place.a));const there=centre&&Math.hypot(centre[0]-place.x,centre[1]-place.y)<FARTHEST*
-this.answers.data.scene;put(this.mark,"visibility",there?"inherit":"hidden");put(this.rays,"visibility",there?"inherit":"hidden");const digits=decimalsOf(this.answers.
-data),unit2=this.answers.data.unit?` ${this.answers.data.unit}`:"";this.readout.textContent=centre?`at (${centre.map(value=>fixed(value,digits)).join(", ")})${unit2}`:
-"at infinity: the body only shifts";if(!there)return;const[x,y]=[view.X(centre[0]),view.Y(centre[1])];put(this.mark,"transform",`translate(${px(x)} ${px(y)})`);
-const ends=led.filter(dyad=>dyad.fixed_pivot).map(dyad=>`M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);put(this.rays,
-"d",ends.join(""))}};var CognatePanel=class{known;constructor(store,answers){this.store=store;this.answers=answers;this.known=null;this.asking=false;this.story=h("p",{class:"bm-stor\
+led,place);put(this.moving,"transform",transform(view.X(place.x),view.Y(place.y),place.a));const there2=centre&&Math.hypot(centre[0]-place.x,centre[1]-place.y)<
+FARTHEST*this.answers.data.scene;put(this.mark,"visibility",there2?"inherit":"hidden");put(this.rays,"visibility",there2?"inherit":"hidden");const digits=decimalsOf(
+this.answers.data),unit2=this.answers.data.unit?` ${this.answers.data.unit}`:"";this.readout.textContent=centre?`at (${centre.map(value=>fixed(value,digits)).join(
+", ")})${unit2}`:"at infinity: the body only shifts";if(!there2)return;const[x,y]=[view.X(centre[0]),view.Y(centre[1])];put(this.mark,"transform",`translate(${px(
+x)} ${px(y)})`);const ends=led.filter(dyad=>dyad.fixed_pivot).map(dyad=>`M${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))}L${px(x)} ${px(y)}`);
+put(this.rays,"d",ends.join(""))}};var CognatePanel=class{known;constructor(store,answers){this.store=store;this.answers=answers;this.known=null;this.asking=false;this.story=h("p",{class:"bm-stor\
 y"});this.cards=h("div",{class:"bs-cognates",role:"group","aria-label":"The linkages of one curve"});this.element=h("div",{class:"bs-cognate-panel"},this.story,
 this.cards);this.pace=new Pace(()=>this.renew(),()=>isSeen(this.element));answers.on("answers shown placed",()=>this.pace.ask());store.on("state document",()=>this.
 pace.ask());watch(this.element,()=>this.pace.ask())}get of(){const{placed,chosen}=this.store;return this.answers.get(chosen===PLACED?placed?.cognateOf:chosen)??
@@ -971,19 +972,19 @@ return this.show(of&&!of.gone?"The cognates are looked for when the answer is th
 known.of===of.id)return this.show();if(this.asking||!store.connection?.isOpen)return void 0;this.asking=true;try{const answer=await store.connection.ask({do:"co\
 gnates",document:store.document,linkage:of.id});if(answer.kind==="cognates")this.known={key,of:of.id,linkages:answer.linkages.map(linked)}}catch{}this.asking=false;
 if(this.known?.key===store.solved&&this.known.of===this.of?.id)return this.show();if(store.solved!==key)this.pace.ask();return void 0}show(instead){const{known,
-of}=this,there=!instead&&known&&of;const none=there&&!known.linkages.length;say(this.story,instead??(none?`${of.id} has no cognates: a link of theirs would have\
- no length.`:"By Roberts' theorem these linkages trace the same curve, with the same error. Choose one by its room, its pivots and its transmission."));this.cards.
-replaceChildren(...there&&!none?[of,...known.linkages].map((each,k)=>this.card(each,k)):[]);give(this.cards,"hidden",!there||none);put(this.element,"data-of",there?
-of.id:null)}card(linkage,k){const{store,answers:{data}}=this,{of}=this,digits=decimalsOf(data),unit2=data.unit?` ${data.unit}`:"";const point2=at=>`(${at.map(value=>fixed(
-value,digits)).join(", ")})`,{links}=linkage.said;const chosen=k?store.chosen===PLACED&&store.placed?.linkage?.id===linkage.id:store.chosen===of.id;const facts=[
-["fixed pivots",linkage.led.filter(dyad=>dyad.fixed_pivot).map(dyad=>point2(dyad.fixed_pivot)).join(" and ")],...links?[["links",`${Object.entries(links).map(([
-name,value])=>`${name} ${value}`).join(", ")}${unit2}`]]:[],["transmission",leastOf(linkage)==="–"?"–":`${leastOf(linkage)} or more`],["size",linkage.said.quality.
-extent??"–"]];return h("article",{class:`bs-card bm-choice ${linkage.usable?"bm-good":"bm-bad"}${chosen?" bs-chosen":""}`,"data-cognate":k},h("button",{type:"\
-button",class:"bs-card-main","aria-pressed":String(Boolean(chosen)),onclick:()=>this.choose(k)},h("span",{class:"bm-choice-head"},h("b",{},k?`Cognate ${k}`:of.id),
-" ",h("span",{class:"bm-type"},linkage.type)),h("span",{class:"bm-verdict"},linkage.usable?"✓ usable":"✕ not usable"),h("dl",{class:"bs-figures"},facts.map(
-([name,value])=>[h("dt",{},name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){const{store,of,
-known}=this;if(k)store.takeCognate(known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.show();this.cards.
-children[k]?.querySelector("button").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var ONLY=150;var GAP=28;var MANY_POSES=40;var HEADROOM=1.32;var NO_ERROR=1e-7;var TITLE="Errors a\
+of}=this,there2=!instead&&known&&of;const none=there2&&!known.linkages.length;say(this.story,instead??(none?`${of.id} has no cognates: a link of theirs would ha\
+ve no length.`:"By Roberts' theorem these linkages trace the same curve, with the same error. Choose one by its room, its pivots and its transmission."));this.cards.
+replaceChildren(...there2&&!none?[of,...known.linkages].map((each,k)=>this.card(each,k)):[]);give(this.cards,"hidden",!there2||none);put(this.element,"data-of",
+there2?of.id:null)}card(linkage,k){const{store,answers:{data}}=this,{of}=this,digits=decimalsOf(data),unit2=data.unit?` ${data.unit}`:"";const point2=at=>`(${at.
+map(value=>fixed(value,digits)).join(", ")})`,{links}=linkage.said;const chosen=k?store.chosen===PLACED&&store.placed?.linkage?.id===linkage.id:store.chosen===of.
+id;const facts=[["fixed pivots",linkage.led.filter(dyad=>dyad.fixed_pivot).map(dyad=>point2(dyad.fixed_pivot)).join(" and ")],...links?[["links",`${Object.entries(
+links).map(([name,value])=>`${name} ${value}`).join(", ")}${unit2}`]]:[],["transmission",leastOf(linkage)==="–"?"–":`${leastOf(linkage)} or more`],["size",linkage.
+said.quality.extent??"–"]];return h("article",{class:`bs-card bm-choice ${linkage.usable?"bm-good":"bm-bad"}${chosen?" bs-chosen":""}`,"data-cognate":k},h("bu\
+tton",{type:"button",class:"bs-card-main","aria-pressed":String(Boolean(chosen)),onclick:()=>this.choose(k)},h("span",{class:"bm-choice-head"},h("b",{},k?`Cogna\
+te ${k}`:of.id)," ",h("span",{class:"bm-type"},linkage.type)),h("span",{class:"bm-verdict"},linkage.usable?"✓ usable":"✕ not usable"),h("dl",{class:"bs-figu\
+res"},facts.map(([name,value])=>[h("dt",{},name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){
+const{store,of,known}=this;if(k)store.takeCognate(known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.
+show();this.cards.children[k]?.querySelector("button").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var ONLY=150;var GAP=28;var MANY_POSES=40;var HEADROOM=1.32;var NO_ERROR=1e-7;var TITLE="Errors a\
 nd transmission angle";var INSET=8;var LONGEST_NAME5=16;var NAME_WIDTH=11;var Plots=class{top=TOP;count;marks;way;width;X;stretch;across;constructor(data,parent,scrub){
 this.data=data;this.parent=parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":TITLE});parent.append(this.svg);const go=event=>{if(!this.way)return;
 const box=this.svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);const drive=this.driveAt(this.low+clamp(
@@ -1064,10 +1065,10 @@ this.isFresh=true;if(playing.here)plots.show(playing.here.drive)}};var Charts=cl
 super(answers,playing,LoadPlots)}};var stopsOf=(linkage,index)=>linkage.pose_errors.map((row,k)=>({k,way:row.way,frame:row.frame})).filter(stop=>stop.way===index).sort((a,b)=>a.frame-b.frame);function stageOf(linkage,index,u){
 const stops=stopsOf(linkage,index);if(!stops.length)return null;if(stops.length===1)return{from:stops[0].k,to:stops[0].k,share:0};let at=0;while(at+2<stops.length&&
 stops[at+1].frame<=u)at+=1;const[a,b]=[stops[at],stops[at+1]],step=b.frame-a.frame;const share=step>0?(u-a.frame)/step:0;return{from:a.k,to:b.k,share:Math.min(Math.
-max(share,-1),2)}}function frameAtStage(linkage,stage){if(!stage)return null;const[a,b]=[stage.from,stage.to].map(k=>linkage.pose_errors[k]);const there=row=>Boolean(
-row)&&row.way!==null;if(!there(a)||!there(b)||a.way!==b.way){const[near2,other]=stage.share<.5?[a,b]:[b,a];const row=there(near2)?near2:there(other)?other:null;
-return row&&{way:row.way,u:row.frame}}const way=linkage.ways[a.way],last=way.x.length-1;let step=b.frame-a.frame;if(way.round&&Math.abs(step)>last/2)step-=Math.
-sign(step)*last;const u=a.frame+stage.share*step;return{way:a.way,u:way.round?(u%last+last)%last:Math.min(Math.max(u,0),last)}}function comparison(one,other,data){const unit2=data.unit?` ${data.unit}`:"",both=[one,other];const least2=values=>values.every(Number.isFinite)&&values[0]!==values[1]?
+max(share,-1),2)}}var there=row=>Boolean(row)&&row.way!==null;function frameAtStage(linkage,stage){if(!stage)return null;const[a,b]=[stage.from,stage.to].map(k=>linkage.
+pose_errors[k]);if(!there(a)||!there(b)||a.way!==b.way){const[near2,other]=stage.share<.5?[a,b]:[b,a];const row=there(near2)?near2:there(other)?other:null;return row&&
+{way:row.way,u:row.frame}}const way=linkage.ways[a.way],last=way.x.length-1;let step=b.frame-a.frame;if(way.round&&Math.abs(step)>last/2)step-=Math.sign(step)*last;
+const u=a.frame+stage.share*step;return{way:a.way,u:way.round?(u%last+last)%last:Math.min(Math.max(u,0),last)}}function comparison(one,other,data){const unit2=data.unit?` ${data.unit}`:"",both=[one,other];const least2=values=>values.every(Number.isFinite)&&values[0]!==values[1]?
 values[0]<values[1]?0:1:null;const row=(name,text,value,sign=1)=>({name,texts:both.map(text),better:value?least2(both.map(each=>sign*(value(each)??NaN))):null});
 const links=["ground","driver","coupler","follower"];return[row("verdict",each=>each.gone?"gone":each.usable?"usable":"not usable",each=>each.usable?0:1),row("t\
 ype",each=>each.type),row("worst miss",each=>worstOf(each,data),each=>each.worst),row("least transmission angle",each=>leastOf(each),each=>each.least,-1),row("s\
@@ -1113,9 +1114,9 @@ clamp(decimalsOf(this.answers.data),0,12))))}drag(point2){let before;this.scene.
 move:({x,y})=>this.put(point2,back(this.playing.here.place,[x,y])),cancel:()=>this.put(point2,before)});point2.handle.addEventListener("keydown",event=>{const arrow2=ARROWS3[event.
 key];if(event.ctrlKey||event.metaKey)return;if(arrow2){const step=(this.scene.step??this.answers.data.scene/100)*(event.shiftKey?10:event.altKey?.1:1);this.put(
 point2,point2.at.map((value,k)=>value+step*arrow2[k]))}else if(event.key==="Delete"||event.key==="Backspace"){this.remove(point2)}else{return}event.preventDefault()})}put(point2,at){
-point2.at=this.rounded(at);this.shape()}shape(){const{path:path2,linkage}=this.playing,{view}=this.scene,there=path2&&!linkage.gone;for(const point2 of this.points){
-const list=there?curveOf(path2,point2.at):[];put(point2.path,"d",smoothPath(list.map(([x])=>view.X(x)),list.map(([,y])=>view.Y(y)),path2?.round));put(point2.handle,
-"visibility",there?"visible":"hidden")}if(there&&this.playing.here)this.show(this.playing.here.place);this.tell()}show(place){const{view}=this.scene;for(const point2 of this.
+point2.at=this.rounded(at);this.shape()}shape(){const{path:path2,linkage}=this.playing,{view}=this.scene,there2=path2&&!linkage.gone;for(const point2 of this.points){
+const list=there2?curveOf(path2,point2.at):[];put(point2.path,"d",smoothPath(list.map(([x])=>view.X(x)),list.map(([,y])=>view.Y(y)),path2?.round));put(point2.handle,
+"visibility",there2?"visible":"hidden")}if(there2&&this.playing.here)this.show(this.playing.here.place);this.tell()}show(place){const{view}=this.scene;for(const point2 of this.
 points){const[x,y]=act(place,point2.at);put(point2.handle,"transform",transform(view.X(x),view.Y(y),0))}}tell(){const digits=decimalsOf(this.answers.data),key=`${this.
 points.map(({at})=>at.join()).join(" ")} ${digits}`;if(key===this.told)return;this.told=key;this.readout.textContent=this.points.length?"":"Its curve is drawn, \
 and goes along with every change.";this.list.replaceChildren(...this.points.map((point2,k)=>{const name=`Point ${k+1} at (${point2.at.map(value=>fixed(value,digits)).
@@ -1280,8 +1281,8 @@ linkages[0]?.id??null);this.tell();this.show()}renew(){const{data}=this.answers;
 renew();this.map.renew();this.explain();this.show()}explain(){const count=this.answers.data.poses.length;const text=count===4&&this.curves.family?"Four poses le\
 ave a curve of dyads. Drag a pivot in the drawing: it slides along its curve.":count===3?"Three poses leave every pivot free. Drag a fixed pivot anywhere in F, \
 or a moving pivot anywhere on the body.":count===2?"Two poses leave much open. Drag a pivot: its best dyad follows.":"Drag a pivot in the drawing or on the map:\
- the best dyad there is shown with what it costs.";say(this.story,text)}show(){const{view}=this.scene,place=this.playing.here?.place,there=this.answers.shown&&!this.
-answers.shown.gone;this.parts.forEach((planes,k)=>{planes.forEach((element,n)=>{const plane="FM"[n],pivot=there||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&
+ the best dyad there is shown with what it costs.";say(this.story,text)}show(){const{view}=this.scene,place=this.playing.here?.place,there2=this.answers.shown&&
+!this.answers.shown.gone;this.parts.forEach((planes,k)=>{planes.forEach((element,n)=>{const plane="FM"[n],pivot=there2||this.pivots?this.pivot(k,plane):null;const seen2=pivot&&
 (plane==="F"||place);put(element,"display",seen2?"inline":"none");if(!seen2)return;put(element,"data-pivot",pivot.id);element.classList.toggle("bs-put",this.pivots?.[k]?.
 plane===plane);if(plane==="F")put(element,"transform",`translate(${px(view.X(pivot.at[0]))} ${px(view.Y(pivot.at[1]))})`)})});this.name();this.move();this.map.drawHandles()}move(){
 const{view}=this.scene,place=this.playing.here?.place;if(!place)return;this.parts.forEach(([,element],k)=>{const pivot=element.getAttribute("display")==="none"?
@@ -1362,7 +1363,7 @@ led,piece,chain,length);const number=ways.push(way)-1;linkage.pose_errors.forEac
 ways[row.way].x.length-1);if(frame===null)return;places[k]=[number,way.falls?piece.stations.length-1-frame:frame];way.poses.push(k+1)})}}const named=new Map;for(const way of ways){
 way.branches=ways.filter(each=>each.circuit===way.circuit).length;named.set(way.circuit,(named.get(way.circuit)??0)+1);way.branch=named.get(way.circuit)}const pose_errors=linkage.
 pose_errors.map((row,k)=>({...row,way:places[k]?.[0]??null,frame:places[k]?.[1]??null,at:places[k]?ways[places[k][0]]:null,transmission_deg:row.x===null?null:transmissionOf(
-...led,{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,loads:null,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
+led[0],led[1],{x:row.x,y:row.y,a:row.angle_deg*Math.PI/180})}));return{...linkage,led,loads:null,ways,pose_errors}}function chainsOf(ways){const chains=[];for(const circuit of new Set(
 ways.map(way=>way.circuit))){const own=ways.map((way,number)=>({way,number})).filter(({way})=>way.circuit===circuit);const stations=({way,number},turned)=>{const all=Array.
 from(way.x,(_,u)=>({way:number,u}));return turned?all.reverse():all};const[one,other]=own;const joined=(end,start)=>other&&one.way.dead[end]&&other.way.dead[start]&&
 near(one.way,end,other.way,start);if(!other||!(joined(0,0)||joined(1,1))){for(const each of own)chains.push({circuit,closed:each.way.round,stations:stations(each,
@@ -1374,9 +1375,9 @@ way,u})=>placeAt(linkage,linkage.ways[way],u,length);const slides=driver.kind===
 if(!slides&&before!==null)drive-=2*Math.PI*Math.round((drive-before)/(2*Math.PI));return drive};const drives=stations.map(station=>before=driveAt(station));const count=stations.
 length-1,sense=k=>Math.sign(drives[k+1]-drives[k]);const cuts=[];for(let k=1;k<count;k+=1)if(sense(k)*sense(k-1)<0)cuts.push(k);if(closed2&&sense(0)*sense(count-
 1)<0)cuts.push(0);if(!cuts.length)return[{circuit,round:closed2,dead:[false,false],stations}];const dead=new Map(cuts.map(k=>[k,extreme(k)]));function extreme(k){
-const here=stations[k],up=drives[k]>drives[k===0?1:k-1]?1:-1;before=drives[k];const sides=[k>0?k-1:count-1,k+1].map(at2=>{const there=stations[at2];if(there.way===
-here.way&&Math.abs(there.u-here.u)<1.5)return[here.way,here.u,there.u];return[there.way,there.u,there.u<1.5?0:there.u+1]});const value=(way,u)=>up*driveAt({way,
-u});let best={station:here,value:value(here.way,here.u)};for(const[way,u,v]of sides){let[low,high]=[Math.min(u,v),Math.max(u,v)];for(let step=0;step<HALVINGS;step+=
+const here=stations[k],up=drives[k]>drives[k===0?1:k-1]?1:-1;before=drives[k];const sides=[k>0?k-1:count-1,k+1].map(at2=>{const there2=stations[at2];if(there2.way===
+here.way&&Math.abs(there2.u-here.u)<1.5)return[here.way,here.u,there2.u];return[there2.way,there2.u,there2.u<1.5?0:there2.u+1]});const value=(way,u)=>up*driveAt(
+{way,u});let best={station:here,value:value(here.way,here.u)};for(const[way,u,v]of sides){let[low,high]=[Math.min(u,v),Math.max(u,v)];for(let step=0;step<HALVINGS;step+=
 1){const[a,b]=[low+GOLDEN*(high-low),high-GOLDEN*(high-low)];if(value(way,a)<value(way,b))low=a;else high=b}const station={way,u:(low+high)/2},found=value(way,station.
 u);if(found>best.value)best={station,value:found}}return best.station}const part=(from,to)=>{const inner=[];for(let k=from+1;k<to;k+=1)inner.push(stations[closed2?
 k%count:k]);const ends=[from,to].map(k=>dead.get(closed2?k%count:k)??stations[k]);return[ends[0],...inner.filter(each=>!ends.some(end=>end.way===each.way&&Math.
@@ -1387,10 +1388,10 @@ const drive=[];places.forEach((place,k)=>{let value=driveOf(led[0],place);if(!sl
 2*Math.PI*Math.round((place.a-places[k-1].a)/(2*Math.PI));drive.push(value)});const falls=drive[drive.length-1]<drive[0];if(falls)[drive,places].forEach(each=>each.
 reverse());const turns=slides?0:2*Math.PI*Math.round((drive[0]+drive[drive.length-1])/(4*Math.PI));return{circuit:chain.circuit,round:piece.round,dead:falls?[...piece.
 dead].reverse():piece.dead,poses:[],falls,drive:drive.map(value=>slides?value:degrees(value-turns)),x:places.map(({x})=>x),y:places.map(({y})=>y),angle:places.map(
-({a})=>a),transmission:places.map(place=>transmissionOf(...led,place))}}function frameIn({stations},{way,frame},last){for(let k=0;k+1<stations.length;k+=1){const[
-a,b]=[stations[k],stations[k+1]];if(a.way!==way||b.way!==way){if(a.way===way&&Math.abs(a.u-frame)<1e-9)return k;if(b.way===way&&Math.abs(b.u-frame)<1e-9)return k+
-1;continue}const[u,v]=Math.abs(b.u-a.u)>last/2?[a,b].map(each=>each.u+(each.u<last/2?last:0)):[a.u,b.u];for(const at of[frame,frame+last]){if(at>=Math.min(u,v)-
-1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.
+({a})=>a),transmission:places.map(place=>transmissionOf(led[0],led[1],place))}}function frameIn({stations},{way,frame},last){for(let k=0;k+1<stations.length;k+=
+1){const[a,b]=[stations[k],stations[k+1]];if(a.way!==way||b.way!==way){if(a.way===way&&Math.abs(a.u-frame)<1e-9)return k;if(b.way===way&&Math.abs(b.u-frame)<1e-9)
+return k+1;continue}const[u,v]=Math.abs(b.u-a.u)>last/2?[a,b].map(each=>each.u+(each.u<last/2?last:0)):[a.u,b.u];for(const at of[frame,frame+last]){if(at>=Math.
+min(u,v)-1e-9&&at<=Math.max(u,v)+1e-9)return u===v?k:k+(at-u)/(v-u);if(Math.max(u,v)<=last)break}}return null}var REDUCED_MOTION="(prefers-reduced-motion: reduce)";var AT_POSE=1e-6;var Playing=class extends Events{constructor(store,answers){super();this.store=store;this.
 answers=answers;this.isOther=false;this.here=null;this.player=new Player(answers.data,(place,drive,transmission,near2)=>this.placed({place,drive,transmission,near:near2}),
 ()=>this.rebuild());this.assemblies=new Assemblies(answers.data,index=>this.player.take(index));this.drivers=h("fieldset",{class:"bm-ways bs-drivers",hidden:true});
 this.note=h("p",{class:"bs-quiet bs-driver-note"});this.element=h("div",{class:"bs-player"},this.player.element,h("div",{class:"bs-player-ways"},this.drivers,this.
@@ -1452,7 +1453,7 @@ const angle=leastOf(linkage);return angle==="–"?angle:angle==="0°"?"down to 0
 Boolean(on))}function labelled2(button2,id){put(button2,"aria-label",`${button2.textContent}: ${id}`)}var MOST3=500;var History=class{constructor(){this.past=[];this.future=[]}record(value,gesture){this.future=[];const last=this.past.at(-1);if(gesture!==null&&last?.
 gesture===gesture)return;this.past.push({value,gesture});if(this.past.length>MOST3)this.past.shift()}undo(value){const last=this.past.pop();if(!last)return null;
 this.future.push(value);return last.value}redo(value){const next=this.future.pop();if(next===void 0)return null;this.past.push({value,gesture:null});return next}abandon(gesture){
-if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop().value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
+if(this.past.at(-1)?.gesture!==gesture)return null;return this.past.pop()?.value}get canUndo(){return this.past.length>0}get canRedo(){return this.future.length>
 0}};var REST2=150;var MOST_REST=1e3;var MOST_FLYING=1;var MOST_SHOWN=6;var FEWEST=2;var QUICK=1.2;var NO_ANSWER={linkages:[],dyads:[],best:[],warnings:[],pivot_map:null,
 family_map:null,outcome:{message:"Two poses or more make a task"}};var PLACED2="placed";var kindOf=({poses,path:path2})=>`${poses.map(({free})=>free?.join("")??
 "-").join()} ${path2?path2.closed:""}`;var Store=class{solving;placing;solved;constructor({connection,document:document2,options={},name="task",settings={},mostFlying=MOST_FLYING}){
@@ -1532,10 +1533,10 @@ store.choose(this.answers.linkages[0]?.id??null)}buildTypes(){const types=[...ne
 types.querySelector("select");if(key===this.typesKey)return;this.typesKey=key;if(!types.includes(this.wanted.type))this.wanted.type="";select.replaceChildren(...[
 "",...types].map(type=>h("option",{value:type,selected:type===this.wanted.type},type||"any")));give(this.types,"hidden",types.length<2)}update(){const{answers,store}=this,
 {data,isOld,shown:shown2}=answers;for(const[linkage,card]of this.cards){card.show(linkage,{data,old:isOld&&linkage.id!==PLACED,chosen:linkage===shown2,pinned:store.
-pinned.has(linkage.id),compared:store.compared===linkage.id})}this.tell()}tell(){const{answers,store}=this,there=answers.linkages.filter(each=>!each.gone);const usable=there.
-filter(each=>each.usable).length;say(this.title,there.length?`${there.length} linkage${there.length===1?"":"s"}, ${usable} usable`:store.solved?"No linkage":"Li\
-nkages");put(this.status,"aria-live",store.state==="dragging"?"off":"polite");say(this.status,this.statusText());const uncertain=store.followed?.uncertain??[];say(
-this.doubt,store.followed&&answers.isOld?uncertain.length?`May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0])?"":"."}`:store.followed.complete===
+pinned.has(linkage.id),compared:store.compared===linkage.id})}this.tell()}tell(){const{answers,store}=this,there2=answers.linkages.filter(each=>!each.gone);const usable=there2.
+filter(each=>each.usable).length;say(this.title,there2.length?`${there2.length} linkage${there2.length===1?"":"s"}, ${usable} usable`:store.solved?"No linkage":
+"Linkages");put(this.status,"aria-live",store.state==="dragging"?"off":"polite");say(this.status,this.statusText());const uncertain=store.followed?.uncertain??[];
+say(this.doubt,store.followed&&answers.isOld?uncertain.length?`May change when you let go: ${uncertain[0]}${/[.!]$/.test(uncertain[0])?"":"."}`:store.followed.complete===
 false?"A linkage that appears now is seen when you let go.":"":"");say(this.gone,!answers.isOld&&answers.gone.length?`Not in the new answer: ${listed(answers.gone)}\
  of the one before.`:"");this.element.classList.toggle("bs-stale",answers.isOld)}statusText(){const{store,answers}=this,hidden=this.hidden?`${this.hidden} not s\
 hown by the filter. `:"";if(store.state==="offline")return"The connection is gone; what you see is the last answer.";if(answers.isOld&&store.state==="dragging")
@@ -1550,13 +1551,13 @@ tter lies near it."])}walk(event){const step={ArrowDown:1,ArrowRight:1,ArrowUp:-
 at=mains.indexOf(this.list.getRootNode().activeElement);if(!step||at<0)return;event.preventDefault();mains[clamp(at+step,0,mains.length-1)].focus()}};var nearIt=text=>text.
 replace(/^L\d+ changes/,"One changes");var sentence=text=>text?`${text[0].toUpperCase()}${text.slice(1)}.`:"";var WIDTH=440;var TURNING_SHARE=.35;function drawStill(canvas,scene,size2,turning){const share=turning?TURNING_SHARE:Math.min(1,WIDTH/size2.width);const width=Math.
 round(size2.width*share),height=Math.round(size2.height*share);canvas.width=width;canvas.height=height;if(!scene.quadrics.length)return;const context=canvas.getContext(
-"2d"),image=context.createImageData(width,height);cast(image,scene);context.putImageData(image,0,0)}function cast(image,{eye,ahead,right,up,reach,quadrics,paint,
-angles}){const{data,width,height}=image,[ex,ey,ez]=eye,[zc,zh,middleAngle,step]=angles;const lamp=unit(plus(plus(scaled(ahead,-1),scaled(up,.5)),scaled(right,-.6)));
-const far=new Float64Array(4),which=new Uint8Array(4);for(let j=0;j<height;j+=1){const v=(1-(2*j+1)/height)*reach[1];for(let i=0;i<width;i+=1){const u=((2*i+1)/
-width-1)*reach[0];let dx=ahead[0]+u*right[0]+v*up[0];let dy=ahead[1]+u*right[1]+v*up[1];let dz=ahead[2]+u*right[2]+v*up[2];const size2=1/Math.sqrt(dx*dx+dy*dy+dz*
-dz);dx*=size2;dy*=size2;dz*=size2;const x1=(-1-ex)/dx,x2=(1-ex)/dx,y1=(-1-ey)/dy,y2=(1-ey)/dy;const z1=(-1-ez)/dz,z2=(1-ez)/dz;const enter=Math.max(Math.min(x1,
-x2),Math.min(y1,y2),Math.min(z1,z2));const leave=Math.min(Math.max(x1,x2),Math.max(y1,y2),Math.max(z1,z2));if(!(enter<leave))continue;const middle2=(enter+leave)/
-2,half=(leave-enter)/2;const ox=ex+middle2*dx,oy=ey+middle2*dy,oz=ez+middle2*dz;let count=0;for(let k=0;k<quadrics.length;k+=1){const c=quadrics[k];const cx=c[0]*
+"2d");if(!context)return;const image=context.createImageData(width,height);cast(image,scene);context.putImageData(image,0,0)}function cast(image,{eye,ahead,right,
+up,reach,quadrics,paint,angles}){const{data,width,height}=image,[ex,ey,ez]=eye,[zc,zh,middleAngle,step]=angles;const lamp=unit(plus(plus(scaled(ahead,-1),scaled(
+up,.5)),scaled(right,-.6)));const far=new Float64Array(4),which=new Uint8Array(4);for(let j=0;j<height;j+=1){const v=(1-(2*j+1)/height)*reach[1];for(let i=0;i<width;i+=
+1){const u=((2*i+1)/width-1)*reach[0];let dx=ahead[0]+u*right[0]+v*up[0];let dy=ahead[1]+u*right[1]+v*up[1];let dz=ahead[2]+u*right[2]+v*up[2];const size2=1/Math.
+sqrt(dx*dx+dy*dy+dz*dz);dx*=size2;dy*=size2;dz*=size2;const x1=(-1-ex)/dx,x2=(1-ex)/dx,y1=(-1-ey)/dy,y2=(1-ey)/dy;const z1=(-1-ez)/dz,z2=(1-ez)/dz;const enter=Math.
+max(Math.min(x1,x2),Math.min(y1,y2),Math.min(z1,z2));const leave=Math.min(Math.max(x1,x2),Math.max(y1,y2),Math.max(z1,z2));if(!(enter<leave))continue;const middle2=(enter+
+leave)/2,half=(leave-enter)/2;const ox=ex+middle2*dx,oy=ey+middle2*dy,oz=ez+middle2*dz;let count=0;for(let k=0;k<quadrics.length;k+=1){const c=quadrics[k];const cx=c[0]*
 dx+c[1]*dy+c[2]*dz,cy=c[4]*dx+c[5]*dy+c[6]*dz;const cz=c[8]*dx+c[9]*dy+c[10]*dz,cw=c[12]*dx+c[13]*dy+c[14]*dz;const a=dx*cx+dy*cy+dz*cz,b=ox*cx+oy*cy+oz*cz+cw;const e=ox*
 (c[0]*ox+2*(c[1]*oy+c[2]*oz+c[3]))+oy*(c[5]*oy+2*(c[6]*oz+c[7]))+oz*(c[10]*oz+2*c[11])+c[15];const root=b*b-a*e;if(root<0)continue;const q=-(b+(b<0?-1:1)*Math.sqrt(
 root));for(let side=0;side<2;side+=1){const t=side?e/q:q/a;if(!(Math.abs(t)<=half))continue;let at2=count;while(at2>0&&far[at2-1]>t){far[at2]=far[at2-1];which[at2]=
@@ -1706,12 +1707,12 @@ xt-anchor":"end"},text)]})}motions(){return this.curves.flatMap(({here,points})=
 if(!inside(p)||k&&Math.hypot(...plus(p,scaled(points[k-1],-1)))>.6)last=null;if(!inside(p))continue;const at=this.project(p),hidden=this.sheetsBefore(p)>0?1:0;if(last)
 paths[hidden]+=`M${last.map(px).join(" ")}L${at.map(px).join(" ")}`;last=at}const kind=here?"bm-here":"bm-other";return[s("path",{class:`bm-motion bm-hidden ${kind}`,
 d:paths[1]}),s("path",{class:`bm-motion ${kind}`,d:paths[0]})]})}images(){const{svg,data}=this;const labels=new Labels({width:this.width,height:this.height});const shown2=this.
-poses.map((point2,k)=>({point:point2,k})).filter(({point:point2})=>point2&&inside(point2));for(const{point:point2}of shown2)labels.block(...this.project(point2),
-10,10);for(const{point:point2,k}of shown2){const[x,y]=this.project(point2),hidden=this.sheetsBefore(point2)>0;svg.append(s("circle",{class:`bm-image-point${hidden?
-" bm-hidden":""}`,cx:px(x),cy:px(y),r:4}));if(shown2.length<=MANY_POSES3&&isNamed(data,k))svg.append(labels.put(x,y,data.poses[k].label,12,{class:"bm-image-name"}))}}hide(){
-this.place=null;this.runner.setAttribute("visibility","hidden")}show(place){this.place=place;const point2=this.point(place);const inside2=point2.every(value=>Math.
-abs(value)<=1.02);this.runner.setAttribute("visibility",inside2?"visible":"hidden");if(!inside2)return;const[x,y]=this.project(point2);this.runner.setAttribute(
-"transform",`translate(${px(x)} ${px(y)})`)}};function coefficients(dyad,{origin,angle,length}){const c=Math.cos(angle),d=Math.sin(angle);const hand=dyad.moving_pivot&&[(c*dyad.moving_pivot[0]-d*dyad.moving_pivot[1])/
+poses.map((point2,k)=>({point:point2,k})).filter(({point:point2})=>point2&&inside(point2));for(const{point:point2}of shown2){const[x,y]=this.project(point2);labels.
+block(x,y,10,10)}for(const{point:point2,k}of shown2){const[x,y]=this.project(point2),hidden=this.sheetsBefore(point2)>0;svg.append(s("circle",{class:`bm-image-p\
+oint${hidden?" bm-hidden":""}`,cx:px(x),cy:px(y),r:4}));if(shown2.length<=MANY_POSES3&&isNamed(data,k))svg.append(labels.put(x,y,data.poses[k].label,12,{class:"\
+bm-image-name"}))}}hide(){this.place=null;this.runner.setAttribute("visibility","hidden")}show(place){this.place=place;const point2=this.point(place);const inside2=point2.
+every(value=>Math.abs(value)<=1.02);this.runner.setAttribute("visibility",inside2?"visible":"hidden");if(!inside2)return;const[x,y]=this.project(point2);this.runner.
+setAttribute("transform",`translate(${px(x)} ${px(y)})`)}};function coefficients(dyad,{origin,angle,length}){const c=Math.cos(angle),d=Math.sin(angle);const hand=dyad.moving_pivot&&[(c*dyad.moving_pivot[0]-d*dyad.moving_pivot[1])/
 length,(d*dyad.moving_pivot[0]+c*dyad.moving_pivot[1])/length];const foot2=dyad.fixed_pivot&&dyad.fixed_pivot.map((value,k)=>(value-origin[k])/length);if(dyad.kind===
 "RR"){const[x,y]=hand,[xc,yc]=foot2,squared=(dyad.radius/length)**2/4;const s1=-(x+xc)/2,s2=-(y+yc)/2,t1=-(y-yc)/2,t2=(x-xc)/2;return[1,s1*s1+s2*s2-squared,2*s1,
 2*s2,2*t1,2*t2,2*(s1*t1+s2*t2),t1*t1+t2*t2-squared]}const normal=radians(dyad.line.normal_deg);if(dyad.kind==="PR"){const n=[Math.cos(normal),Math.sin(normal)];

@@ -44,10 +44,10 @@ function figure(value) {
   if (value === null || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   if (Math.abs(value) >= 99.5 && Math.abs(value) < 1e6) return value.toFixed(0);
-  const rounded = value.toExponential(1), [digits, power] = rounded.split("e");
+  const rounded = value.toExponential(1), [digits, power] = rounded.split("e").map(Number);
   if (power >= -4 && power < 2) return String(Number(rounded));
-  if (power > 0) return `${Number(digits)}e${Number(power)}`;
-  return `${Number(digits)}e-${String(-power).padStart(2, "0")}`;
+  if (power > 0) return `${digits}e${power}`;
+  return `${digits}e-${String(-power).padStart(2, "0")}`;
 }
 function ticks(low, high, about) {
   const rough = (high - low) / Math.max(1, about);
@@ -287,7 +287,7 @@ function catmullRom(values, i, share, round) {
   return q + share / 2 * (r - p + share * (2 * p - 5 * q + 4 * r - t + share * (3 * (q - r) + t - p)));
 }
 function placeAt(linkage, way, u, length) {
-  if (way.joints) return placeOfJoints(linkage, way, u);
+  if (way.joints) return placeOfJoints(linkage, way, way.joints, u);
   const stop = linkage.pose_errors.find((row) => row.at === way && Math.abs(row.frame - u) < 1e-6);
   if (stop) return { x: stop.x, y: stop.y, a: radians(stop.angle_deg) };
   const i = clamp(Math.floor(u), 0, way.x.length - 2), share = u - i;
@@ -298,9 +298,9 @@ function placeAt(linkage, way, u, length) {
   };
   return project(linkage.led, place, length);
 }
-function placeOfJoints({ ground }, way, u) {
+function placeOfJoints({ ground }, way, moving, u) {
   const at = (values) => smooth(values, u), joints = { ...ground };
-  for (const [name, [x, y]] of Object.entries(way.joints)) joints[name] = [at(x), at(y)];
+  for (const [name, [x, y]] of Object.entries(moving)) joints[name] = [at(x), at(y)];
   return { x: at(way.x), y: at(way.y), a: at(way.angle), joints };
 }
 function smooth(values, u) {
@@ -315,11 +315,13 @@ function smooth(values, u) {
 }
 function linear(values, u) {
   const i = clamp(Math.floor(u), 0, values.length - 2), share = u - i;
-  if (values[i] === null || values[i + 1] === null) return null;
-  const value = values[i] + share * (values[i + 1] - values[i]);
+  const before = values[i], after = values[i + 1];
+  if (before === null || after === null) return null;
+  const value = before + share * (after - before);
   return Number.isNaN(value) ? null : value;
 }
 function valueAt({ x, y, stems = false }, at) {
+  if (at === null) return null;
   const here = x.findIndex((each) => Math.abs(each - at) < 1e-6);
   if (here >= 0) return y[here];
   return stems || !(at > x[0] && at < x[x.length - 1]) ? null : linear(y, frameAt(x, at));
@@ -778,13 +780,16 @@ function dyadOfThree(poses, pivot) {
 
 // src/burmester/web/widget/labels.mjs
 var Labels = class {
+  /** @param {{ width: number, height: number }} view */
   constructor(view) {
     this.view = view;
     this.taken = [];
   }
+  /** @param {number} x @param {number} y @param {number} width @param {number} height */
   block(x, y, width, height) {
     this.taken.push([x - width / 2, y - height / 2, x + width / 2, y + height / 2]);
   }
+  /** @param {number} x @param {number} y @param {string} text @param {number} distance @param {Record<string, any>} [attributes] */
   put(x, y, text, distance, attributes) {
     const width = 7.2 * text.length + 4, height = 14;
     let best = { cost: Infinity, cx: 0, cy: 0, box: [0, 0, 0, 0] };
@@ -1032,7 +1037,7 @@ var FamilyMap = class {
     const out = s("g", {}), labels = new Labels(this.view);
     for (const pose of this.data.poses) {
       const at = this.pixel([pose.x, pose.y]);
-      out.append(s("path", { class: "bm-cross", d: `M${at[0] - 4} ${at[1]}h8M${at[0]} ${at[1] - 4}v8` }), labels.put(...at, pose.label, 10, { class: "bm-map-name" }));
+      out.append(s("path", { class: "bm-cross", d: `M${at[0] - 4} ${at[1]}h8M${at[0]} ${at[1] - 4}v8` }), labels.put(at[0], at[1], pose.label, 10, { class: "bm-map-name" }));
     }
     for (const pole of this.map.poles) {
       const [x, y] = this.pixel(pole);
@@ -1040,7 +1045,7 @@ var FamilyMap = class {
     }
     if (this.map.chosen.fixed) {
       const at = this.pixel(this.map.chosen.fixed);
-      out.append(s("circle", { class: "bm-its-pivot bm-side0", cx: at[0], cy: at[1], r: 6 }), labels.put(...at, this.map.chosen.id, 12, { class: "bm-map-name" }));
+      out.append(s("circle", { class: "bm-its-pivot bm-side0", cx: at[0], cy: at[1], r: 6 }), labels.put(at[0], at[1], this.map.chosen.id, 12, { class: "bm-map-name" }));
     }
     return out;
   }
@@ -1186,7 +1191,9 @@ function drawStill(canvas, scene, size, turning) {
   canvas.width = width;
   canvas.height = height;
   if (!scene.quadrics.length) return;
-  const context = canvas.getContext("2d"), image = context.createImageData(width, height);
+  const context = canvas.getContext("2d");
+  if (!context) return;
+  const image = context.createImageData(width, height);
   cast(image, scene);
   context.putImageData(image, 0, 0);
 }
@@ -1685,7 +1692,10 @@ var ImageSpace = class {
     const { svg, data } = this;
     const labels = new Labels({ width: this.width, height: this.height });
     const shown = this.poses.map((point, k) => ({ point, k })).filter(({ point }) => point && inside(point));
-    for (const { point } of shown) labels.block(...this.project(point), 10, 10);
+    for (const { point } of shown) {
+      const [x, y] = this.project(point);
+      labels.block(x, y, 10, 10);
+    }
     for (const { point, k } of shown) {
       const [x, y] = this.project(point), hidden = this.sheetsBefore(point) > 0;
       svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));
@@ -3113,18 +3123,19 @@ function icon(pause) {
 // src/burmester/web/widget/printing.mjs
 function unfoldForPrint(root, signal) {
   window.addEventListener("beforeprint", () => {
-    for (const part of root.querySelectorAll("details:not([open])")) {
+    for (const part of detailsOf(root, ":not([open])")) {
       part.open = true;
       part.dataset.opened = "";
     }
   }, { signal });
   window.addEventListener("afterprint", () => {
-    for (const part of root.querySelectorAll("details[data-opened]")) {
+    for (const part of detailsOf(root, "[data-opened]")) {
       part.open = false;
       delete part.dataset.opened;
     }
   }, { signal });
 }
+var detailsOf = (root, which) => root.querySelectorAll(`details${which}`);
 
 // src/burmester/web/widget/report.mjs
 var REDUCED_MOTION = "(prefers-reduced-motion: reduce)";

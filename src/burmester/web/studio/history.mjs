@@ -5,11 +5,12 @@ const MOST = 500; // entries that are kept
 /** Values before and after each change.  A value is never changed in place, so an entry costs what it changed. */
 export class History {
   constructor() {
-    this.past = []; // { value, gesture }: the value before that gesture
-    this.future = [];
+    /** @type {{ value: any, gesture: unknown }[]} */ this.past = []; // the value before each gesture
+    /** @type {any[]} */ this.future = [];
   }
 
-  /** Keep the value that a change is about to replace; edits of one gesture are one entry. */
+  /** Keep the value that a change is about to replace; edits of one gesture are one entry.
+   * @param {any} value @param {unknown} gesture */
   record(value, gesture) {
     this.future = [];
     const last = this.past.at(-1);
@@ -18,7 +19,8 @@ export class History {
     if (this.past.length > MOST) this.past.shift();
   }
 
-  /** The value before the last gesture, or null. */
+  /** The value before the last gesture, or null.
+   * @param {any} value */
   undo(value) {
     const last = this.past.pop();
     if (!last) return null;
@@ -26,7 +28,8 @@ export class History {
     return last.value;
   }
 
-  /** The value that the last undo took away, or null. */
+  /** The value that the last undo took away, or null.
+   * @param {any} value */
   redo(value) {
     const next = this.future.pop();
     if (next === undefined) return null;
@@ -34,10 +37,11 @@ export class History {
     return next;
   }
 
-  /** The value before a gesture that is given up, which leaves no entry; or null. */
+  /** The value before a gesture that is given up, which leaves no entry; or null.
+   * @param {unknown} gesture */
   abandon(gesture) {
     if (this.past.at(-1)?.gesture !== gesture) return null;
-    return this.past.pop().value;
+    return this.past.pop()?.value;
   }
 
   get canUndo() {

@@ -1,6 +1,7 @@
 // Which linkages are shown, and in which order: pure functions over what is known of them.
 
-/** What cards are sorted by: the name, and a number that is the smaller the better. */
+/** What cards are sorted by: the name, and a number that is the smaller the better.
+ * @type {Record<string, { name: string, of: (linkage: any) => number }>} */
 export const ORDERS = {
   rank: { name: "best first", of: (linkage) => linkage.rank ?? Infinity },
   worst: { name: "worst miss", of: (linkage) => linkage.worst ?? Infinity },
@@ -9,7 +10,8 @@ export const ORDERS = {
   sensitivity: { name: "sensitivity", of: (linkage) => linkage.quality?.sensitivity ?? Infinity },
 };
 
-/** Which of them are shown: the name, and whether one is; `pinned` is a set of ids. */
+/** Which of them are shown: the name, and whether one is; `pinned` is a set of ids.
+ * @type {Record<string, { name: string, holds: (linkage: any, pinned: Set<string>) => boolean }>} */
 export const FILTERS = {
   all: { name: "all", holds: () => true },
   usable: { name: "usable", holds: (linkage) => linkage.usable },
@@ -17,7 +19,7 @@ export const FILTERS = {
 };
 
 /** The linkages to show, pinned ones first; equal ones keep their order.
- * @param {object[]} linkages @param {{ order: string, filter: string, type: string, pinned: Set<string> }} wanted */
+ * @param {any[]} linkages @param {{ order: string, filter: string, type: string, pinned: Set<string> }} wanted */
 export function arranged(linkages, { order, filter, type, pinned }) {
   const { of } = ORDERS[order], { holds } = FILTERS[filter];
   return linkages

@@ -39,7 +39,7 @@ export function drivenByOther(linkage, length) {
   }
   const pose_errors = linkage.pose_errors.map((row, k) => ({
     ...row, way: places[k]?.[0] ?? null, frame: places[k]?.[1] ?? null, at: places[k] ? ways[places[k][0]] : null,
-    transmission_deg: row.x === null ? null : transmissionOf(...led, { x: row.x, y: row.y, a: (row.angle_deg * Math.PI) / 180 }),
+    transmission_deg: row.x === null ? null : transmissionOf(led[0], led[1], { x: row.x, y: row.y, a: (row.angle_deg * Math.PI) / 180 }),
   }));
   return { ...linkage, led, loads: null, ways, pose_errors }; // what the other driver bears is not known
 }
@@ -151,7 +151,7 @@ function wayOf(linkage, led, piece, chain, length) {
     circuit: chain.circuit, round: piece.round, dead: falls ? [...piece.dead].reverse() : piece.dead, poses: /** @type {number[]} */ ([]), falls,
     drive: drive.map((value) => (slides ? value : degrees(value - turns))),
     x: places.map(({ x }) => x), y: places.map(({ y }) => y), angle: places.map(({ a }) => a),
-    transmission: places.map((place) => transmissionOf(...led, place)),
+    transmission: places.map((place) => transmissionOf(led[0], led[1], place)),
   };
 }
 

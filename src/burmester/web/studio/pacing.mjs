@@ -36,34 +36,42 @@ export class Pace {
   }
 }
 
+/** @type {WeakMap<Element, unknown[]>} */
 const shown = new WeakMap();
 
-/** Whether an element shows other facts than at the last call: what shows the same ones need not be drawn again. */
+/** Whether an element shows other facts than at the last call: what shows the same ones need not be drawn again.
+ * @param {Element} element @param {unknown[]} facts */
 export function isOther(element, facts) {
   const before = shown.get(element);
   shown.set(element, facts);
   return before?.length !== facts.length || facts.some((fact, k) => !Object.is(fact, before[k]));
 }
 
+/** @type {WeakMap<Element, boolean>} */
 const sights = new WeakMap(); // whether an element is in the window, as the browser tells: asking it costs a layout
+/** @type {WeakMap<Element, () => void>} */
 const callers = new WeakMap();
+/** @type {IntersectionObserver | null} */
 let observer = null;
 
-/** Watch whether an element can be seen: not folded away, and within the window; `fn` is called when it comes into sight. */
+/** Watch whether an element can be seen: not folded away, and within the window; `fn` is called when it comes into sight.
+ * @param {Element} element @param {() => void} fn */
 export function watch(element, fn) {
   observer ??= new IntersectionObserver((entries) => {
     for (const { target, isIntersecting } of entries) {
       sights.set(target, isIntersecting);
-      if (isIntersecting) callers.get(target)();
+      if (isIntersecting) callers.get(target)?.();
     }
   });
   callers.set(element, fn);
   observer.observe(element);
 }
 
-/** Whether an element that is watched can be seen, in the window or on paper. */
+/** Whether an element that is watched can be seen, in the window or on paper.
+ * @param {Element} element */
 export const isSeen = (element) => printing || sights.get(element) === true;
 
+/** @type {Set<Pace>} */
 const paces = new Set();
 let printing = false;
 

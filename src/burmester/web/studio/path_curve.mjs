@@ -45,7 +45,7 @@ export function resampled(stroke, { meets, apart, smooth = 0 }) {
   const closed = gap < Math.max(meets, SHARE * size) && length > 3 * gap + size;
   const line = closed ? [...stroke, stroke[0]] : stroke, along = [0];
   for (let k = 1; k < line.length; k += 1) along.push(along[k - 1] + Math.hypot(line[k][0] - line[k - 1][0], line[k][1] - line[k - 1][1]));
-  const whole = along[along.length - 1], count = clamp(Math.round(whole / apart), ...POINTS);
+  const whole = along[along.length - 1], count = clamp(Math.round(whole / apart), POINTS[0], POINTS[1]);
   const at = (wanted) => {
     const u = closed ? ((wanted % whole) + whole) % whole : clamp(wanted, 0, whole);
     let k = 1;

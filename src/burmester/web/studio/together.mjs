@@ -1,6 +1,9 @@
 // Two linkages at the same stage of their motion: between the same two poses, at the same share of the way.
 
-/** The poses of a way in their order along it: { k, frame } each. */
+/** @typedef {import("../widget/types").Moved} Moved @typedef {import("../widget/types").AtPose} AtPose */
+
+/** The poses of a way in their order along it: { k, frame } each.
+ * @param {Moved} linkage @param {number} index */
 const stopsOf = (linkage, index) =>
   linkage.pose_errors.map((row, k) => ({ k, way: row.way, frame: row.frame })).filter((stop) => stop.way === index).sort((a, b) => a.frame - b.frame);
 
@@ -8,6 +11,7 @@ const stopsOf = (linkage, index) =>
  *
  * Before the first pose and behind the last one the share is outside, in steps between these two, but no farther
  * than one of them.
+ * @param {Moved} linkage @param {number} index @param {number} u
  * @returns {{ from: number, to: number, share: number } | null} */
 export function stageOf(linkage, index, u) {
   const stops = stopsOf(linkage, index);
@@ -20,14 +24,17 @@ export function stageOf(linkage, index, u) {
   return { from: a.k, to: b.k, share: Math.min(Math.max(share, -1), 2) };
 }
 
+/** @param {AtPose} row @returns {row is AtPose & { way: number }} */
+const there = (row) => Boolean(row) && row.way !== null;
+
 /** The way and the frame at which a linkage is at a stage; null where it reaches neither of the poses.
  *
  * Where the poses are on different ways, it stands at the nearer one of them.
+ * @param {Moved} linkage @param {{ from: number, to: number, share: number } | null} stage
  * @returns {{ way: number, u: number } | null} */
 export function frameAtStage(linkage, stage) {
   if (!stage) return null;
   const [a, b] = [stage.from, stage.to].map((k) => linkage.pose_errors[k]);
-  const there = (row) => Boolean(row) && row.way !== null;
   if (!there(a) || !there(b) || a.way !== b.way) {
     const [near, other] = stage.share < 0.5 ? [a, b] : [b, a];
     const row = there(near) ? near : there(other) ? other : null;

@@ -172,7 +172,7 @@ export class FamilyMap {
     const out = s("g", {}), labels = new Labels(this.view);
     for (const pose of this.data.poses) {
       const at = this.pixel([pose.x, pose.y]);
-      out.append(s("path", { class: "bm-cross", d: `M${at[0] - 4} ${at[1]}h8M${at[0]} ${at[1] - 4}v8` }), labels.put(...at, pose.label, 10, { class: "bm-map-name" }));
+      out.append(s("path", { class: "bm-cross", d: `M${at[0] - 4} ${at[1]}h8M${at[0]} ${at[1] - 4}v8` }), labels.put(at[0], at[1], pose.label, 10, { class: "bm-map-name" }));
     }
     for (const pole of this.map.poles) {
       const [x, y] = this.pixel(pole);
@@ -180,7 +180,7 @@ export class FamilyMap {
     }
     if (this.map.chosen.fixed) {
       const at = this.pixel(this.map.chosen.fixed);
-      out.append(s("circle", { class: "bm-its-pivot bm-side0", cx: at[0], cy: at[1], r: 6 }), labels.put(...at, this.map.chosen.id, 12, { class: "bm-map-name" }));
+      out.append(s("circle", { class: "bm-its-pivot bm-side0", cx: at[0], cy: at[1], r: 6 }), labels.put(at[0], at[1], this.map.chosen.id, 12, { class: "bm-map-name" }));
     }
     return out;
   }

@@ -269,7 +269,10 @@ export class ImageSpace {
     const { svg, data } = this;
     const labels = new Labels({ width: this.width, height: this.height });
     const shown = this.poses.map((point, k) => ({ point, k })).filter(({ point }) => point && inside(point));
-    for (const { point } of shown) labels.block(...this.project(point), 10, 10);
+    for (const { point } of shown) {
+      const [x, y] = this.project(point);
+      labels.block(x, y, 10, 10);
+    }
     for (const { point, k } of shown) {
       const [x, y] = this.project(point), hidden = this.sheetsBefore(point) > 0;
       svg.append(s("circle", { class: `bm-image-point${hidden ? " bm-hidden" : ""}`, cx: px(x), cy: px(y), r: 4 }));

@@ -5,27 +5,32 @@
 
 import { clamp, radians } from "./numbers.mjs";
 
+/** @typedef {import("./types").Dyad} Dyad @typedef {import("./types").Place} Place
+ * @typedef {import("./types").Values} Values @typedef {import("./types").Way} Way */
+
 /** A point of M, seen in F.
- * @param {import("./types").Place} place @param {number[]} point */
+ * @param {Place} place @param {number[]} point */
 export function act(place, [x, y]) {
   const c = Math.cos(place.a), d = Math.sin(place.a);
   return [place.x + c * x - d * y, place.y + d * x + c * y];
 }
 
 /** A point of F, seen in M.
- * @param {import("./types").Place} place @param {number[]} point */
+ * @param {Place} place @param {number[]} point */
 export function back(place, [x, y]) {
   const c = Math.cos(place.a), d = Math.sin(place.a);
   return [c * (x - place.x) + d * (y - place.y), -d * (x - place.x) + c * (y - place.y)];
 }
 
-/** The unit normal of a slider's line. */
+/** The unit normal of a slider's line.
+ * @param {Dyad} dyad */
 export const normalOf = (dyad) => {
   const angle = radians(dyad.line.normal_deg);
   return [Math.cos(angle), Math.sin(angle)];
 };
 
-/** The constraint of a dyad at a place: its residual, and the derivatives by x, y and the angle. */
+/** The constraint of a dyad at a place: its residual, and the derivatives by x, y and the angle.
+ * @param {Dyad} dyad @param {Place} place */
 function constraint(dyad, place) {
   if (dyad.kind === "PP") {
     const away = place.a - radians(dyad.angle_deg);
@@ -51,10 +56,13 @@ function constraint(dyad, place) {
   return [residual, nx, ny, (x - place.x) * ny - (y - place.y) * nx];
 }
 
-/** The derivatives of a dyad's constraint by x, y and the angle: the force that it can bear. */
+/** The derivatives of a dyad's constraint by x, y and the angle: the force that it can bear.
+ * @param {Dyad} dyad @param {Place} place */
 export const gradient = (dyad, place) => constraint(dyad, place).slice(1);
 
-/** The nearest place of a linkage, by Newton steps of least norm; `length` weighs the angle. */
+/** The nearest place of a linkage, by Newton steps of least norm; `length` weighs the angle.
+ * @param {Dyad[]} dyads @param {Place} place @param {number} length
+ * @returns {Place} */
 export function project(dyads, place, length) {
   let { x, y, a } = place;
   for (let step = 0; step < 4; step += 1) {
@@ -76,10 +84,11 @@ export function project(dyads, place, length) {
   return { x, y, a };
 }
 
-/** Values between frames i and i + 1 by Catmull and Rom's cubic; `round`: the last frame is the first. */
+/** Values between frames i and i + 1 by Catmull and Rom's cubic; `round`: the last frame is the first.
+ * @param {Values} values @param {number} i @param {number} share @param {boolean} round */
 export function catmullRom(values, i, share, round) {
   const last = values.length - 1;
-  const at = (k) => {
+  const at = (/** @type {number} */ k) => {
     if (k >= 0 && k <= last) return values[k];
     if (!round) return k < 0 ? 2 * values[0] - values[-k] : 2 * values[last] - values[2 * last - k];
     const wrap = k < 0 ? k + last : k - last; // a turn of the angle is kept
@@ -89,9 +98,11 @@ export function catmullRom(values, i, share, round) {
   return q + (share / 2) * (r - p + share * (2 * p - 5 * q + 4 * r - t + share * (3 * (q - r) + t - p)));
 }
 
-/** The place of the coupler at frame u of a branch, which may be a fraction; exactly on the linkage. */
+/** The place of the coupler at frame u of a branch, which may be a fraction; exactly on the linkage.
+ * @param {import("./types").Moved} linkage @param {Way} way @param {number} u @param {number} length
+ * @returns {Place} */
 export function placeAt(linkage, way, u, length) {
-  if (way.joints) return placeOfJoints(linkage, way, u);
+  if (way.joints) return placeOfJoints(linkage, way, way.joints, u);
   const stop = linkage.pose_errors.find((row) => row.at === way && Math.abs(row.frame - u) < 1e-6);
   if (stop) return { x: stop.x, y: stop.y, a: radians(stop.angle_deg) };
   const i = clamp(Math.floor(u), 0, way.x.length - 2), share = u - i;
@@ -103,14 +114,17 @@ export function placeAt(linkage, way, u, length) {
   return project(linkage.led, place, length);
 }
 
-/** The same with all joints, of a branch that has these: a polynomial goes through the six frames around u. */
-function placeOfJoints({ ground }, way, u) {
-  const at = (values) => smooth(values, u), joints = { ...ground };
-  for (const [name, [x, y]] of Object.entries(way.joints)) joints[name] = [at(x), at(y)];
+/** The same with all joints, of a branch that has these: a polynomial goes through the six frames around u.
+ * @param {import("./types").Moved} linkage @param {Way} way @param {Record<string, [Values, Values]>} moving @param {number} u
+ * @returns {Place} */
+function placeOfJoints({ ground }, way, moving, u) {
+  const at = (/** @type {Values} */ values) => smooth(values, u), joints = { ...ground };
+  for (const [name, [x, y]] of Object.entries(moving)) joints[name] = [at(x), at(y)];
   return { x: at(way.x), y: at(way.y), a: at(way.angle), joints };
 }
 
-/** A value at frame u of the polynomial through the six frames around it. */
+/** A value at frame u of the polynomial through the six frames around it.
+ * @param {Values} values @param {number} u */
 export function smooth(values, u) {
   const count = Math.min(6, values.length), first = clamp(Math.floor(u) - 2, 0, values.length - count);
   let sum = 0;
@@ -122,22 +136,27 @@ export function smooth(values, u) {
   return sum;
 }
 
-/** A value at frame u, linear between frames; null beside a value that is missing. */
+/** A value at frame u, linear between frames; null beside a value that is missing.
+ * @param {ArrayLike<number | null>} values @param {number} u */
 export function linear(values, u) {
   const i = clamp(Math.floor(u), 0, values.length - 2), share = u - i;
-  if (values[i] === null || values[i + 1] === null) return null;
-  const value = values[i] + share * (values[i + 1] - values[i]);
+  const before = values[i], after = values[i + 1];
+  if (before === null || after === null) return null;
+  const value = before + share * (after - before);
   return Number.isNaN(value) ? null : value;
 }
 
-/** The value of a curve { x, y } at a place along x; null beyond its ends, and of single points between them. */
+/** The value of a curve { x, y } at a place along x; null beyond its ends, and of single points between them.
+ * @param {{ x: number[], y: (number | null)[], stems?: boolean }} curve @param {number | null} at */
 export function valueAt({ x, y, stems = false }, at) {
+  if (at === null) return null;
   const here = x.findIndex((each) => Math.abs(each - at) < 1e-6);
   if (here >= 0) return y[here];
   return stems || !(at > x[0] && at < x[x.length - 1]) ? null : linear(y, frameAt(x, at));
 }
 
-/** The frame at which rising values reach `wanted`. */
+/** The frame at which rising values reach `wanted`.
+ * @param {Values} values @param {number} wanted */
 export function frameAt(values, wanted) {
   let low = 0, high = values.length - 1;
   if (wanted <= values[low]) return low;

@@ -5,15 +5,18 @@ import { px } from "./numbers.mjs";
 
 /** Each label goes to the one of 48 places around its point where it overlaps least with the rest. */
 export class Labels {
+  /** @param {{ width: number, height: number }} view */
   constructor(view) {
     this.view = view;
-    this.taken = [];
+    /** @type {number[][]} */ this.taken = [];
   }
 
+  /** @param {number} x @param {number} y @param {number} width @param {number} height */
   block(x, y, width, height) {
     this.taken.push([x - width / 2, y - height / 2, x + width / 2, y + height / 2]);
   }
 
+  /** @param {number} x @param {number} y @param {string} text @param {number} distance @param {Record<string, any>} [attributes] */
   put(x, y, text, distance, attributes) {
     const width = 7.2 * text.length + 4, height = 14;
     let best = { cost: Infinity, cx: 0, cy: 0, box: [0, 0, 0, 0] };

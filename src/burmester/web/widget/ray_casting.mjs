@@ -3,22 +3,29 @@
 import { clamp } from "./numbers.mjs";
 import { plus, scaled, unit } from "./vectors.mjs";
 
+/** @typedef {import("./types").Vector} Vector
+ * @typedef {{ eye: Vector, ahead: Vector, right: Vector, up: Vector, reach: Vector, quadrics: Vector[], paint: Vector[], angles: Vector }} Scene */
+
 const WIDTH = 440; // pixels of a picture at rest, at most; the canvas stretches it
 const TURNING_SHARE = 0.35; // of the pixels along a side while it turns
 
-/** Draw a scene, as `sceneOf` in image_space.mjs describes it, on a canvas of a size in pixels. */
+/** Draw a scene, as `sceneOf` in image_space.mjs describes it, on a canvas of a size in pixels.
+ * @param {HTMLCanvasElement} canvas @param {Scene} scene @param {{ width: number, height: number }} size @param {boolean} turning */
 export function drawStill(canvas, scene, size, turning) {
   const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size.width);
   const width = Math.round(size.width * share), height = Math.round(size.height * share);
   canvas.width = width;
   canvas.height = height;
   if (!scene.quadrics.length) return;
-  const context = canvas.getContext("2d"), image = context.createImageData(width, height);
+  const context = canvas.getContext("2d");
+  if (!context) return;
+  const image = context.createImageData(width, height);
   cast(image, scene);
   context.putImageData(image, 0, 0);
 }
 
-/** Colours of all pixels of an image.  The loop allocates nothing: it runs for every pixel. */
+/** Colours of all pixels of an image.  The loop allocates nothing: it runs for every pixel.
+ * @param {ImageData} image @param {Scene} scene */
 function cast(image, { eye, ahead, right, up, reach, quadrics, paint, angles }) {
   const { data, width, height } = image, [ex, ey, ez] = eye, [zc, zh, middleAngle, step] = angles;
   const lamp = unit(plus(plus(scaled(ahead, -1), scaled(up, 0.5)), scaled(right, -0.6)));
