@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from burmester.cli.options import POSES, Sectioned, read_poses, with_options
+from burmester.cli.options import POSES, SPECIFICATION, Sectioned, read_poses, with_options
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 LIST_HELP = """\b
@@ -17,8 +17,9 @@ BOX     X,Y:X,Y, two corners in the unit of the poses"""
 
 
 @click.command(cls=Sectioned, epilog=LIST_HELP)
-@with_options(POSES)
-@click.option("--springs", metavar="LIST", help="The springs; by default usual gas springs.")
+@with_options(POSES, SPECIFICATION)
+@click.option("--springs", metavar="LIST", help="The springs; by default usual sizes.")
+@click.option("--pairs", is_flag=True, help="Two of each spring, one on either side.")
 @click.option("--ground", metavar="BOX", help="Where the spring may attach on the ground.")
 @click.option("--on-body", metavar="BOX", help="Where it may attach on the body, in its frame.")
 @click.option("--with-linkage", is_flag=True, help="Move pivots too, within what is asked.")
@@ -29,6 +30,7 @@ def balance(
     poses: str,
     *,
     springs: str | None,
+    pairs: bool,
     ground: str | None,
     on_body: str | None,
     with_linkage: bool,
@@ -45,7 +47,7 @@ def balance(
     from burmester.cli.progress_line import working
     from burmester.io import files
     from burmester.io.balance_table import balance_data, corners_of, show_balance
-    from burmester.io.spring_list import springs_of_file, usual_springs
+    from burmester.io.spring_list import in_pairs, springs_of_file, usual_springs
     from burmester.live.document import document_of, task_file
     from burmester.synthesis.balanced import BalanceRegions
     from burmester.synthesis.balanced import balance as balanced
@@ -57,6 +59,8 @@ def balance(
         offers = usual_springs(task.length_unit or "mm") if springs is None else (
             springs_of_file(springs)
         )  # fmt: skip
+        if pairs:
+            offers = in_pairs(offers)
         regions = BalanceRegions(corners_of("--ground", ground), corners_of("--on-body", on_body))
         answer, found = balanced(task, offers, regions, with_linkage=with_linkage)
     if file is not None and found:

@@ -170,7 +170,7 @@ def _sane(
         least, most = np.minimum(least, each), np.maximum(most, each)
     keep = (slack * least >= asked[SHORTEST_LINK]) & (most <= slack * asked[LONGEST_LINK])
     if len(links) == FOUR:
-        keep &= most <= slack * asked[LINK_RATIO] * least
+        keep &= most <= slack * asked.get(LINK_RATIO, np.inf) * least
     if same:
         np.fill_diagonal(keep, val=False)
     return np.asarray(keep)

@@ -139,14 +139,14 @@ def show_balance(
         [
             each.found.id,
             each.offer.name,
-            _point(each.spring.ends[0].point),
-            _point(each.spring.ends[1].point),
+            _point(each.spring.ends[0].point)[1:-1],
+            _point(each.spring.ends[1].point)[1:-1],
             f"{each.worst:.3g}",
             "yes" if each.keeps else "no",
         ]
         for each in found[:SHOWN]
     ]
-    heads = ["", "spring", "ground", "body", f"most {unit}", "keeps all"]
+    heads = ["", "spring", "ground", "body", f"most {unit}", "kept"]
     console.print()
     console.print(table_of(heads, rows, "Springs, the best first", left=2))
     console.print(Text(

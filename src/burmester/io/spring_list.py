@@ -11,7 +11,7 @@ E101 the list cannot be read    E177 a spring that is none
 from __future__ import annotations
 
 import csv
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib import resources
 
 import numpy as np
@@ -22,31 +22,73 @@ from burmester.tasks.length_units import MILLIMETRES
 from burmester.tasks.loads import NEEDED, POSSIBLE, malformed
 from burmester.wording import listed
 
-WORDS = ("name", "kind", "count")
+DIAMETER = "diameter"  # the column of how wide springs are
 
 
 def usual_springs(unit: str) -> list[Offer]:
-    """The gas springs that ship, each size filled to forces in steps of 50 N; unit: of lengths."""
-    file = resources.files("burmester") / "loads" / "gas_springs.csv"
-    scale, out = 1 / MILLIMETRES[unit], list[Offer]()
-    for row in csv.DictReader(file.read_text(encoding="utf-8").splitlines()):
-        numbers = {
-            "stroke": float(row["stroke_mm"]) * scale,
-            "length": float(row["length_mm"]) * scale,
-            "friction_N": float(row["friction_N"]),
-        }
-        least, greatest, rise = (float(row[key]) for key in ("least_N", "greatest_N", "rise"))
-        for many in (1, 2):
-            name = f"{row['name']}" if many == 1 else f"two {row['name']}"
-            out += filled(Offer(name, "gas", numbers, many), least, greatest, rise)
-    return out
+    """The springs that ship, alone and in pairs; unit: of lengths.
+
+    Gas springs are filled to forces in steps of 50 N.
+    """
+    scale = 1 / MILLIMETRES[unit]
+    coils = [
+        Offer(
+            row["name"],
+            row["kind"],  # type: ignore[arg-type]
+            {"rate_N_per_mm": float(row["rate_N_per_mm"])}
+            | ({"initial_N": float(row["initial_N"])} if row["initial_N"] else {})
+            | {
+                name: float(row[f"{name}_mm"]) * scale
+                for name in ("free_length", "least_length", "greatest_length")
+                if row[f"{name}_mm"]
+            },
+            diameter=(float(row["wire_mm"]) + float(row["coil_mm"])) * scale,
+        )
+        for row in _shipped("coil_springs.csv")
+    ]
+    gas = [
+        offer
+        for row in _shipped("gas_springs.csv")
+        for offer in filled(
+            Offer(
+                row["name"],
+                "gas",
+                {
+                    "stroke": float(row["stroke_mm"]) * scale,
+                    "length": float(row["length_mm"]) * scale,
+                    "friction_N": float(row["friction_N"]),
+                },
+                diameter=float(row["diameter_mm"]) * scale,
+            ),
+            *(float(row[key]) for key in ("least_N", "greatest_N", "rise")),
+        )
+    ]
+    return [*gas, *coils, *in_pairs([*gas, *coils])]
+
+
+def in_pairs(offers: Iterable[Offer]) -> list[Offer]:
+    """The springs of a list, two in place of each single one."""
+    twice = [
+        offer if offer.many > 1 else offer._replace(name=f"two {offer.name}", many=2)
+        for offer in offers
+    ]
+    return [*{offer.name: offer for offer in twice}.values()]
+
+
+def _shipped(name: str) -> Iterator[dict[str, str]]:
+    file = resources.files("burmester") / "loads" / name
+    return csv.DictReader(_uncommented(file.read_text(encoding="utf-8").splitlines(keepends=True)))
+
+
+def _uncommented(lines: Iterable[str]) -> Iterator[str]:
+    return (line for line in lines if not line.startswith("#"))
 
 
 def springs_of_file(path: str) -> list[Offer]:
     """The springs of a CSV file; raises E101 and E177."""
     try:
         with open(path, encoding="utf-8-sig", newline="") as file:
-            rows = list(csv.DictReader(file))
+            rows = list(csv.DictReader(_uncommented(file)))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         why = getattr(error, "strerror", None) or str(error)
         help = "name a CSV file in UTF-8 with the columns name, kind and the numbers of its springs"
@@ -65,9 +107,8 @@ def _offers(path: str, rows: list[dict[str, str]]) -> Iterator[Offer]:
             raise malformed(
                 f"{path}, line {number}: there is no spring of kind {kind!r}", help=help
             )
-        own = (*NEEDED[kind], *POSSIBLE[kind])  # type: ignore[index]
         numbers = {}
-        for name in own:
+        for name in (*NEEDED[kind], *POSSIBLE[kind], DIAMETER):  # type: ignore[index]
             text = (row.get(name) or "").strip()
             if not text:
                 continue
@@ -78,6 +119,7 @@ def _offers(path: str, rows: list[dict[str, str]]) -> Iterator[Offer]:
                 message = f"{path}, line {number}: {name} is {text!r}, no number"
                 raise malformed(message, help=help) from None
         name = (row.get("name") or "").strip() or f"line {number}"
-        offer = Offer(name, kind, numbers, int(row.get("count") or 1))  # type: ignore[arg-type]
+        many, diameter = int(row.get("count") or 1), numbers.pop(DIAMETER, 0.0)
+        offer = Offer(name, kind, numbers, many, diameter)  # type: ignore[arg-type]
         offer.between(np.zeros(2), np.zeros(2))  # what is no spring is refused here
         yield offer

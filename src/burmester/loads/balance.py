@@ -9,15 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Final, NamedTuple, final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.geometry.regions import Polygon
+from burmester.errors import InputError
 from burmester.loads.load_figures import LoadFigures, load_figures, missed
 from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
-from burmester.loads.spring_laws import SpringLaw
+from burmester.loads.spring_clearance import SpringClearance
+from burmester.loads.spring_laws import NOMINAL, SpringLaw
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.loads import CLOSES_FROM, STAYS_AT
 from burmester.tasks.loads import BODY, GROUND, End, Spring, SpringKind
@@ -26,19 +28,27 @@ from burmester.verdicts.judged_linkage import LinkageAtPoses
 PLACES: Final = 61  # along the motion, at which a grid is looked at
 GRID: Final = 12  # points along each side of a region
 FORCES: Final = 50.0  # N between two forces to which a gas spring is filled
-STARTS: Final = 12  # number of springs of a grid that are improved
+TRIED: Final = 4  # places of each spring of a list that the grid keeps, the best first
+STARTS: Final = 16  # springs of each kind of a grid that are improved
 HALVINGS: Final = 8  # of the steps of the improvement
+# What the ends do in a step.  The cost is a greatest force, with kinks from which only steps of
+# several coordinates at once lead down.
+MOVES: Final = np.array([each for each in product((0, 1, -1), repeat=4) if any(each)])
 APART: Final = 2.0  # grid steps; the ends of springs that are told differ by more
-ALONG: Final = np.linspace(0.0, 1.0, 9)  # of a spring, where it is held against regions
+EVERY: Final = 5  # of those places springs of the grid are held clear at one
 
 
 class Offer(NamedTuple):
-    """A spring of a list: its name, and its numbers as in `Spring`; lengths in the task's unit."""
+    """A spring of a list: its name, and its numbers as in `Spring`; lengths in the task's unit.
+
+    many: how many of them.  diameter: how wide it is, 0 where that is not known.
+    """
 
     name: str
     kind: SpringKind
     numbers: dict[str, float]
     many: int = 1
+    diameter: float = 0.0
 
     def between(self, ground: FloatArray, body: FloatArray) -> Spring:
         """The spring between two points (2,), in the task's unit."""
@@ -77,6 +87,7 @@ class _Course(NamedTuple):
     """
 
     loaded: LoadedMotion
+    clearance: SpringClearance
     effort: FloatArray
     lever: FloatArray
     origin: FloatArray
@@ -132,35 +143,63 @@ def balanced(
     ends = np.stack([each.ravel() for each in np.meshgrid(*axes[:2], indexing="ij")], axis=-1)
     tips = np.stack([each.ravel() for each in np.meshgrid(*axes[2:], indexing="ij")], axis=-1)
     pairs = np.concatenate([np.repeat(ends, len(tips), axis=0), np.tile(tips, (len(ends), 1))], 1)
+    clearance = course.clearance.at(EVERY)
+    thin = min((each.diameter for each in offers), default=0.0)
+    pairs = pairs[clearance.keeps(pairs / metre, thin)]
     length, rate = course.spans(pairs[:, :2], pairs[:, 2:])
     reach = np.stack([length.min(axis=0), length.max(axis=0)])
     starts = list[_Start]()
     for number, offer in enumerate(offers):
         spring = offer.between(np.zeros(2), np.zeros(2))
-        least, greatest = (each * metre for each in spring.span)
+        least, greatest = _span(spring, metre)
         fits = np.flatnonzero((reach[0] >= least) & (reach[1] <= greatest))
         if not len(fits):
             continue
         law = SpringLaw.of(spring, metre, linkage.loads.celsius)
         cost = course.cost(law, spring.count * spring["friction_N"], length[:, fits], rate[:, fits])
-        first = np.argsort(cost, kind="stable")[:2]
+        first = np.argsort(cost, kind="stable")[:TRIED]
         starts += [_Start(float(cost[k]), number, pairs[fits[k]]) for k in first]
     starts.sort(key=lambda start: start.cost)
     step = (high - low) / (GRID - 1)
-    better = [_improved(start, offers, course, (low, high), step) for start in starts[:STARTS]]
+    chosen = list[_Start]()
+    for kind in dict.fromkeys(offer.kind for offer in offers):
+        own = list[_Start]()
+        for start in starts:
+            if len(own) == STARTS:
+                break
+            offer = offers[start.offer]
+            if offer.kind != kind or any(
+                start.offer == each.offer and _alike(start, each, step) for each in own
+            ):
+                continue
+            if clearance.keeps(start.ends[None] / metre, offer.diameter)[0]:
+                own.append(start)
+        chosen += own
+    better = [_improved(start, offers, course, (low, high), step) for start in chosen]
     better.sort(key=lambda start: start.cost)
-    out = list[Balanced]()
-    told = list[FloatArray]()
+    out, told = list[Balanced](), list[_Start]()
     for start in better:
-        if any((np.abs(start.ends - each) < APART * step + 1e-12).all() for each in told):
+        if any(_alike(start, each, step) for each in told):
             continue
         one = _verified(found, offers[start.offer], start.ends / metre, course)
         if one is not None:
             out.append(one)
-            told.append(start.ends)
-        if len(out) == most:
+            told.append(start)
+        if sum(each.keeps for each in out) == most:
             break
-    return sorted(out, key=lambda each: (not each.keeps, each.worst))
+    return sorted(out, key=lambda each: (not each.keeps, each.worst))[:most]
+
+
+def _span(spring: Spring, metre: float) -> tuple[float, float]:
+    """The lengths in metres to which a spring is put: a gas spring between its nominal forces."""
+    least, greatest = (each * metre for each in spring.span)
+    reserve = NOMINAL if spring.kind == "gas" else 0.0
+    return least + reserve, greatest - reserve
+
+
+def _alike(one: _Start, other: _Start, step: FloatArray) -> bool:
+    """Whether both have their ends at about the same places; step: (4,), of the grid."""
+    return bool((np.abs(one.ends - other.ends) < APART * step + 1e-12).all())
 
 
 def _course_of(linkage: LoadedLinkage) -> _Course:
@@ -180,6 +219,7 @@ def _course_of(linkage: LoadedLinkage) -> _Course:
         lever = 1 / np.maximum(np.linalg.norm(loaded.hand_path, axis=-1), 1e-12)
     return _Course(
         loaded,
+        SpringClearance.of(loaded),
         loaded.effort,
         lever,
         at.translation,
@@ -197,20 +237,22 @@ def _improved(
     bounds: tuple[FloatArray, FloatArray],
     step: FloatArray,
 ) -> _Start:
-    """A spring whose ends no small step makes better: of each end along each axis."""
+    """A spring whose ends no small step of any of their coordinates together makes better."""
     offer = offers[start.offer]
     metre = course.loaded.of.metre
     spring = offer.between(np.zeros(2), np.zeros(2))
     law = SpringLaw.of(spring, metre, course.loaded.loads.celsius)
-    least, greatest = (each * metre for each in spring.span)
+    least, greatest = _span(spring, metre)
+    clearance = course.clearance.at(EVERY)
     for _ in range(HALVINGS):
         step = step / 2
         for _ in range(GRID):
-            moved = start.ends + np.concatenate([np.eye(4), -np.eye(4)]) * step
+            moved = start.ends + MOVES * step
             moved = np.clip(moved, *bounds)
             length, rate = course.spans(moved[:, :2], moved[:, 2:])
             cost = course.cost(law, spring.count * spring["friction_N"], length, rate)
             fits = (length.min(axis=0) >= least) & (length.max(axis=0) <= greatest)
+            fits[fits] = clearance.keeps(moved[fits] / metre, offer.diameter)
             cost = np.where(fits, cost, np.inf)
             k = int(cost.argmin())
             if not cost[k] < start.cost:
@@ -224,16 +266,18 @@ def _verified(
 ) -> Balanced | None:
     """The linkage with a spring between ends (4,) in the task's unit, loaded anew.
 
-    None where the spring crosses a region that must be kept free, or is off its stroke.
+    None where the spring is in the way of something, or off its stroke.
     """
     spring = offer.between(*np.round(ends, 4).reshape(2, 2))
-    around = found.task.surroundings
-    if around is not None and any(
-        _crosses(spring, each.polygon, course) for each in around.keep_out
-    ):
+    if not course.clearance.keeps(ends[None], offer.diameter)[0]:
         return None
     loads = course.loaded.loads
-    task = replace(found.task, loads=replace(loads, springs=(*loads.springs, spring)))
+    try:
+        task = replace(found.task, loads=replace(loads, springs=(*loads.springs, spring)))
+    except InputError as error:  # the linkage is off its first pose, at which no such spring fits
+        if error.code != "E179":
+            raise
+        return None
     loaded = replace(found, task=task)
     figures = load_figures(loaded)
     if figures is None or figures.findings:
@@ -243,15 +287,6 @@ def _verified(
         worst = float(figures.measures["hand_force"])
     before = float((np.abs(course.effort) * course.lever).max())
     return Balanced(loaded, offer, spring, figures, worst, before, not missed(loaded, figures))
-
-
-def _crosses(spring: Spring, polygon: Polygon, course: _Course) -> bool:
-    """Whether a spring touches a region of F at some of the places."""
-    one, two = (np.array(end.point) for end in spring.ends)
-    tip = course.loaded.places[course.loaded.bodies.body].act(two * course.loaded.of.metre)
-    tip = tip / course.loaded.of.metre
-    points = one + (tip - one)[:, None] * ALONG[:, None]
-    return bool((polygon.distance(points.reshape(-1, 2)) <= 0).any())
 
 
 def filled(offer: Offer, least: float, greatest: float, rise: float) -> Iterator[Offer]:

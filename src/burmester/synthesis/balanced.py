@@ -159,7 +159,7 @@ def _refined(found: FoundLinkage, problem: SynthesisProblem) -> list[FoundLinkag
 
 
 def usual_regions(found: LinkageAtPoses) -> tuple[FloatArray, FloatArray]:
-    """Boxes about the pins on the ground, and about the body: its outline, or its pins."""
+    """Boxes about the pins on the ground, and about the body: its pins and its outline."""
     bodies = found.bodies
     fixed, moving = (
         np.array([each.holes[name] for each in bodies.joints if name in each.holes])
@@ -168,7 +168,7 @@ def usual_regions(found: LinkageAtPoses) -> tuple[FloatArray, FloatArray]:
     size = max(float(np.ptp(each, axis=0).max()) for each in (fixed, moving))
     wider = WIDER * size
     outline = found.task.body
-    own = moving if outline is None else outline.vertices
+    own = moving if outline is None else np.concatenate([moving, outline.vertices])
     return (
         np.array([fixed.min(axis=0) - wider, fixed.max(axis=0) + wider]),
         np.array([own.min(axis=0), own.max(axis=0)]),

@@ -162,7 +162,7 @@ NEEDED: Final[Mapping[SpringKind, tuple[str, ...]]] = {
 }
 POSSIBLE: Final[Mapping[SpringKind, tuple[str, ...]]] = {
     "extension": ("initial_N", "greatest_length"),
-    "compression": ("least_length",),
+    "compression": ("least_length", "greatest_length"),
     "gas": ("friction_N",),
     "constant": ("least_length", "greatest_length"),
     "torsion": ("free_deg",),
