@@ -36,7 +36,15 @@ TRADES = (
     "prosthetic-knee",
     "tailgate",
 )
-FEW = ("chest-lid", "derailleur", "monitor-arm", "robot-intake", "tilting-window")  # of few poses
+LOADED = ("bed-backrest", "bonnet", "cabinet-flap", "sprung-lid", "wall-bed")  # see tests/loads
+FEW = (  # of few poses
+    "chest-lid",
+    "derailleur",
+    "monitor-arm",
+    "robot-intake",
+    "tilting-window",
+    *LOADED,
+)
 RAILS = ("drawer", "garage-door", "window-stay")  # of few poses, with a slider: see test_rails
 FUNCTIONS = ("log-generator", "sine-generator")  # tasks of functions, see test_function_files
 SIX_BARS = ("window-opener",)  # which no four-bar does: see tests/sixbar/test_template.py

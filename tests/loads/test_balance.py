@@ -1,18 +1,24 @@
 """Springs that balance: held against energies, random search and the regions, not the search."""
 
+import csv
+import math
+import re
+import shlex
 from dataclasses import replace
+from importlib import resources
+from pathlib import Path
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from shapely import LineString
+from shapely import LineString, Point
 from shapely import Polygon as Area
 
 import burmester
 from burmester import read_task, synthesize
 from burmester.cli.balance import balance as command
 from burmester.errors import InputError
-from burmester.io.spring_list import springs_of_file, usual_springs
+from burmester.io.spring_list import in_pairs, springs_of_file, usual_springs
 from burmester.io.templates import text
 from burmester.live.document import document_of, task_file
 from burmester.loads.balance import Offer
@@ -47,16 +53,25 @@ def hand_by_energy(found, spring=None, count=1501):
     """The force along the path of the hand's point: the slope of the energy along that path."""
     task, places = found.task, found.travel()(np.linspace(0, 1, count)).places
     corners = task.body.vertices
-    middle = np.array(Area(corners).centroid.coords[0])
+    middle = task.loads.body.center
+    if middle is None:
+        middle = np.array(Area(corners).centroid.coords[0])
     energy = task.loads.body.mass_kg * GRAVITY * places.act(middle)[:, 1] / 1000
     if spring is not None:
         one, two = (np.array(end.point) for end in spring.ends)
         length = np.linalg.norm(places.act(two) - one, axis=1)
-        assert length.max() <= spring["length"] + 1e-6
-        assert length.min() >= spring["length"] - spring["stroke"] - 1e-6
-        short = spring["length"] - 5 - length
-        rise = (spring["compressed_force_N"] - spring["force_N"]) / (spring["stroke"] - 10)
-        push = spring.count * (spring["force_N"] + rise * short)
+        if spring.kind == "gas":
+            assert length.max() <= spring["length"] + 1e-6
+            assert length.min() >= spring["length"] - spring["stroke"] - 1e-6
+            short = spring["length"] - 5 - length
+            rise = (spring["compressed_force_N"] - spring["force_N"]) / (spring["stroke"] - 10)
+            push = spring.count * (spring["force_N"] + rise * short)
+        else:
+            assert spring.kind == "extension"
+            assert length.min() >= spring["free_length"] - 1e-6
+            assert length.max() <= spring["greatest_length"] + 1e-6
+            longer = length - spring["free_length"]
+            push = -spring.count * (spring["initial_N"] + spring["rate_N_per_mm"] * longer)
         steps = (push[1:] + push[:-1]) / 2 * np.diff(length)
         energy = energy - np.r_[0, np.cumsum(steps)] / 1000
     gone = np.r_[0, np.cumsum(np.linalg.norm(np.diff(places.act(task.loads.hand), axis=0), axis=1))]
@@ -74,6 +89,24 @@ def rub_at_hand(found, spring, count=1501):
                                                        slides[-1:]]  # fmt: skip
 
 
+def room(found, spring, diameter, frames=61):
+    """How far the spring is from regions and pins, less the margin and the pins' radius."""
+    places = found.travel()(np.linspace(0, 1, frames)).places
+    around, half = found.task.surroundings, diameter / 2 + found.task.surroundings.margin
+    one, two = (np.array(end.point) for end in spring.ends)
+    lines = [LineString([one, tip]) for tip in places.act(two)]
+    regions = [Area(each.polygon.vertices) for each in around.keep_out]
+    dyads = found.linkage.first, found.linkage.second
+    to_regions = min(line.distance(region) for line in lines for region in regions)
+    to_pins = min(
+        line.distance(Point(pin))
+        for dyad in dyads
+        for k, line in enumerate(lines)
+        for pin in (dyad.fixed_pivot, places.act(dyad.moving_pivot)[k])
+    )
+    return min(to_regions - half, to_pins - half - 0.4 * around.link_width / 2)
+
+
 def test_the_best_spring_leaves_the_force_that_energy_says(answer):
     _, found = answer
     best = found[0]
@@ -84,7 +117,7 @@ def test_the_best_spring_leaves_the_force_that_energy_says(answer):
     assert best.figures.hand.magnitude == pytest.approx(np.abs(force).max(), rel=1e-3)
     assert best.figures.rub == pytest.approx(rub.max(), rel=1e-3)
     assert best.before == pytest.approx(np.abs(hand_by_energy(best.found)).max(), rel=1e-3)
-    assert best.worst < 0.3 * best.before
+    assert best.worst < 0.35 * best.before
 
 
 def test_it_stays_where_it_is_asked_to(answer):
@@ -103,7 +136,7 @@ def test_random_springs_are_not_better(answer):
     """Of the same sizes, between random points of the same boxes, held against the same bounds."""
     rng, best = np.random.default_rng(5), answer[1][0]
     ground, body = usual_regions(best.found)
-    offers = usual_springs("mm")
+    offers = [each for each in usual_springs("mm") if each.kind == "gas"]
     tried = 0
     for _ in range(3000):
         offer = offers[rng.integers(len(offers))]
@@ -114,7 +147,8 @@ def test_random_springs_are_not_better(answer):
         except AssertionError:  # off its stroke
             continue
         tried += 1
-        assert force > 0.9 * best.worst
+        near = force <= 0.9 * best.worst
+        assert not near or room(best.found, spring, offer.diameter) < 0
     assert tried > 30
 
 
@@ -127,10 +161,74 @@ def test_ends_are_in_their_regions_and_the_spring_is_clear_of_the_wall(lid):
         one, two = (np.array(end.point) for end in each.spring.ends)
         for end, (low, high) in ((one, ground), (two, body)):
             assert np.clip(end, low, high) == pytest.approx(end, abs=1e-3)
-        tips = each.found.travel()(np.linspace(0, 1, 41)).places.act(two)
-        for region in task.surroundings.keep_out:
-            area = Area(region.polygon.vertices).buffer(-1e-6)
-            assert not any(LineString([one, tip]).intersects(area) for tip in tips)
+        assert room(each.found, each.spring, each.offer.diameter) > -1e-3
+
+
+def test_a_spring_does_not_pass_through_a_lid_in_its_plane(lid):
+    """It ends at the lid's lower side or before it, or on the way out of where it is attached."""
+    task = read_task(str(lid))
+    offers = [each for each in usual_springs("mm") if each.name == "6-15 stroke 80, 100 N"]
+    body = np.array([[200.0, 10], [260, 18]])
+    assert balance(task, offers, BalanceRegions(None, body))[1]
+    flat = replace(task, surroundings=replace(task.surroundings, body_in_plane=True))
+    assert not balance(flat, offers, BalanceRegions(None, np.array([[200.0, 18], [260, 18]])))[1]
+    _, found = balance(flat, usual_springs("mm")[::7])
+    assert found
+    for each in found:
+        one, two = (np.array(end.point) for end in each.spring.ends)
+        places = each.found.travel()(np.linspace(0, 1, 41)).places
+        boards = [Area(at) for at in places[:, None].act(task.body.vertices)]
+        most = max(each.offer.diameter + 3, 0.02 * np.hypot(420, 18))
+        depth = max(0.0, Area(task.body.vertices).exterior.distance(Point(two)))
+        inside = depth if Area(task.body.vertices).contains(Point(two)) else 0.0
+        for board, tip in zip(boards, places.act(two), strict=True):
+            assert LineString([one, tip]).intersection(board).length <= 2 * inside + most + 1e-6
+
+
+def test_coil_springs_follow_from_wire_coil_and_turns():
+    """EN 13906-1 and -2 with G = 81500 N/mm2 and the strength of EN 10270-1 SH, written anew."""
+    lines = resources.files("burmester").joinpath("loads", "coil_springs.csv").read_text()
+    rows = list(csv.DictReader(line for line in lines.splitlines() if line[0] != "#"))
+    assert len({row["name"] for row in rows}) == len(rows) > 100
+    for row in rows:
+        d, coil, n = (float(row[f"{each}"]) for each in ("wire_mm", "coil_mm", "coils"))
+        assert 6 < coil / d < 10.5
+        strength = 2220 - 820 * math.log10(d)
+        at_stress = math.pi * d**3 / (8 * coil)  # N for a shear stress of 1 N/mm2
+        soft = 8 * coil**3 * n / (81500 * d**4)  # mm/N
+        free, most = float(row["free_length_mm"]), float(row["greatest_length_mm"])
+        assert 1 / float(row["rate_N_per_mm"]) == pytest.approx(soft, rel=1e-3)
+        if row["kind"] == "extension":
+            initial = 0.5 * (0.135 - 0.00625 * coil / d) * strength * at_stress
+            assert float(row["initial_N"]) == pytest.approx(initial, abs=0.051)
+            assert free == pytest.approx((n + 1) * d + 1.6 * (coil - d), abs=0.051)
+            longest = free + (0.45 * strength * at_stress - initial) * soft
+            assert longest - 0.5 < most < longest + 0.1
+        else:
+            solid = (n + 2) * d
+            assert free == most
+            assert free - 30 <= solid + 0.56 * strength * at_stress * soft < free - 28
+            gaps = n * (0.0015 * coil**2 / d + 0.1 * d)
+            assert float(row["least_length_mm"]) == pytest.approx(solid + gaps + 30, abs=0.051)
+
+
+def test_an_extension_spring_of_a_published_calculation():
+    """HeliSpring, extension spring S.202: 1.6 mm wire, 11.1 mm coil, 21 turns, G = 70000 N/mm2."""
+    rate = 70000 * 1.6**4 / (8 * 11.1**3 * 21)
+    assert rate == pytest.approx(1.997, abs=5e-4)
+    stress = (0.135 - 0.00625 * 6.94) * 1910
+    assert stress == pytest.approx(175.0, abs=0.1)
+    assert stress * math.pi * 1.6**3 / (8 * 11.1) == pytest.approx(25.4, abs=0.05)
+
+
+def test_pairs_are_two_of_each():
+    singles = [each for each in usual_springs("mm") if each.many == 1]
+    pairs = in_pairs(usual_springs("mm"))
+    assert [each.many for each in pairs] == [2] * len(singles)
+    assert {each.name for each in pairs} == {f"two {each.name}" for each in singles}
+    assert [each.numbers for each in in_pairs([Offer("own", "constant", {"force_N": 5}, 2)])] == [
+        {"force_N": 5}
+    ]
 
 
 def test_in_python_the_same_is_found(lid, answer):
@@ -199,6 +297,34 @@ def test_the_command_says_it(lid, tmp_path):
     assert done.return_value == 0, done.output
     assert "the hand needs at most" in done.output
     assert "[[springs]]" in out.read_text()
+
+
+JOBS = ("bed-backrest", "bonnet", "cabinet-flap", "sprung-lid", "tailgate", "wall-bed")
+
+
+@pytest.mark.parametrize("name", JOBS)
+def test_a_template_ends_in_a_spring_that_keeps_what_its_command_asks(name, tmp_path, monkeypatch):
+    """By the command at its head: held against energies, distances and bounds of designers."""
+    monkeypatch.chdir(tmp_path)
+    Path(f"{name}.toml").write_text(text(name))
+    (line,) = re.findall(r"# burmester balance (.*)", text(name))
+    done = CliRunner().invoke(command, shlex.split(line), standalone_mode=False)
+    assert done.return_value == 0, done.output
+    bound = float(re.search(r"--hand-force (\d+)", line)[1])
+    task = read_task("sprung.toml")
+    best = synthesize(task).best
+    assert best is not None
+    bare = np.abs(hand_by_energy(best)).max()
+    (spring,) = task.loads.springs
+    force = np.abs(hand_by_energy(best, spring)).max()
+    assert force <= bound * 1.001
+    assert force < 0.75 * bare
+    assert spring.count == 2 or name == "sprung-lid"
+    linkage = best.driver_first
+    assert max(linkage.links) <= 5.001 * min(linkage.links)
+    assert np.degrees(best.driven.least_over_range) > 30
+    if task.surroundings is not None:
+        assert room(best, spring, 0.0) > 0
 
 
 @pytest.mark.parametrize(("bound", "kept"), [(8.0, False), (19.0, True), (25.0, True)])

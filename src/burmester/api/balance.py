@@ -38,7 +38,7 @@ def balance(
         With `loads`: the mass of the body, and where the hand is.  Its bounds on the hand's force,
         on where it stays and from where it closes are aimed at.
     springs : path or sequence of Offer, optional
-        A list in CSV, or offers; by default usual gas springs.
+        A list in CSV, or offers; by default usual sizes.
     ground, body : (2, 2) array_like, optional
         Two corners of the boxes in which the ends may be, in F and in M; by default around the
         pivots, and around the body.

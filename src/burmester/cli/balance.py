@@ -12,7 +12,8 @@ from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 LIST_HELP = """\b
 LIST    a CSV file with the columns name, kind and the numbers of the springs as
         in a task file: of gas springs force_N, compressed_force_N, stroke,
-        length and friction_N; of others rate_N_per_mm and free_length
+        length and friction_N; of others rate_N_per_mm and free_length; and
+        diameter, how wide it is
 BOX     X,Y:X,Y, two corners in the unit of the poses"""
 
 
