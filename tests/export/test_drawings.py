@@ -4,6 +4,7 @@ import io
 import itertools
 import re
 from collections import Counter
+from xml.etree import ElementTree
 
 import ezdxf
 import ezdxf.math
@@ -12,12 +13,14 @@ import pytest
 from benchmarks import drawings as campaign
 
 import burmester
+from burmester import End, Loads, Mass, Spring, Task, synthesize
 from burmester.errors import BurmesterError
 from burmester.export import Options
 from burmester.export.drawings import dxf, svg
 from burmester.export.drawings.sheet import laid_lengthwise
 from burmester.export.parts.outlines import distances
 from burmester.export.parts.plates import assembly_of
+from burmester.geometry.regions import box
 from tests.oracles.common_tasks import in_line
 from tests.oracles.handed_over import NAMES, dxf_unit, joints, saved, scale_of, written
 
@@ -244,3 +247,36 @@ def test_a_drawing_of_a_task_in_inches_is_in_inches(tmp_path):
     low, high = document.header["$EXTMIN"], document.header["$EXTMAX"]
     x = [at[0] for each in document.modelspace().query("LWPOLYLINE") for at in each.get_points()]
     assert low[0] < min(x) < max(x) < high[0]
+
+
+def test_springs_are_marked_where_they_are_attached(tmp_path):
+    """On the ground, and on the body at the first pose; all are told in words."""
+    ends = End("ground", (85.0, -40.5)), End("body", (30.0, 18.0))
+    springs = (
+        Spring("extension", ends, {"rate_N_per_mm": 0.5, "free_length": 5}, 2),
+        Spring("torsion", (End("ground", (0, 0)), End("driver", (0, 0))), {"rate_Nm_per_deg": 0.1}),
+    )
+    rows = [(0, 0, 0), (-20, -10, 25), (-60, -5, 60)]
+    loads = Loads(body=Mass(4.0, [30.0, 0.0], 0.01), springs=springs)
+    task = Task.from_rows(
+        rows,
+        angle_unit="deg",
+        length_unit="mm",
+        loads=loads,
+        body=box((0, 0), (90, 30)),
+    )
+    path = synthesize(task).best.export(tmp_path / "a.svg")
+    root = ElementTree.parse(path).getroot()
+    poses = next(each for each in root.iter() if each.get("id") == "poses")
+    lines = [[float(each.get(key)) for key in ("x1", "y1", "x2", "y2")]
+             for each in poses if each.tag.endswith("line")]  # fmt: skip
+    middles = [((x1 + x2) / 2, -(y1 + y2) / 2) for x1, y1, x2, y2 in lines]
+    for wanted in ((85.0, -40.5), (30.0, 18.0)):
+        near = [at for at in middles if np.hypot(*np.subtract(at, wanted)) < 1e-9]
+        assert len(near) == 2  # a cross
+    texts = [each.text for each in poses if each.tag.endswith("text")]
+    assert texts.count("S1") == 2
+    assert "S2" not in texts
+    told = " ".join(root.itertext())
+    assert "S1, extension spring (2 of them): (85.0" in told
+    assert "S2, torsion spring between the ground and the driver." in told

@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 FINEST: Final = 1e-7  # of a six-bar's span: what the last decimal of its lengths is worth
 
+ANCHOR_DIGITS: Final = 1e-4  # of the span: the last decimal of where a spring is attached
+
 
 def description(chosen: Candidate, options: Options, unit: str | None) -> list[str]:
     """Sentences on what a file holds, for its head; unit: of its lengths, None for the task's."""
@@ -119,3 +121,24 @@ def dimension_notes(chosen: Candidate, options: Options, unit: str = "mm") -> li
             "of them."
         )
     return notes
+
+
+def spring_notes(chosen: Candidate, options: Options, unit: str = "mm") -> list[str]:
+    """Where each spring and counterweight is attached, in a unit, a line each."""
+    reference = Reference.of(chosen, options, unit)
+    decimals, out = figures_of(ANCHOR_DIGITS * reference.span), []
+    springs = chosen.task.loads.springs if chosen.task.loads is not None else ()
+    for number, spring in enumerate(springs, start=1):
+        kind = spring.kind if spring.kind == "counterweight" else f"{spring.kind} spring"
+        ends = [
+            f"({', '.join(f'{each * reference.scale:.{decimals}f}' for each in end.point)}) on the "
+            + end.link
+            for end in spring.ends
+        ]
+        if spring.kind == "torsion":
+            where = f" between the {spring.ends[0].link} and the {spring.ends[1].link}"
+        else:
+            where = f" at {ends[1]}" if spring.kind == "counterweight" else f": {' to '.join(ends)}"
+        many = f" ({spring.count} of them)" if spring.count > 1 else ""
+        out.append(f"S{number}, {kind}{many}{where}.")
+    return out

@@ -16,7 +16,7 @@ from typing import Literal, NamedTuple, Self, TypeAlias, final
 
 import numpy as np
 
-from burmester.export.description import description, dimension_notes, length_decimals
+from burmester.export.description import description, dimension_notes, length_decimals, spring_notes
 from burmester.export.drawings.dimension_lines import DimensionLine
 from burmester.export.drawings.outlines import Outlines, hatch, name_start
 from burmester.export.drawings.sheet import Sheet, beside, joint_names, notes_on, sheet_of
@@ -27,6 +27,7 @@ from burmester.export.parts.plate import Plate, moved
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
+from burmester.loads.masses import body_named
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
@@ -75,13 +76,14 @@ class Drawing:
         assembly = assembly_of(chosen, options)
         outlines = Outlines.of(chosen.task, assembly.reference)
         notes = description(chosen, options, unit) + dimension_notes(chosen, options, unit)
-        notes += notes_on(assembly)
+        notes += spring_notes(chosen, options, unit) + notes_on(assembly)
         decimals = length_decimals(chosen, options, unit)
         told = options.dimensions
         sheet = sheet_of(assembly, outlines, len(notes), decimals, dimensions=told, unit=unit)
         items = [
             *_parts(assembly, sheet),
             *_poses(assembly.reference.poses, sheet),
+            *_anchors(chosen, assembly, sheet),
             *(
                 Item("text", "note", sheet.notes - [0, 1.6 * k * sheet.letters], text=note)
                 for k, note in enumerate(notes)
@@ -157,6 +159,19 @@ def _poses(poses: Displacement, sheet: Sheet) -> Iterable[Item]:
         for end in ends:
             yield Item("line", "pose", np.stack([origin, end]))
         yield Item("text", "pose", beside(poses[number], sheet), text=str(number + 1))
+
+
+def _anchors(chosen: Candidate, assembly: Assembly, sheet: Sheet) -> Iterable[Item]:
+    """Crosses where springs are attached in the assembly, with their numbers, on the sheet."""
+    springs = chosen.task.loads.springs if chosen.task.loads is not None else ()
+    for number, spring in enumerate(springs, start=1):
+        for end in () if spring.kind == "torsion" else spring.ends:
+            body = assembly.drawn[body_named(end.link, assembly.reference)]
+            at = body.act(np.array(end.point) * assembly.reference.scale)
+            alone = spring.kind == "counterweight" and end is not spring.ends[1]
+            if not alone and ((at > sheet.low) & (at < sheet.high)).all():
+                yield from cross(at, TICK * sheet.letters, "pose")
+                yield Item("text", "pose", at + TICK * sheet.letters, text=f"S{number}")
 
 
 def halved(outline: FloatArray, largest: float = MAX_BULGE) -> FloatArray:
