@@ -1,112 +1,51 @@
 """Velocities and accelerations of the bodies of a linkage, and the forces in its joints.
 
-The bodies have three coordinates each: x and y of their origins in F, and their angles.  A pin
-gives two equations between them, a slot two, and the driver one: J v = e, where v are the
-derivatives of all coordinates by the driver's.  Differentiated once more, J a = -J' v.  By virtual
-work the transpose of J carries forces: J^T f = (M a - W), where W are the loads, M a what masses
-resist, and f what the joints and the motor exert.
+Each body has one coordinate against that on which it is in the tree: its angle in F, or how far it
+slides.  Their derivatives u by the driver's carry all bodies, v = C u.  The joints that close the
+loops are two equations each between them, K u = 0; differentiated once more, K u' = -b, where b are
+the accelerations without u'.  Of a four-bar these are 2 x 2 systems, of a six-bar 4 x 4.
 
-J is singular exactly at the dead points of the driver: there all is nan.
+By virtual work the transpose of K carries the forces f of these joints: K^T f = C^T (M a - W), where
+W are the loads, and M a what masses resist.  All other joints bear what is beyond them in the tree.
+
+K, without the driver, is singular exactly at the dead points of the driver: there all is nan.
 """
 
 from __future__ import annotations
 
-from typing import Final, NamedTuple, TypeAlias, final
+from typing import Final, NamedTuple, final
 
 import numpy as np
 
-from burmester.mechanisms.bodies import GROUND, ORIGIN, Bodies, LinkPlaces
-from burmester.numerics.arrays import FloatArray
+from burmester.mechanisms.bodies import GROUND, Bodies, LinkPlaces
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
 
-LOCKED: Final = 1e12  # condition number of J from which on the driver moves nothing
-
-
-class _Places:
-    """Bodies at places (n,) in units of a size, and where their columns in J begin."""
-
-    def __init__(self, bodies: Bodies, places: LinkPlaces, size: float) -> None:
-        self.first = {name: 3 * k for k, name in enumerate(bodies.moving)}
-        self._places, self.size = places, size
-
-    def arm(self, name: str, hole: FloatArray) -> FloatArray:
-        """A point of a body from its origin, in F: (n, 2)."""
-        return self._places[name].rotate(hole) / self.size
-
-    def apart(self, one: str, other: str) -> FloatArray:
-        """The origin of a body from that of another: (n, 2)."""
-        return (self._places[one].translation - self._places[other].translation) / self.size
-
-    def speed(self, name: str, motion: FloatArray) -> FloatArray:
-        """The velocity (n, 3) of a body, of those (n, k, 3) of all."""
-        if name == GROUND:
-            return np.zeros((len(motion), 3))
-        return np.asarray(motion[:, self.first[name] // 3])
+LOCKED: Final = 1e12  # condition number of K from which on the driver moves nothing
 
 
-class Pin(NamedTuple):
-    """Two bodies have their holes (2,) at one point; its force is that on the first."""
+class _Tree(NamedTuple):
+    """Of k bodies, the ground behind them, at places (n,); lengths in units of a size.
 
-    bodies: tuple[str, str]
-    holes: tuple[FloatArray, FloatArray]
+    bodies, on: the numbers of those of the limbs.  carried: C, (k + 1, k, n), velocities of the
+    origins for a unit of each coordinate; turned: (k + 1, k), of the angles.
+    closed: (c, k, n), K; ends: the numbers of the bodies that each closure joins.
+    pins: of each joint the number of its limb, or of its closure from k on, and whether the holder
+    of the pin is the body of that limb, or the first one of that closure.
+    """
 
-    def write(self, rows: FloatArray, at: _Places) -> None:
-        """Write its two rows (n, 2, 3k) of J."""
-        for name, hole, sign in zip(self.bodies, self.holes, (1.0, -1.0), strict=True):
-            if name != GROUND:
-                arm, k = at.arm(name, hole), at.first[name]
-                rows[:, 0, k] = rows[:, 1, k + 1] = sign
-                rows[:, 0, k + 2], rows[:, 1, k + 2] = -sign * arm[:, 1], sign * arm[:, 0]
+    bodies: tuple[int, ...]
+    on: tuple[int, ...]
+    carried: ComplexArray
+    turned: FloatArray
+    closed: ComplexArray
+    ends: tuple[tuple[int, int], ...]
+    pins: tuple[tuple[int, bool], ...]
+    driver: int
 
-    def curving(self, motion: FloatArray, at: _Places) -> FloatArray:
-        """-J' v of its rows: (n, 2), where the bodies move by (n, k, 3)."""
-        one, other = (
-            at.speed(name, motion)[:, 2:] ** 2 * at.arm(name, hole)
-            for name, hole in zip(self.bodies, self.holes, strict=True)
-        )
-        return one - other
-
-
-class Line(NamedTuple):
-    """A pin keeps its distance from a line of a link, with this normal (2,), and its angle."""
-
-    link: str
-    pin: str
-    normal: FloatArray
-
-    def write(self, rows: FloatArray, at: _Places) -> None:
-        """Write its rows of J: one of lengths, one of angles."""
-        normal, k = at.arm(self.link, self.normal * at.size), at.first[self.pin]
-        rows[:, 0, k : k + 2], rows[:, 1, k + 2] = normal, 1.0
-        if self.link != GROUND:
-            k, apart = at.first[self.link], at.apart(self.pin, self.link)
-            rows[:, 0, k : k + 2], rows[:, 1, k + 2] = -normal, -1.0
-            rows[:, 0, k + 2] = normal[:, 0] * apart[:, 1] - normal[:, 1] * apart[:, 0]
-
-    def curving(self, motion: FloatArray, at: _Places) -> FloatArray:
-        """-J' v of its rows: (n, 2)."""
-        normal, apart = at.arm(self.link, self.normal * at.size), at.apart(self.pin, self.link)
-        on, pin = at.speed(self.link, motion), at.speed(self.pin, motion)
-        past, turning = pin[:, :2] - on[:, :2], on[:, 2]
-        across = normal[:, 0] * past[:, 1] - normal[:, 1] * past[:, 0]
-        inward = turning**2 * (normal * apart).sum(axis=-1) - 2 * turning * across
-        return np.stack([inward, np.zeros_like(inward)], axis=-1)
-
-
-Pair: TypeAlias = Pin | Line
-
-
-def pairs_of_bodies(bodies: Bodies) -> tuple[Pair, ...]:
-    """What holds the bodies together: of each joint its pin, and its line if it has a slot."""
-    out = list[Pair]()
-    for joint in bodies.joints:
-        holder, slot = joint.holder, joint.slot
-        if slot is None:
-            other = next(name for name in joint.holes if name != holder)
-            out.append(Pin((holder, other), (joint.holes[holder], joint.holes[other])))
-        else:
-            out.append(Pin((holder, slot.pin), (joint.holes[holder], ORIGIN)))
-            out.append(Line(slot.link, slot.pin, slot.directions[0]))
-    return tuple(out)
+    @property
+    def others(self) -> list[int]:
+        """All coordinates but the driver's."""
+        return [k for k in range(len(self.bodies)) if k != self.driver]
 
 
 @final
@@ -115,17 +54,18 @@ class Rates(NamedTuple):
 
     bodies: their names.  velocity, acceleration: (n, k, 3), first and second derivatives of x, y
     and the angle.  turns: whether the driver turns; else its coordinate is a length.
-    pairs: in the order of their equations.  inverse: (n, 3k, 3k), of J with lengths in units of
-    `size`.
+    tree, size: how the bodies carry each other.  inverse: (n, k - 1, k - 1), of K.
+    closeness: (n,), the determinant of K; the driver is at a dead point where it is zero.
     """
 
     bodies: tuple[str, ...]
     velocity: FloatArray
     acceleration: FloatArray
     turns: bool
-    pairs: tuple[Pair, ...]
-    inverse: FloatArray
+    tree: _Tree
     size: float
+    inverse: FloatArray
+    closeness: FloatArray
 
     def of_body(self, name: str) -> tuple[FloatArray, FloatArray]:
         """Velocity and acceleration (n, 3) of a body; those of the ground are zero."""
@@ -159,42 +99,118 @@ class Rates(NamedTuple):
 
         resisted: as in `effort`.
         """
-        in_size = (resisted * [self.size, self.size, 1.0]).reshape(len(resisted), -1)
-        forces = np.einsum("nij,ni->nj", self.inverse, in_size) / self.size
-        pins = [2 * k for k, pair in enumerate(self.pairs) if isinstance(pair, Pin)]
-        return np.stack([forces[:, [row, row + 1]] for row in pins], axis=1)
+        tree, others = self.tree, self.tree.others
+        force = complex_of(resisted).T
+        work = (force.conj()[:, None] * tree.carried[:-1, others]).real.sum(axis=0)
+        work += tree.turned[:-1, others].T @ (resisted[..., 2].T / self.size)
+        both = (work.T[:, None] @ self.inverse)[:, 0].T
+        closing = both[0::2] + 1j * both[1::2]
+        left = np.concatenate([force, np.zeros_like(force[:1])])
+        for (one, other), each in zip(tree.ends, closing, strict=True):
+            left[one] -= each
+            left[other] += each
+        borne = [*np.zeros_like(force), *closing]
+        for k in reversed(range(len(tree.bodies))):
+            borne[k] = left[tree.bodies[k]]
+            left[tree.on[k]] += borne[k]
+        held = [borne[k] if first else -borne[k] for k, first in tree.pins]
+        return pairs_of(np.stack(held, axis=-1))
 
 
 def rates(bodies: Bodies, places: LinkPlaces) -> Rates:
     """The rates of a linkage with its bodies at places (n,), in the unit of its lengths."""
-    pairs = pairs_of_bodies(bodies)
     size = float(np.nanmax(np.ptp(np.concatenate(bodies.pins(places)), axis=0)))
-    at = _Places(bodies, places, size)
-    matrix = np.zeros((*places.shape, 3 * len(bodies.moving), 3 * len(bodies.moving)))
-    for row, pair in enumerate(pairs):
-        pair.write(matrix[:, 2 * row : 2 * row + 2], at)
-    turns = _write_driver(matrix[:, -1], bodies, at)
-    inverse = _inverse(matrix)
-    motion = inverse[..., -1].reshape(len(matrix), -1, 3)
-    curving = np.zeros(matrix.shape[:-1])
-    for row, pair in enumerate(pairs):
-        curving[:, 2 * row : 2 * row + 2] = pair.curving(motion, at)
-    bent = np.einsum("nij,nj->ni", inverse, curving).reshape(motion.shape)
-    lengths, unit = np.array([size, size, 1.0]), 1.0 if turns else size
-    velocity, acceleration = motion * (lengths / unit), bent * (lengths / unit**2)
-    return Rates(bodies.moving, velocity, acceleration, turns, pairs, inverse, size)
+    number = {name: k for k, name in enumerate((*bodies.moving, GROUND))}
+    at = [complex_of(places[name].translation) / size for name in number]
+    turn = [np.exp(1j * places[name].angle) for name in number]
+    count, n = len(bodies.moving), len(at[0])
+
+    def arm(name: str, hole: FloatArray) -> ComplexArray:
+        return turn[number[name]] * (complex(*hole) / size)
+
+    # Of each limb: its body and that it is on; the arms of their joint, or how far they are apart.
+    limbs = list[tuple[int, int, ComplexArray, ComplexArray, bool]]()
+    carried = np.zeros((count + 1, count, n), dtype=complex)
+    turned = np.zeros((count + 1, count))
+    for k, (name, on, joint, slides) in enumerate(bodies.tree):
+        body, base = number[name], number[on]
+        if slides:
+            assert joint.slot is not None
+            one = at[body] - at[base]
+            along = complex(*joint.slot.directions[1]) * (-1 if name == joint.slot.link else 1)
+            two = -turn[number[joint.slot.link]] * along
+            turned[body] = turned[base]
+        else:
+            one, two = arm(on, joint.hole(on)), arm(name, joint.hole(name))
+            turned[body, k] = 1.0
+        carried[body] = carried[base] + 1j * turned[base][:, None] * one
+        carried[body, k] -= two if slides else 1j * two
+        limbs.append((body, base, one, two, slides))
+    closures = [
+        (number[one], number[other], arm(one, joint.hole(one)), arm(other, joint.hole(other)))
+        for joint, one, other in bodies.closures
+    ]
+    closed = np.stack(
+        [
+            carried[one] - carried[other]
+            + 1j * (turned[one][:, None] * first - turned[other][:, None] * second)
+            for one, other, first, second in closures
+        ]
+    )  # fmt: skip
+    driver = next(k for k, limb in enumerate(bodies.tree) if limb.body == bodies.driver)
+    tree = _Tree(
+        tuple(each[0] for each in limbs),
+        tuple(each[1] for each in limbs),
+        carried,
+        turned,
+        closed,
+        tuple(each[:2] for each in closures),
+        _pins(bodies),
+        driver,
+    )
+    matrix = np.stack([closed.real, closed.imag], axis=1).reshape(-1, count, n).transpose(2, 0, 1)
+    inverse = _inverse(matrix[:, :, tree.others])
+
+    def solved(right: FloatArray, own: float) -> FloatArray:
+        """The coordinates (k, n) where the equations have a right side (n, k - 1)."""
+        out = own + 0 * np.repeat(inverse[:, :1, 0].T, count, axis=0)
+        out[tree.others] = (inverse @ right[..., None])[..., 0].T
+        return np.asarray(out)
+
+    first = solved(-matrix[:, :, driver], 1.0)
+    spin = turned @ first
+    bent = np.zeros((count + 1, n), dtype=complex)
+    for k, (body, base, one, two, slides) in enumerate(limbs):
+        bent[body] = bent[base] - spin[base] ** 2 * one
+        bent[body] += -2j * spin[base] * first[k] * two if slides else spin[body] ** 2 * two
+    off = [
+        bent[one] - bent[other] - spin[one] ** 2 * at_one + spin[other] ** 2 * at_other
+        for one, other, at_one, at_other in closures
+    ]
+    second = solved(-np.stack([part for each in off for part in (each.real, each.imag)], -1), 0.0)
+
+    def told(speed: ComplexArray, turning: FloatArray, unit: float) -> FloatArray:
+        parts = speed.real * (size / unit), speed.imag * (size / unit), turning / unit
+        return np.stack([each[:-1].T for each in parts], axis=-1)
+
+    turns = not limbs[driver][-1]
+    unit = 1.0 if turns else size
+    velocity = told((carried * first).sum(axis=1), spin, unit)
+    acceleration = told((carried * second).sum(axis=1) + bent, turned @ second, unit**2)
+    closeness = np.linalg.det(matrix[:, :, tree.others])
+    return Rates(bodies.moving, velocity, acceleration, turns, tree, size, inverse, closeness)
 
 
-def _write_driver(row: FloatArray, bodies: Bodies, at: _Places) -> bool:
-    """Write the row (n, 3k) of the driver's coordinate; whether that is an angle."""
-    k = at.first[bodies.driver]
-    (limb,) = (each for each in bodies.tree if each.body == bodies.driver)
-    if not limb.slides:
-        row[:, k + 2] = 1.0
-        return True
-    assert limb.joint.slot is not None
-    row[:, k : k + 2] = limb.joint.slot.directions[1]
-    return False
+def _pins(bodies: Bodies) -> tuple[tuple[int, bool], ...]:
+    """Where the pin of each joint is in the tree; see `_Tree`."""
+    of = {
+        id(limb.joint): (k, limb.body == limb.joint.holder)
+        for k, limb in enumerate(bodies.tree)
+        if not limb.slides
+    }
+    for k, (joint, one, _) in enumerate(bodies.closures, start=len(bodies.tree)):
+        of[id(joint)] = k, one == joint.holder
+    return tuple(of[id(joint)] for joint in bodies.joints)
 
 
 def _inverse(matrix: FloatArray) -> FloatArray:
