@@ -81,7 +81,8 @@ def kinematics(found: LinkageAtPoses, drive: Drive, count: int) -> Kinematics:
     course = course_of(timing, count)
     motion = Motion.of_driver(travel, course.share)
     bodies = found.bodies
-    by_drive = rates(bodies, found.bodies_at(motion.drive, motion.places))
+    places = motion.links or found.bodies_at(motion.drive, motion.places)
+    by_drive = rates(bodies, places)
     first, last = travel(np.array([0.0, 1.0])).drive.tolist()
     way = last - first
     speed, push = course.speed * way, course.acceleration * way

@@ -97,10 +97,11 @@ class LoadedLinkage:
         """The driver's coordinate and the bodies' places along the motion, from end to end."""
         motion = self.way(np.linspace(0.0, 1.0, LOOKS))
         drive = motion.drive * (1.0 if motion.in_turns else self.metre)
-        return drive, self.found.bodies_at(motion.drive, motion.places)
+        return drive, motion.links or self.found.bodies_at(motion.drive, motion.places)
 
     def _moved(self, motion: Motion) -> LoadedMotion:
-        places = self.found.bodies_at(motion.drive, motion.places).scaled(self.metre)
+        places = motion.links or self.found.bodies_at(motion.drive, motion.places)
+        places = places.scaled(self.metre)
         drive = motion.drive * (1.0 if motion.in_turns else self.metre)
         return LoadedMotion(self, drive, places, rates(self.bodies, places))
 

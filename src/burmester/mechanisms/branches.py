@@ -105,7 +105,11 @@ class Branch(NamedTuple):
         one, other = self.shares[right - 1], self.shares[right]
         at_one, at_other = self.drives[right - 1] - drive, self.drives[right] - drive
         share = np.where(np.abs(at_one) <= np.abs(at_other), one, other)
-        done = np.zeros(share.shape, dtype=bool)
+        shape = share.shape
+        out, left = share.ravel(), np.arange(share.size)  # those that are still sought
+        share, drive, one, other, at_one, at_other = (
+            each.ravel() for each in (share, drive, one, other, at_one, at_other)
+        )
         for _ in range(SOLVED):
             with np.errstate(invalid="ignore", divide="ignore"):
                 new = (one * at_other - other * at_one) / (at_other - at_one)
@@ -115,13 +119,16 @@ class Branch(NamedTuple):
             off = wrapped_angle(there - drive)
             kept = off * at_other < 0  # the root is between these two
             one, at_one = np.where(kept, other, one), np.where(kept, at_other, at_one / 2)
-            other, at_other = new, off
             near = np.abs(new - share) <= ROUNDING * (1 + np.abs(new))
-            share = np.where(done, share, new)
-            done |= near | (np.abs(off) <= ROUNDING)
-            if done.all():
+            out[left] = new
+            more = ~(near | (np.abs(off) <= ROUNDING))
+            left = left[more]
+            if not len(left):
                 break
-        return share
+            share, drive, one, other, at_one, at_other = (
+                each[more] for each in (new, drive, one, new, at_one, off)
+            )
+        return out.reshape(shape)
 
 
 def branches_of(mechanism: Mechanism, circuits: Circuits, pivot: str) -> tuple[Branch, ...]:

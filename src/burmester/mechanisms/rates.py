@@ -5,8 +5,8 @@ slides.  Their derivatives u by the driver's carry all bodies, v = C u.  The joi
 loops are two equations each between them, K u = 0; differentiated once more, K u' = -b, where b are
 the accelerations without u'.  Of a four-bar these are 2 x 2 systems, of a six-bar 4 x 4.
 
-By virtual work the transpose of K carries the forces f of these joints: K^T f = C^T (M a - W), where
-W are the loads, and M a what masses resist.  All other joints bear what is beyond them in the tree.
+By virtual work the transpose of K carries the forces f of these joints: K^T f = C^T (M a - W), where W
+are the loads, and M a what masses resist.  All other joints bear what is beyond them in the tree.
 
 K, without the driver, is singular exactly at the dead points of the driver: there all is nan.
 """
@@ -126,7 +126,7 @@ def rates(bodies: Bodies, places: LinkPlaces) -> Rates:
     count, n = len(bodies.moving), len(at[0])
 
     def arm(name: str, hole: FloatArray) -> ComplexArray:
-        return turn[number[name]] * (complex(*hole) / size)
+        return np.asarray(turn[number[name]] * (complex(*hole) / size))
 
     # Of each limb: its body and that it is on; the arms of their joint, or how far they are apart.
     limbs = list[tuple[int, int, ComplexArray, ComplexArray, bool]]()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Self
 
@@ -138,7 +139,9 @@ class FoundSixBar(LinkageAtPoses):
 
         nan beyond where the linkage locks.
         """
-        there = self._joints(drive)
+        return self._by_name(self._joints(drive))
+
+    def _by_name(self, there: ComplexArray) -> dict[str, FloatArray]:
         places = np.stack([there.real, there.imag], axis=-1)
         return {name: places[..., k, :] for k, name in enumerate(self.skeleton.joints)}
 
@@ -196,8 +199,11 @@ class FoundSixBar(LinkageAtPoses):
 
     def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
+        return self._named(self.links(drive))
+
+    def _named(self, links: Mapping[str, Displacement]) -> LinkPlaces:
         named = plate_names(self.skeleton)
-        return LinkPlaces({named[link]: each for link, each in self.links(drive).items()})
+        return LinkPlaces({named[link]: each for link, each in links.items()})
 
     def at_poses(self) -> LinkPlaces:
         """Where its bodies are for the poses (N,)."""
@@ -215,11 +221,14 @@ class FoundSixBar(LinkageAtPoses):
         if full:
             start = float(self.drive[0])
             end = start + math.copysign(2 * math.pi * self.turns, self.drive[-1] - start)
-        met = (self.drive - start) / (end - start)
+        met, frames = (self.drive - start) / (end - start), self.frames
 
         def at(share: FloatArray) -> Motion:
             drive = start + (end - start) * share
-            return Motion(self.body(drive), drive, met, True, self.turns > 0, full)
+            joints = self._joints(drive)
+            body = body_of(self.linkage, joints, frames)
+            links = self._named(self.skeleton.places(frames, self._by_name(joints)))
+            return Motion(body, drive, met, True, self.turns > 0, full, links)
 
         return at
 

@@ -14,9 +14,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from burmester.geometry.displacement import Displacement
+from burmester.mechanisms.bodies import LinkPlaces
 from burmester.numerics.arrays import FloatArray
 
 LOOKS: Final = 721  # places in which the driver's way is tabled
+PROBES: Final = 9  # places that tell whether the driver goes evenly
 CORRECTIONS: Final = 4  # of a share; each is nearly LOOKS times as close
 CLOSE: Final = 1e-12  # of the driver's way
 
@@ -51,6 +53,7 @@ class Motion:
     four-bar (`DrivenLoop`) begins within the first turn, from 0 to 2 pi.
     pose_shares: (N,), the share of the motion, 0 to 1, at which each pose is met; nan for poses
     that the driver does not reach.
+    links: the places (n,) of all bodies, where they came with those of the body.
     turns_fully: whether the driver can make full turns; full_turn: whether the motion is one, until
     all is as it was.
     """
@@ -61,6 +64,7 @@ class Motion:
     in_turns: bool
     turns_fully: bool
     full_turn: bool
+    links: LinkPlaces | None = None
 
     @classmethod
     def of(cls, chosen: Travels, count: int | ArrayLike, whole: bool = False) -> Motion:
@@ -78,6 +82,10 @@ class Motion:
     @classmethod
     def of_driver(cls, way: Way, share: FloatArray) -> Motion:
         """The motion at shares (n,) of what the driver goes, which may be others of the motion."""
+        few = np.linspace(0.0, 1.0, PROBES)
+        drive = way(few).drive
+        if np.abs(drive - drive[0] - (drive[-1] - drive[0]) * few).max() < CLOSE * np.ptp(drive):
+            return way(share)  # the driver's own coordinate tells how far the motion is
         table = np.linspace(0.0, 1.0, LOOKS)
         drive = way(table).drive
         first, whole = drive[0], drive[-1] - drive[0]
