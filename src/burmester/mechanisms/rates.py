@@ -5,7 +5,7 @@ slides.  Their derivatives u by the driver's carry all bodies, v = C u.  The joi
 loops are two equations each between them, K u = 0; differentiated once more, K u' = -b, where b are
 the accelerations without u'.  Of a four-bar these are 2 x 2 systems, of a six-bar 4 x 4.
 
-By virtual work the transpose of K carries the forces f of these joints: K^T f = C^T (M a - W), where W
+By virtual work the transpose of K carries the forces f of these joints: K^T f = C^T (M a - W).  W
 are the loads, and M a what masses resist.  All other joints bear what is beyond them in the tree.
 
 K, without the driver, is singular exactly at the dead points of the driver: there all is nan.
