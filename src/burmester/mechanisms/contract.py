@@ -85,14 +85,9 @@ def drive_of(skeleton: Skeleton, joints: ComplexArray, pivot: str) -> FloatArray
     return np.asarray(np.angle(joints[..., end] - joints[..., start]))
 
 
-def body_of(
-    mechanism: Mechanism, joints: ComplexArray, frames: Frames | None = None
-) -> Displacement:
-    """The poses (*,) of the body where the joints are (*, j); angles within half a turn.
-
-    frames: of the mechanism, where they are known.
-    """
-    skeleton, at = mechanism.skeleton, (frames or mechanism.frames())[mechanism.carries]
+def body_of(mechanism: Mechanism, joints: ComplexArray) -> Displacement:
+    """The poses (*,) of the body where the joints are (*, j); angles within half a turn."""
+    skeleton, at = mechanism.skeleton, mechanism.frames()[mechanism.carries]
     near, far = tuple(skeleton.links[mechanism.carries][:2])
     own = [complex_of(at[joint]) for joint in (near, far)]
     there = [joints[..., skeleton.joints.index(joint)] for joint in (near, far)]

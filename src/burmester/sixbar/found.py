@@ -139,9 +139,7 @@ class FoundSixBar(LinkageAtPoses):
 
         nan beyond where the linkage locks.
         """
-        return self._by_name(self._joints(drive))
-
-    def _by_name(self, there: ComplexArray) -> dict[str, FloatArray]:
+        there = self._joints(drive)
         places = np.stack([there.real, there.imag], axis=-1)
         return {name: places[..., k, :] for k, name in enumerate(self.skeleton.joints)}
 
@@ -199,11 +197,7 @@ class FoundSixBar(LinkageAtPoses):
 
     def bodies_at(self, drive: FloatArray, body: Displacement) -> LinkPlaces:
         """Where its bodies are when the driver is at (*,) and M at places (*,)."""
-        return self._named(self.links(drive))
-
-    def _named(self, links: Mapping[str, Displacement]) -> LinkPlaces:
-        named = plate_names(self.skeleton)
-        return LinkPlaces({named[link]: each for link, each in links.items()})
+        return _named(self.skeleton, self.links(drive))
 
     def at_poses(self) -> LinkPlaces:
         """Where its bodies are for the poses (N,)."""
@@ -225,12 +219,17 @@ class FoundSixBar(LinkageAtPoses):
 
         def at(share: FloatArray) -> Motion:
             drive = start + (end - start) * share
-            joints = self._joints(drive)
-            body = body_of(self.linkage, joints, frames)
-            links = self._named(self.skeleton.places(frames, self._by_name(joints)))
-            return Motion(body, drive, met, True, self.turns > 0, full, links)
+            links = self.skeleton.places(frames, self.joints(drive))
+            there = _named(self.skeleton, links)
+            return Motion(links[self.carries], drive, met, True, self.turns > 0, full, there)
 
         return at
 
     def _joints(self, drive: FloatArray) -> ComplexArray:
         return self.branch.at(self.linkage, drive)
+
+
+def _named(skeleton: Skeleton, links: Mapping[str, Displacement]) -> LinkPlaces:
+    """The places of links as those of bodies."""
+    named = plate_names(skeleton)
+    return LinkPlaces({named[link]: each for link, each in links.items()})
