@@ -79,7 +79,7 @@ class Timing(NamedTuple):
 
 def course_of(timing: Timing, count: int) -> Course:
     """So many times, evenly from beginning to end."""
-    return _at(timing, np.linspace(0.0, 1.0, count))
+    return course_at(timing, np.linspace(0.0, 1.0, count))
 
 
 def course_through(timing: Timing, shares: FloatArray) -> Course:
@@ -93,14 +93,14 @@ def course_through(timing: Timing, shares: FloatArray) -> Course:
     rises = np.where(last[k] >= first[k], 1.0, -1.0)
     for _ in range(HALVINGS):
         middle = (below + above) / 2
-        short = rises * (_at(timing, middle).share - wanted) < 0
+        short = rises * (course_at(timing, middle).share - wanted) < 0
         below, above = np.where(short, middle, below), np.where(short, above, middle)
     t = np.where(wanted == first[k], timing.parts[k], (below + above) / 2)
     t = np.where((wanted == last[k]) & (wanted != first[k]), timing.parts[k + 1], t)
-    return _at(timing, np.where(within.any(axis=1), t, np.nan))
+    return course_at(timing, np.where(within.any(axis=1), t, np.nan))
 
 
-def _at(timing: Timing, t: FloatArray) -> Course:
+def course_at(timing: Timing, t: FloatArray) -> Course:
     """At parts t (n,) of the whole time.
 
     The polynomial 3-4-5 is 10 t³ - 15 t⁴ + 6 t⁵: at rest at both ends, without a jerk that is

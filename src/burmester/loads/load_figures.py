@@ -10,9 +10,10 @@ from typing import Any, NamedTuple, TypeVar, final
 import numpy as np
 
 from burmester.errors import Finding, InputError
-from burmester.loads.drive_in_time import course_of
+from burmester.loads.drive_in_time import course_at
 from burmester.loads.equilibria import equilibria
 from burmester.loads.loaded_motion import LOOKS, LoadedLinkage, LoadedMotion
+from burmester.loads.peaks import with_peaks
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.figures import Figures
 from burmester.requirements.loads import OF_LOADS
@@ -74,7 +75,7 @@ class DriveFigures(NamedTuple):
 class LoadFigures:
     """Of one linkage from the first pose to the last.
 
-    motion: at places along it.  effort: that holds it still.
+    motion: at shares (n,) along it, closer about its extremes.  effort: that holds it still.
     hand: of a hand in place of the driver, positive where it pushes along its way; None where there
     is no hand.  rub: how much more of it the friction of gas springs takes, at most, in N.
     pins: the greatest force of each, in N.
@@ -84,6 +85,7 @@ class LoadFigures:
     """
 
     motion: LoadedMotion
+    shares: FloatArray
     effort: Extremes
     hand: Extremes | None
     rub: float
@@ -102,7 +104,7 @@ class LoadFigures:
     @cached_property
     def rests(self) -> tuple[Rest, ...]:
         """Its equilibria."""
-        return _rests(self.motion)
+        return _rests(self.motion, self.shares)
 
 
 def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
@@ -115,7 +117,7 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         if error.code != "E163":
             raise
         return None
-    loaded = linkage.at(LOOKS)
+    loaded, shares = _looked_at(linkage)
     effort = loaded.effort
     hand, rub, pushed, onwards = None, 0.0, np.nan, np.full(1, np.nan)
     if loaded.loads.hand is not None:
@@ -125,9 +127,9 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         onwards = loaded.hand_force(effort) + rubs
     pins = {
         name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
-        for name, force in loaded.pin_forces(-loaded.applied).items()
+        for name, force in loaded.pins.items()
     }
-    most, stays, drive = extremes(loaded, effort), _stays(loaded), in_time(linkage)
+    most, stays, drive = extremes(loaded, effort), _stays(loaded, shares), in_time(linkage)
     findings = spring_findings(loaded) + drive_findings(linkage)
     names = found.task.names or ("",) * len(linkage.at_poses)
     measures = {
@@ -145,6 +147,7 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
         measures |= {"body_speed": drive.speed, "body_acceleration": drive.acceleration}
     return LoadFigures(
         loaded,
+        shares,
         most,
         hand,
         rub,
@@ -205,9 +208,31 @@ def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
     ) + 1
 
 
-def _rests(loaded: LoadedMotion) -> tuple[Rest, ...]:
-    shares = np.linspace(0.0, 1.0, LOOKS)
+def _looked_at(linkage: LoadedLinkage) -> tuple[LoadedMotion, FloatArray]:
+    """A linkage at shares (n,) of its motion: even ones, the poses, and more about extremes."""
+    met = linkage.pose_shares[np.isfinite(linkage.pose_shares)]
+    even = np.unique(np.concatenate([np.linspace(0.0, 1.0, LOOKS), met]))
+    first = linkage.at(even)
 
+    def look(shares: FloatArray) -> tuple[FloatArray, FloatArray]:
+        here = first if shares is even else linkage.at(shares)
+        values = [here.effort, *(np.hypot(*force.T) for force in here.pins.values())]
+        divisors = [np.abs(here.rates.closeness)]
+        for course in here.springs:
+            values += [course.length, course.tension]
+            if course.spring.kind != "torsion":
+                divisors.append(course.length)
+        if here.loads.hand is not None:
+            push, rubs = here.hand_force(here.effort), np.abs(here.hand_force(here.friction))
+            values += [push, rubs, push + rubs, np.abs(push) + rubs]
+            divisors.append(np.linalg.norm(here.hand_path, axis=-1))
+        return np.array(values), np.array(divisors)
+
+    shares = with_peaks(even, look)
+    return (first if shares is even else linkage.at(shares)), shares
+
+
+def _rests(loaded: LoadedMotion, shares: FloatArray) -> tuple[Rest, ...]:
     rests = equilibria(
         shares, loaded.effort, loaded.sense, lambda at: loaded.of.at(at).effort, _none(loaded)
     )
@@ -221,11 +246,11 @@ def _rests(loaded: LoadedMotion) -> tuple[Rest, ...]:
     )  # fmt: skip
 
 
-def _stays(loaded: LoadedMotion) -> tuple[int, ...]:
+def _stays(loaded: LoadedMotion, shares: FloatArray) -> tuple[int, ...]:
     """The poses at which the friction of springs, or nothing, is enough to hold it."""
     reached = np.flatnonzero(np.isfinite(loaded.of.pose_shares))
-    at = loaded.of.at(loaded.of.pose_shares[reached])
-    held = np.abs(at.effort) <= at.friction + _none(loaded)
+    at = np.searchsorted(shares, loaded.of.pose_shares[reached])
+    held = np.abs(loaded.effort[at]) <= loaded.friction[at] + _none(loaded)
     return tuple(int(k) for k in reached[held])
 
 
@@ -289,17 +314,25 @@ def in_time(linkage: LoadedLinkage) -> DriveFigures | None:
     timing = linkage.timing(drive)
     if timing.missed is not None:
         return None
-    course = course_of(timing, LOOKS)
-    loaded = linkage.at_driver(course.share)
-    first, last = linkage.at(2).drive.tolist()
-    way = last - first
-    speed, push = course.speed * way, course.acceleration * way
-    resisted = loaded.carried(speed, push) - loaded.applied
-    number = loaded.rates.bodies.index(loaded.bodies.body)
-    velocity, acceleration = (each[:, number, :2] for each in loaded.rates.in_time(speed, push))
-    return DriveFigures(
-        drive,
-        extremes(loaded, loaded.rates.effort(resisted)),
-        float(np.nanmax(np.hypot(*velocity.T))) / loaded.of.metre,
-        float(np.nanmax(np.hypot(*acceleration.T))) / loaded.of.metre,
-    )
+    first, last = linkage.drives(linkage.way(np.array([0.0, 1.0]))).tolist()
+
+    def seen(parts: FloatArray) -> tuple[LoadedMotion, FloatArray]:
+        """It at parts (n,) of the time, with effort, speed and acceleration: (3, n)."""
+        course = course_at(timing, parts)
+        here = linkage.at_driver(course.share)
+        speed, push = course.speed * (last - first), course.acceleration * (last - first)
+        effort = here.rates.effort(here.carried(speed, push) - here.applied)
+        number = here.rates.bodies.index(here.bodies.body)
+        moved = (np.hypot(*each[:, number, :2].T) for each in here.rates.in_time(speed, push))
+        return here, np.stack([effort, *moved])
+
+    def look(parts: FloatArray) -> tuple[FloatArray, FloatArray]:
+        here, values = whole if parts is even else seen(parts)
+        return values, np.abs(here.rates.closeness)[None]
+
+    even = np.linspace(0.0, 1.0, LOOKS)
+    whole = seen(even)
+    parts = with_peaks(even, look)
+    loaded, values = whole if parts is even else seen(parts)
+    speed, acceleration = (float(np.nanmax(each)) / linkage.metre for each in values[1:])
+    return DriveFigures(drive, extremes(loaded, values[0]), speed, acceleration)

@@ -102,8 +102,11 @@ class LoadedLinkage:
     def _moved(self, motion: Motion) -> LoadedMotion:
         places = motion.links or self.found.bodies_at(motion.drive, motion.places)
         places = places.scaled(self.metre)
-        drive = motion.drive * (1.0 if motion.in_turns else self.metre)
-        return LoadedMotion(self, drive, places, rates(self.bodies, places))
+        return LoadedMotion(self, self.drives(motion), places, rates(self.bodies, places))
+
+    def drives(self, motion: Motion) -> FloatArray:
+        """The driver's coordinate (n,) along a motion, radians or metres."""
+        return motion.drive * (1.0 if motion.in_turns else self.metre)
 
 
 @final
@@ -325,6 +328,11 @@ class LoadedMotion:
         speed = np.linalg.norm(self.hand_path, axis=-1)
         moves = speed > STILL * np.nanmax(speed, initial=0.0)
         return np.asarray(self.sense * effort / np.where(moves, speed, np.nan))
+
+    @cached_property
+    def pins(self) -> dict[str, FloatArray]:
+        """The forces (n, 2) in F of the pins while it is held still, by their letters."""
+        return self.pin_forces(-self.applied)
 
     def pin_forces(self, resisted: FloatArray) -> dict[str, FloatArray]:
         """The forces (n, 2) in F of the pins, by their letters; resisted: (n, k, 3), M a - W."""
