@@ -1,5 +1,7 @@
 """The six-bars of a search, driven by Newton's method on their bars."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,8 @@ from burmester.progress import shown
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.tasks.limits import Limits
+from burmester.tasks.loads import Loads, Mass
+from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
 from tests.oracles.six_bars import driven
@@ -159,3 +163,29 @@ def test_options_that_make_no_sense(wrong):
     with pytest.raises(InputError) as refused:
         SixBarOptions(**wrong)
     assert refused.value.code == "E197"
+
+
+def test_a_search_under_loads_finds_one_that_bears_less_than_those_that_transmit_best():
+    """A lid of 4 kg: the force along the path of the hand is the slope of the weight's energy."""
+    lid = [(0, 0, 0), (2.91, -17.17, 22.5), (10.95, -41.07, 45), (23.91, -67.22, 67.5),
+           (43.76, -92.31, 90)]  # fmt: skip
+    loads = Loads(body=Mass(4.0, np.array([210.0, 9.0])), hand=np.array([420.0, 0.0]))
+    given = replace(Task.from_rows(lid, angle_unit="deg"), length_unit="mm", loads=loads)
+    options = SixBarOptions(chains=2000, kind="Stephenson III")
+
+    def greatest(found):
+        places = found.body(found.along(20001))
+        height, hand = places.act(np.array([210.0, 9]))[:, 1], places.act(np.array([420.0, 0]))
+        way = np.linalg.norm(np.diff(hand, axis=0), axis=1)
+        return 4 * 9.80665 * np.abs(np.diff(height) / way).max()
+
+    free = synthesize_six_bars(given, options).six_bars
+    assert min(greatest(each) for each in free) > 17
+    asked = replace(given, requirements=Requirements(hand_force_N=17.0))
+    found = synthesize_six_bars(asked, options).six_bars
+    assert len(found)
+    for each in found:
+        assert greatest(each) <= 17 * (1 + 1e-3)
+        places, x = each.body(each.drive), np.array(lid)
+        assert places.translation == pytest.approx(x[:, :2], abs=1e-6)
+        assert np.exp(1j * places.angle) == pytest.approx(np.exp(1j * np.radians(x[:, 2])))

@@ -41,6 +41,8 @@ SEARCHED: Final[Mapping[str, tuple[Recipe, ...]]] = {
 ROUND = 500  # chains worked out at a time
 DRAWN_SHARE = 0.4  # of the rounds, in which chains are drawn at random; then near the best as well
 VIOLATED = 120.0  # degrees of transmission that a violation of 1 counts as, in what is climbed
+# Of the search under loads: rounds, six-bars that are loaded in each, and parents of the next.
+LOADED_ROUNDS, LOADED, PARENTS = 12, 16, 8
 KEPT = 100  # of the best, around which chains are drawn
 STEPS = 0.003, 0.3  # least and greatest deviation of a chain from its parent, in sizes
 MARGIN = 1.002  # of the reach that a chain needs, at least
@@ -90,10 +92,17 @@ class _Chains(NamedTuple):
 
 
 def search(
-    space: SearchSpace, kinds: Sequence[str], chains: int, seed: int, most: int
+    space: SearchSpace,
+    kinds: Sequence[str],
+    chains: int,
+    seed: int,
+    most: int,
+    *,
+    burden: Callable[[Candidates, int], float] | None = None,
 ) -> list[ChainSearch]:
     """The best six-bars of each recipe on so many chains, `most` at most of each.
 
+    burden: by how much one of them bears too much, 0 where it bears what is asked.
     The same seed gives the same answer.  A time limit (`progress.limited`) ends it after a round.
     """
     rounds = -(-chains // ROUND)
@@ -104,6 +113,9 @@ def search(
             break
         for each in searches:
             each.look(min(ROUND, chains - ROUND * number), number >= DRAWN_SHARE * rounds)
+    if burden is not None and time_for("looking for six-bars that bear what is asked"):
+        for each in searches:
+            each.bear(burden)
     return [each.found(most) for each in searches]
 
 
@@ -137,6 +149,35 @@ class _Search:
         order = np.argsort(-merit, kind="stable")
         best = _distinct(found, order, NICHE * space.size, KEPT)
         self._kept, self._drawn = take((found, mine), best)
+
+    def bear(self, burden: Callable[[Candidates, int], float]) -> None:
+        """Go on near those that bear least, and keep those that bear what is asked, if any does."""
+        space, size = self._space, self._space.size
+        assert self._kept is not None
+        assert self._drawn is not None
+        good = np.flatnonzero(_violation(space, self._kept) == 0)
+        kept, drawn = take((self._kept, self._drawn), good)
+        borne = np.array([burden(kept, k) for k in range(len(good))])
+        for _ in range(LOADED_ROUNDS if len(good) else 0):
+            if (borne <= 0).sum() > PARENTS:
+                break
+            first = np.argsort(borne, kind="stable")[:PARENTS]
+            fresh = _drawn(space, self._own, ROUND, self._random)
+            near = _varied(space, take(drawn, first), fresh, self._random)
+            found = self._recipe(near.chains(), near.poses, near.side, space.conditions)
+            some = np.flatnonzero(_violation(space, found) == 0)
+            some = some[self._random.permutation(len(some))[:LOADED]]
+            mine, found = take(near, found.chain[some]), take(found, some)
+            more = np.array([burden(found, k) for k in range(len(some))])
+            found = found._replace(chain=found.chain + self._looked)
+            self._looked += ROUND
+            kept, drawn = concatenate([(kept, drawn), (found, mine)])
+            borne = np.concatenate([borne, more])
+            order = np.lexsort((-kept.merit(size), borne))
+            best = _distinct(kept, order, NICHE * size, KEPT)
+            kept, drawn, borne = take((kept, drawn, borne), best)
+        bears = borne <= max(float(borne.min(initial=math.inf)), 0.0)
+        self._kept, self._drawn = take((kept, drawn), bears)
 
     def found(self, most: int) -> ChainSearch:
         """What was found, the best `most` of it."""

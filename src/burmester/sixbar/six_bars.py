@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Final, final
 
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.requirements.figures import Figures
+from burmester.requirements.loads import OF_LOADS
+from burmester.requirements.table import excess
+from burmester.sixbar.candidates import Candidates
 from burmester.sixbar.chain_search import SEARCHED, is_sound, search
 from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.judged import judged_six_bar
+from burmester.sixbar.load_excess import SEARCHED as SEARCHED_LOADS
+from burmester.sixbar.load_excess import load_excess
 from burmester.sixbar.search_space import POSES, SearchSpace
 from burmester.tasks.problem import SynthesisProblem
 from burmester.values import shown
@@ -20,6 +28,7 @@ from burmester.wording import listed
 
 CHAINS: Final = 20_000  # that are worked out where nobody says otherwise
 MOST_CHAINS: Final = 10_000_000
+WORSE: Final = 2.0  # what is too much at a pose counts as more than what is between them
 SHOWN: Final = 8  # six-bars of an answer, at most
 ALL: Final = "all"
 CHOICES: Final = (ALL, *(name.removesuffix(" six-bar") for name in SEARCHED))
@@ -106,7 +115,12 @@ class SixBars:
 def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
     """The best six-bars of a random search; raises E195 and E196, as `SearchSpace.of`."""
     space = SearchSpace.of(problem)
-    searches = search(space, options.kinds, options.chains, options.seed, options.most)
+    task, burden = problem.given, None
+    if {*SEARCHED_LOADS} & {*task.requirements.bounds}:
+        burden = partial(_burden, problem=problem)
+    searches = search(
+        space, options.kinds, options.chains, options.seed, options.most, burden=burden
+    )
     best = [each.best for each in searches]
     sound = np.concatenate([is_sound(each, problem.motion_size) for each in best])
     transmission, extent = (
@@ -134,3 +148,17 @@ def best_six_bars(problem: SynthesisProblem, options: SixBarOptions) -> SixBars:
         space.assumed,
         POSES - problem.given.poses.shape[0],
     )
+
+
+def _burden(found: Candidates, k: int, problem: SynthesisProblem) -> float:
+    """By how much a six-bar bears too much: at the poses, and where it does not, in between."""
+    rough = load_excess(found, k, problem.given)
+    if rough > 0:
+        return WORSE + rough
+    linkage = found.linkages[k]
+    judged = judged_six_bar(linkage, problem, (linkage.skeleton.drivers[int(found.driver[k])],))
+    if judged.defects or judged.loads is None:
+        return math.inf
+    bounds = problem.given.requirements.bounds
+    asked = {each: bound for each, bound in bounds.items() if each in OF_LOADS}
+    return float(excess(asked, Figures(**judged.loads.measures)))
