@@ -8,7 +8,7 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.live.document import options_of
-from burmester.requirements.loads import OF_LOADS
+from burmester.requirements.loads import OF_LOADS, STAYS_AT
 from burmester.requirements.table import ASKED
 from burmester.studio.form import form_data
 from burmester.tasks.limits import KINDS, Limits
@@ -20,8 +20,11 @@ FIELDS = {each["key"]: each for each in FORM["requirements"]}
 
 
 def test_every_requirement_has_a_field():
-    """But for those of loads, which files state and a page does not."""
-    assert [*FIELDS] == [each.name for each in ASKED if each not in OF_LOADS]
+    """But for the poses at which it stays; those of loads are marked."""
+    assert [*FIELDS] == [each.name for each in ASKED if each is not STAYS_AT]
+    assert {key for key, each in FIELDS.items() if each["loads"]} == {
+        each.name for each in OF_LOADS if each is not STAYS_AT
+    }
     assert all(each["label"] for each in FIELDS.values())
     angle = FIELDS["transmission_deg"]
     assert (angle["kind"], angle["least"], angle["below"]) == ("angle", 0, 90)

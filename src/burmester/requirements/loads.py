@@ -143,7 +143,7 @@ HAND_FORCE: Final = replace(
     _GREATEST,
     form="corridor",
     metavar="N|LEAST:GREATEST",
-    label="the force of the hand",
+    label="force of the hand in N, least and greatest",
     help="Greatest force of the hand, either way; or its least and greatest force on the way from "
     "the first pose to the last, below zero where it holds the body back.",
     excess=_hand_excess,

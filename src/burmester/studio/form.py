@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from burmester.requirements.loads import OF_LOADS
+from burmester.requirements.loads import OF_LOADS, STAYS_AT
 from burmester.requirements.requirement import Number, Requirement
 from burmester.requirements.table import ASKED
 from burmester.tasks.option_table import LIMIT_OPTIONS, STUDIO_OPTIONS
@@ -20,8 +20,9 @@ def form_data() -> dict[str, Any]:
         "requirements": [
             _field(each.name, each.label or each.help, each.form, _choices(each))
             | _bounds(each.checked)
+            | {"loads": each in OF_LOADS}
             for each in ASKED
-            if each not in OF_LOADS  # files state loads, a page does not
+            if each is not STAYS_AT  # whose names are those of the poses, which a page changes
         ],
         "options": [
             _field(key, each.label, each.form, [*zip(each.known, each.words, strict=True)])

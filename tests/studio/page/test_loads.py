@@ -64,3 +64,19 @@ def test_springs_follow_a_hand(page):
     solved(page)
     assert spring.get_attribute("d") != before
     assert page.locator("[data-panel=loads] .bm-stale").count() == 0
+
+
+def test_fields_for_what_is_asked_of_loads(page):
+    """They are there where the task has loads; a least force makes the bound a corridor."""
+    least, greatest = (
+        page.locator(f"[data-key=hand_force_N-{name}]") for name in ("least", "greatest")
+    )
+    assert greatest.is_hidden()
+    drop(page, "lid.toml", LID.replace("[loads]", "[requirements]\nhand_force_N = 400\n[loads]"))
+    has_poses(page, 3)
+    solved(page)
+    assert (least.input_value(), greatest.input_value()) == ("", "400")
+    least.fill("-50")
+    least.press("Enter")
+    solved(page)
+    assert (least.input_value(), greatest.input_value()) == ("−50", "400")

@@ -170,6 +170,8 @@ us: 6px; }
 .bs-grid .bs-label { flex: 1 1 8em; }
 .bs-grid .bs-labelled .bs-field { width: 6.4em; flex: none; }
 .bs-grid .bs-labelled .bs-hint { flex: none; width: 1em; }
+.bs-pair { display: inline-flex; gap: 4px; }
+.bs-grid .bs-labelled .bs-pair .bs-field { width: 4.4em; }
 .bs-limit-table, .bs-limit-box { display: grid; gap: 5px; min-width: 0; }
 .bs-limit-table + .bs-limit-table { margin-top: 14px; }
 .bs-limit-box { border-left: 2px solid var(--bm-line); padding: 2px 0 4px 9px; margin: 4px 0; justify-items: start; }

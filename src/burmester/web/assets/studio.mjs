@@ -1809,17 +1809,22 @@ files.chooseOutline(),{"data-do":"outline-file"}),this.noBody),this.bodyBox)}dra
 idden",!task.body);give(this.bodyBox,"hidden",!corners.length);if(!corners.length)return;say(this.bodyCount,`${corners.length} corners, in numbers`);this.bodyNumbers.
 show("polygon",corners)}makeRequirements(){this.asks=this.form.requirements.map(each=>({...each,...this.field(each,value=>this.edit(document2=>setRequirement(document2,
 each.key,value)))}));const of=(...forms)=>this.asks.filter(({form})=>forms.includes(form)).map(({element})=>element);return section2("requirements","What the li\
-nkage must be",true,h("div",{class:"bs-grid"},of("number"),of("choice")),of("flag"),of("area"),of("names"))}field({key,label,form,choices,...bounds2},set){const attributes={
-"data-key":key};switch(form){case"choice":case"word":{const[[usual]]=choices,element=choice(label,choices,value=>set(value===usual?void 0:value),attributes);return{
-element:labelled(label,element),show:value=>element.value=value??usual}}case"flag":{const{box,element}=tick(label,on=>set(on||void 0),attributes);return{element,
-show:value=>give(box,"checked",Boolean(value))}}case"names":{const ticks2=choices.map(([name,text])=>({name,...tick(text,()=>set(some(ticks2)),{"data-key":`${key}\
--${name}`})}));const element=h("details",{},h("summary",{},label),h("div",{class:"bs-ticks"},ticks2.map(each=>each.element)),h("p",{class:"bs-hint"},"None: any."));
-return{element,show:value=>ticks2.forEach(({name,box})=>box.checked=Boolean(value?.includes(name)))}}case"area":{const none=button("Delete",()=>set(void 0),{"da\
-ta-do":`delete-${key}`,"aria-label":`Delete the ${key}`});const element=h("div",{class:"bs-limit-box"},h("h4",{},label),this.tools(`Draw the ${key}`,["box","pol\
-ygon"],shape=>this.regions.footprintTool(shape),key),none);return{element,show:value=>give(none,"hidden",!value)}}default:{const options=form==="length"?{kind:"\
+nkage must be",true,h("div",{class:"bs-grid"},of("number","corridor"),of("choice")),of("flag"),of("area"),of("names"))}field({key,label,form,choices,...bounds2},set){
+const attributes={"data-key":key};switch(form){case"choice":case"word":{const[[usual]]=choices,element=choice(label,choices,value=>set(value===usual?void 0:value),
+attributes);return{element:labelled(label,element),show:value=>element.value=value??usual}}case"flag":{const{box,element}=tick(label,on=>set(on||void 0),attributes);
+return{element,show:value=>give(box,"checked",Boolean(value))}}case"names":{const ticks2=choices.map(([name,text])=>({name,...tick(text,()=>set(some(ticks2)),{"\
+data-key":`${key}-${name}`})}));const element=h("details",{},h("summary",{},label),h("div",{class:"bs-ticks"},ticks2.map(each=>each.element)),h("p",{class:"bs-h\
+int"},"None: any."));return{element,show:value=>ticks2.forEach(({name,box})=>box.checked=Boolean(value?.includes(name)))}}case"corridor":{const side=name=>new NumberField(
+{label:`${label}, ${name}`,commit:()=>least2.value!==void 0&&greatest.value===void 0?void 0:set(both()),options:()=>({optional:true,kind:"number"}),attributes:{
+"data-key":`${key}-${name}`,placeholder:"–"}});const least2=side("least"),greatest=side("greatest");const both=()=>greatest.value===void 0?void 0:least2.value===
+void 0?greatest.value:[least2.value,greatest.value];const element=labelled(label,h("span",{class:"bs-pair"},least2.element,greatest.element)," ");return{element,
+show:value=>[least2,greatest].forEach((field,k)=>field.show(Array.isArray(value)?value[k]:k?value:void 0))}}case"area":{const none=button("Delete",()=>set(void 0),
+{"data-do":`delete-${key}`,"aria-label":`Delete the ${key}`});const element=h("div",{class:"bs-limit-box"},h("h4",{},label),this.tools(`Draw the ${key}`,["box",
+"polygon"],shape=>this.regions.footprintTool(shape),key),none);return{element,show:value=>give(none,"hidden",!value)}}default:{const options=form==="length"?{kind:"\
 length",above:0}:bounds2;const field=new NumberField({label,commit:set,options:()=>({optional:true,unit:this.store.document.length_unit,...options}),step:()=>form===
 "length"?this.scene.step:1,attributes:{...attributes,placeholder:"–"}});return{element:labelled(label,field.element,options.kind==="angle"?"°":" "),show:value=>field.
-show(value)}}}}drawRequirements(){for(const{key,show}of this.asks)show(this.store.document.requirements?.[key])}makeOptions(){const{store}=this;this.unit=choice(
+show(value)}}}}drawRequirements(){const{requirements,loads,springs,drive}=this.store.document,loaded=Boolean(loads??springs??drive);for(const{key,show,element,loads:ofLoads}of this.
+asks){show(requirements?.[key]);give(element,"hidden",Boolean(ofLoads)&&!loaded&&requirements?.[key]===void 0)}}makeOptions(){const{store}=this;this.unit=choice(
 "unit of length",UNITS2.map(unit2=>[unit2,unit2||"not stated"]),value=>this.edit(document2=>withKeys(document2,{length_unit:value||void 0})),{"data-key":"length\
 _unit"});this.options=this.form.options.map(each=>({...each,...this.field(each,value=>store.option(each.key,value))}));const of=form=>this.options.filter(each=>each.
 form===form).map(({element})=>element);return section2("options","Unit and method",false,h("div",{class:"bs-grid"},labelled("unit of length",this.unit),of("word"),

@@ -208,7 +208,7 @@ export class TaskPanel {
   makeRequirements() {
     this.asks = this.form.requirements.map((each) => ({ ...each, ...this.field(each, (value) => this.edit((document) => setRequirement(document, each.key, value))) }));
     const of = (...forms) => this.asks.filter(({ form }) => forms.includes(form)).map(({ element }) => element);
-    return section("requirements", "What the linkage must be", true, h("div", { class: "bs-grid" }, of("number"), of("choice")), of("flag"), of("area"), of("names"));
+    return section("requirements", "What the linkage must be", true, h("div", { class: "bs-grid" }, of("number", "corridor"), of("choice")), of("flag"), of("area"), of("names"));
   }
 
   /** The element of a field, and how it shows a value: { element, show }. */
@@ -228,6 +228,13 @@ export class TaskPanel {
         const element = h("details", {}, h("summary", {}, label), h("div", { class: "bs-ticks" }, ticks.map((each) => each.element)), h("p", { class: "bs-hint" }, "None: any."));
         return { element, show: (value) => ticks.forEach(({ name, box }) => (box.checked = Boolean(value?.includes(name)))) };
       }
+      case "corridor": { // a greatest magnitude, or with a least value both with their signs
+        const side = (name) => new NumberField({ label: `${label}, ${name}`, commit: () => (least.value !== undefined && greatest.value === undefined ? undefined : set(both())), options: () => ({ optional: true, kind: "number" }), attributes: { "data-key": `${key}-${name}`, placeholder: "–" } });
+        const least = side("least"), greatest = side("greatest");
+        const both = () => (greatest.value === undefined ? undefined : least.value === undefined ? greatest.value : [least.value, greatest.value]);
+        const element = labelled(label, h("span", { class: "bs-pair" }, least.element, greatest.element), " ");
+        return { element, show: (value) => [least, greatest].forEach((field, k) => field.show(Array.isArray(value) ? value[k] : k ? value : undefined)) };
+      }
       case "area": {
         const none = button("Delete", () => set(undefined), { "data-do": `delete-${key}`, "aria-label": `Delete the ${key}` });
         const element = h("div", { class: "bs-limit-box" }, h("h4", {}, label), this.tools(`Draw the ${key}`, ["box", "polygon"], (shape) => this.regions.footprintTool(shape), key), none);
@@ -242,7 +249,11 @@ export class TaskPanel {
   }
 
   drawRequirements() {
-    for (const { key, show } of this.asks) show(this.store.document.requirements?.[key]);
+    const { requirements, loads, springs, drive } = this.store.document, loaded = Boolean(loads ?? springs ?? drive);
+    for (const { key, show, element, loads: ofLoads } of this.asks) {
+      show(requirements?.[key]);
+      give(element, "hidden", Boolean(ofLoads) && !loaded && requirements?.[key] === undefined);
+    }
   }
 
   makeOptions() {
