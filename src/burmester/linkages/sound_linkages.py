@@ -65,6 +65,7 @@ def sound_linkages(
         lead,
         steps=STEPS,
         selection=CHOICE if transmission_deg else (),
+        most=most / float(target.frames.length),
     )
     index = np.flatnonzero(refined.met)
     candidates = Candidates(

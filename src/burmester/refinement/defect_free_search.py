@@ -116,13 +116,14 @@ def refined_on_branch(
     transmission: FloatArray | None = None,
     metric: FloatArray | None = None,
     selection: Selection = (),
+    most: float = inf,
 ) -> Refined:
     """Linkages (k,) refined under all constraints, on the branches of their places (k, N, 3).
 
     driver: (k,), the side that drives; transmission: (k,), a least angle for each, where more is
-    asked of it than the target does; metric: (k, 1, 3, 3), and selection, as in `refine`.  Of many
-    poses few are refined on, evenly thinned, and what is best then on more of them; the others do
-    not meet the constraints.
+    asked of it than the target does; metric: (k, 1, 3, 3), and selection, as in `refine`; most: a
+    combined error; what is beyond twice that does not go on.  Of many poses few are refined on,
+    evenly thinned, and what is best then on more of them; the others do not meet the constraints.
     """
     few, index = target.thinned(FEW_POSES), target.thin_numbers(FEW_POSES)
     refined = _on_branch(
@@ -134,6 +135,7 @@ def refined_on_branch(
         transmission=transmission,
         metric=metric,
         selection=selection,
+        most=most,
     )
     if few is target:
         return refined
@@ -198,6 +200,7 @@ def _on_branch(
     transmission: FloatArray | None,
     metric: FloatArray | None,
     selection: Selection = (),
+    most: float = inf,
 ) -> Refined:
     """`refined_on_branch` on all poses of the target."""
     sine = Transmission.of(batch, rows, target.length, driver).sine
@@ -213,7 +216,8 @@ def _on_branch(
         metric=metric,
         selection=selection,
     )
-    return _kept_at_feet(refined, starts, target, transmission, metric)
+    near = refined.met & ~(target.combined_error(refined.rows) > 2 * most)
+    return _kept_at_feet(replace(refined, met=near), starts, target, transmission, metric)
 
 
 def _kept_at_feet(
