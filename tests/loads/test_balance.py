@@ -347,13 +347,15 @@ SPRINGS = ["6-15 stroke 80, 100 N", "6-15 stroke 80, 150 N", "6-15 stroke 80, 20
 
 @pytest.fixture(scope="module")
 def moved():
-    """The lid of the examples without its spring, with one size of springs."""
+    """The lid of the examples without its spring, in a plane of its own; one size of springs."""
     task = read_task("examples/sprung-lid.toml")
+    asked = replace(task.requirements, hand_force_N=5.0, link_ratio=np.inf)
+    around = replace(task.surroundings, body_in_plane=False)
+    task = replace(task, surroundings=around, requirements=asked)
     task = replace(task, loads=replace(task.loads, springs=()))
     offers = [each for each in usual_springs("mm") if each.name in SPRINGS]
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(balanced, "MOST_MOVED", 1)  # to be done soon
-        patch.setattr(balanced, "TURNS", 2)
+        patch.setattr(balanced, "TURNS", 3)  # to be done soon
         return balance(task, offers, with_linkage=True)[1]
 
 
@@ -361,7 +363,8 @@ def test_less_force_is_left_and_all_else_is_kept(moved):
     best = moved[0]
     assert best.unmoved is not None
     assert best.keeps
-    assert best.worst < 0.6 * best.unmoved.worst
+    assert not any(each.keeps for each in moved if each.unmoved is None)
+    assert best.worst < 0.8 * best.unmoved.worst
     force = np.abs(hand_by_energy(best.found, best.spring)) + rub_at_hand(best.found, best.spring)
     assert best.worst == pytest.approx(force.max(), rel=1e-2)
     assert best.before == pytest.approx(np.abs(hand_by_energy(best.unmoved.found)).max(), rel=1e-3)
@@ -388,7 +391,7 @@ def test_no_small_step_of_its_pivots_is_clearly_better(moved):
     own = [each.dyad for each in best.found.dyads]
     assert _hand(own, task, spring) == pytest.approx(best.worst, rel=2e-2)
     tried = 0
-    for _ in range(400):
+    for _ in range(800):
         dyads = [_through(each.moving_pivot + rng.normal(0, 0.3, 2), task.poses, each)
                  for each in own]  # fmt: skip
         kept = all(
@@ -399,7 +402,7 @@ def test_no_small_step_of_its_pivots_is_clearly_better(moved):
         if kept:
             tried += 1
             assert _hand(dyads, task, spring) > 0.85 * best.worst
-    assert tried > 30
+    assert tried > 20
 
 
 def _through(moving, poses, dyad):
