@@ -39,6 +39,10 @@ def test_the_panel_is_there_for_tasks_with_loads_only(page):
     panel.scroll_into_view_if_needed()
     panel.locator(".bm-cursor").wait_for()
     assert panel.locator(".bm-panel").count() == 4
+    arrows = page.locator(".bs-scene .bm-pin-force")
+    assert not arrows.first.is_visible()
+    panel.locator(".bm-show-forces").check()
+    assert [each.is_visible() for each in arrows.all()] == [True] * 4
     panel.get_by_text("Over time").click()
     assert "time (s)" in panel.inner_text()
     # The other driver bears something else, which nobody has computed.
