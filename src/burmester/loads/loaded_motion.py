@@ -34,7 +34,8 @@ class SpringCourse(NamedTuple):
     """A spring along the motion: length and tension (n,), and the rate of its length (n,).
 
     At places (n,): metres, N, and metres for a unit of the driver.  Of torsion springs radians and
-    N m.  off: where it is longer or shorter than it allows.
+    N m.  off: where it is longer or shorter than it allows; slack: the length of a coil spring at
+    which it begins to pull or to push.
     """
 
     spring: Spring
@@ -43,6 +44,7 @@ class SpringCourse(NamedTuple):
     rate: FloatArray
     energy: FloatArray
     off: NDArray[np.bool_]
+    slack: float = np.inf
 
 
 @final
@@ -182,7 +184,9 @@ class LoadedMotion:
         rate = (speed * _directions(apart, length)).sum(axis=-1)
         least, most = (each * self.of.metre for each in spring.span)
         off = law.off(length, (least, most))
-        return SpringCourse(spring, length, law.tension(length), rate, law.energy(length), off)
+        return SpringCourse(
+            spring, length, law.tension(length), rate, law.energy(length), off, law.slack
+        )
 
     def _torsion(self, spring: Spring) -> SpringCourse:
         names = [body_named(each.link, self.bodies) for each in spring.ends]

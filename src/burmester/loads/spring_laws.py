@@ -50,6 +50,12 @@ class SpringLaw(NamedTuple):
             return cls(initial, rate, free, least=0.0 if free > 0 else -np.inf)
         return cls(0.0, rate, free, most=0.0)
 
+    @property
+    def slack(self) -> float:
+        """The length in metres at which it begins to pull or to push; inf where it always does."""
+        cut = [each for each in (self.least, self.most) if np.isfinite(each)]
+        return self.start + (cut[0] - self.rest) / self.rate if cut else np.inf
+
     def tension(self, length: FloatArray) -> FloatArray:
         """At lengths (*,) in metres: (*,) in N."""
         line = self.rest + self.rate * (length - self.start)

@@ -1,15 +1,17 @@
 """A linkage that is let go: how it swings under its loads, without friction.
 
-I q'' + I' q'² / 2 + T(q) = 0, where T is the effort that would hold it.  I and T are smooth along
-the motion, so they are polynomials (Chebyshev's) whose last coefficients have died out.  Time goes
-on by the rule of Dormand and Prince, with steps that keep the error small.
+I q'' + I' q'² / 2 + T(q) = 0, where T is the effort that would hold it.  Between the places at
+which a spring goes slack or a force sets in, I and T are smooth along the motion, so they are
+polynomials (Chebyshev's) whose last coefficients have died out.  Time goes on by the rule of
+Dormand and Prince, with steps that keep the error small.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Final, NamedTuple
+from itertools import pairwise
+from typing import Final, NamedTuple, Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -19,6 +21,9 @@ from burmester.numerics.arrays import FloatArray
 from burmester.tasks.loads import malformed
 
 DEGREE: Final = 256
+LOOKS: Final = 721  # places at which it is looked whether a spring goes slack between them
+PARTS, ROUNDS = 32, 6  # of an interval in which one does, and of each that is left
+MERGED: Final = 1e-9  # of the way; places that are nearer are one
 LEAST_STEP: Final = 1e-6  # of the time between two of those told
 DEAD: Final = 1e-15  # relative; coefficients below it are rounding
 STEP_ERROR: Final = 1e-12  # relative, of one step
@@ -55,25 +60,14 @@ def swing(linkage: LoadedLinkage, start: float, seconds: float, count: int = 201
 
     Raises E177 where nothing that moves has a mass.
     """
-    nodes = chebyshev.chebpts1(DEGREE + 1)
-    loaded, ends = linkage.at_driver((nodes + 1) / 2), linkage.at(2).drive
-    middle, half = ends.mean(), (ends[1] - ends[0]) / 2
-    basis = chebyshev.chebvander(nodes, DEGREE)
-    weight = 2.0 / (DEGREE + 1)
-    table = np.stack([loaded.inertia[0], loaded.inertia[1], loaded.effort, loaded.energy])
-    if not (table[0] > 0).all():
-        help = "give the body or the links a mass, or the links plates"
-        raise malformed("nothing that moves has a mass, so it has no motion of its own", help=help)
-    series = weight * table @ basis
-    series[:, 0] /= 2
-
-    alive = np.abs(series) > DEAD * np.abs(series).max(axis=1, keepdims=True)
-    degrees = np.arange(np.flatnonzero(alive.any(axis=0)).max() + 1)
-    series = series[:, : len(degrees)]
+    bends = _bends(linkage)
+    drives, middle = linkage.at_driver(bends).drive, float(linkage.at(2).drive.mean())
+    pieces = [_Smooth.of(linkage, low, high) for low, high in pairwise(bends)]
+    ends, half = drives[[0, -1]], float(abs(np.ptp(drives[[0, -1]]))) / 2
+    inner, sense = np.sort(drives[1:-1]), int(np.sign(ends[1] - ends[0]))
 
     def values(q: float) -> FloatArray:
-        x = min(1.0, max(-1.0, (q - middle) / half))
-        return np.asarray(series @ np.cos(degrees * math.acos(x)))
+        return pieces[::sense][int(np.searchsorted(inner, q))].at(q)
 
     def rates(state: FloatArray) -> FloatArray:
         inertia, slope, effort, _ = values(state[0])
@@ -98,6 +92,60 @@ def swing(linkage: LoadedLinkage, start: float, seconds: float, count: int = 201
     share = (q - ends[0]) / (ends[1] - ends[0])
     energy = potential + inertia * speed**2 / 2
     return Swing(times[: len(q)], share, q, speed, energy, len(q) < count)
+
+
+class _Smooth(NamedTuple):
+    """I, I', T and the potential energy as series over a part of the way, from place to place."""
+
+    middle: float
+    half: float
+    series: FloatArray
+
+    @classmethod
+    def of(cls, linkage: LoadedLinkage, low: float, high: float) -> Self:
+        """Between two shares of the driver's way."""
+        nodes = chebyshev.chebpts1(DEGREE + 1)
+        loaded = linkage.at_driver(low + (nodes + 1) / 2 * (high - low))
+        ends = linkage.at_driver(np.array([low, high])).drive
+        table = np.stack([loaded.inertia[0], loaded.inertia[1], loaded.effort, loaded.energy])
+        if not (table[0] > 0).all():
+            help = "give the body or the links a mass, or the links plates"
+            raise malformed(
+                "nothing that moves has a mass, so it has no motion of its own", help=help
+            )
+        series = 2.0 / (DEGREE + 1) * table @ chebyshev.chebvander(nodes, DEGREE)
+        series[:, 0] /= 2
+        alive = np.abs(series) > DEAD * np.abs(series).max(axis=1, keepdims=True)
+        kept = np.flatnonzero(alive.any(axis=0)).max() + 1
+        return cls(float(ends.mean()), float(ends[1] - ends[0]) / 2, series[:, :kept])
+
+    def at(self, drive: float) -> FloatArray:
+        """Their values (4,) at a place of the driver."""
+        x = min(1.0, max(-1.0, (drive - self.middle) / self.half))
+        return np.asarray(self.series @ np.cos(np.arange(self.series.shape[1]) * math.acos(x)))
+
+
+def _bends(linkage: LoadedLinkage) -> FloatArray:
+    """Shares of the driver's way, from 0 to 1, between which all that loads it is smooth."""
+    reached = {at for force in linkage.loads.forces for at in (force.from_pose, force.to_pose)}
+    ends = linkage.at(2).drive
+    poses = [linkage.at_poses[at - 1] for at in reached if at is not None]
+    met = (np.array(poses) - ends[0]) / (ends[1] - ends[0])
+    out = [np.array([0.0, 1.0]), met[(met > MERGED) & (met < 1 - MERGED)]]
+    shares = np.linspace(0.0, 1.0, LOOKS)
+    for number, course in enumerate(linkage.at_driver(shares).springs):
+        apart = course.length - course.slack
+        low = shares[:-1][apart[:-1] * apart[1:] < 0]
+        wide = 1 / (LOOKS - 1)
+        for _ in range(ROUNDS if len(low) else 0):
+            parts = low[:, None] + wide * np.linspace(0.0, 1.0, PARTS + 1)
+            length = linkage.at_driver(parts.ravel()).springs[number].length
+            apart = length.reshape(parts.shape) - course.slack
+            low = parts[np.arange(len(low)), (apart[:, :-1] * apart[:, 1:] <= 0).argmax(axis=1)]
+            wide /= PARTS
+        out.append(low + wide / 2)
+    every = np.unique(np.concatenate(out))
+    return np.delete(every, np.flatnonzero(np.diff(every) < MERGED))
 
 
 def _step(
