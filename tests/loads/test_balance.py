@@ -340,6 +340,7 @@ def test_bounds_on_loads_choose_among_linkages_of_a_family(lid, bound, kept):
     if not kept:
         assert "greatest force of the hand" in result.outcome.why
         assert "60 of" in result.outcome.message
+        assert "burmester balance" in result.outcome.help
 
 
 SPRINGS = ["6-15 stroke 80, 100 N", "6-15 stroke 80, 150 N", "6-15 stroke 80, 200 N"]

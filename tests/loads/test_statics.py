@@ -193,6 +193,11 @@ def test_figures_are_those_of_a_dense_scan(kind, seed):
     near = 1e-3 * (np.abs(dense.effort).max() + 1e-9)
     assert figures.effort.least == pytest.approx(dense.effort.min(), abs=near)
     assert figures.effort.greatest == pytest.approx(dense.effort.max(), abs=near)
+    if figures.hand is not None:
+        push = dense.hand_force(dense.effort)
+        near = 1e-3 * np.nanmax(np.abs(push))
+        assert figures.hand.least == pytest.approx(np.nanmin(push), abs=near)
+        assert figures.hand.greatest == pytest.approx(np.nanmax(push), abs=near)
     for name, force in dense.pins.items():
         assert figures.pins[name] == pytest.approx(np.hypot(*force.T).max(), rel=1e-3)
     for told, course in zip(figures.springs, dense.springs, strict=True):

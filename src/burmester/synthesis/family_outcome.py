@@ -12,7 +12,7 @@ from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.stated_limits import stated_limits
 from burmester.verdicts.assumptions import assumed_advice
-from burmester.verdicts.explanation import in_short
+from burmester.verdicts.explanation import LET_A_SPRING, in_short
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import count, listed
 
@@ -37,10 +37,11 @@ def family_summary(
                 f"{family.loaded} of {looked} that work without their loads were loaded, and none "
                 "bears what is asked"
             )
+        help = "give the limits more room, ask for less, or move a pose"
         outcome = Outcome(
             "R309",
             f"no usable linkage: {poses} leave infinitely many, {message}",
-            "give the limits more room, ask for less, or move a pose",
+            f"{LET_A_SPRING}; or {help}" if family.loaded else help,
             why,
         )
         return outcome, advice
