@@ -23,6 +23,7 @@ def taken(monkeypatch):
     """The items that are run, of 50 of each of three functions; and how many are left out."""
     weights = SimpleNamespace(read_text=lambda: json.dumps({LIGHT: 9}))
     monkeypatch.setattr(conftest, "WEIGHTS", weights)
+    monkeypatch.delenv(conftest.DAY, raising=False)
     left_out = []
     hook = SimpleNamespace(pytest_deselected=lambda *, items: left_out.extend(items))
     every = [(CAMPAIGN,), (PAGE, "browser"), (LIGHT,)]

@@ -34,14 +34,17 @@ def best(request):
 
 def test_curves_have_the_figures_as_their_extremes(best):
     curves, figures = best.loaded(), best.loads
-    assert curves.effort.min() == figures.effort.least
-    assert curves.effort.max() == figures.effort.greatest
-    assert curves.hand.max() == figures.hand.greatest
+    # Figures have further places about peaks: none is less than that of a curve, and none far off.
+    near = np.ptp(curves.effort) / 1000
+    assert curves.effort.min() - near < figures.effort.least <= curves.effort.min()
+    assert curves.effort.max() <= figures.effort.greatest < curves.effort.max() + near
+    assert curves.hand.max() <= figures.hand.greatest < 1.001 * curves.hand.max()
     for name, force in curves.pins.items():
-        assert np.hypot(*force.T).max() == figures.pins[name]
+        most = np.hypot(*force.T).max()
+        assert most <= figures.pins[name] < 1.001 * most
     (spring,), (told,) = curves.springs, figures.springs
-    assert (spring.length.min(), spring.length.max()) == told.length
-    assert spring.force.max() == told.tension[1]
+    assert (spring.length.min(), spring.length.max()) == pytest.approx(told.length, rel=1e-4)
+    assert spring.force.max() == pytest.approx(told.tension[1], rel=1e-3)
     assert curves.moving.time[[0, -1]].tolist() == [0.0, 2.0]
     # Places of even steps are not those of even times, so the extremes only come near.
     size = np.ptp(curves.effort)

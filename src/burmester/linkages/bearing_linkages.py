@@ -20,7 +20,6 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.loads.excesses import excesses
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.bundles import replaced
 from burmester.numerics.differences import DifferenceQuotients
@@ -95,6 +94,8 @@ def meets_exactly(evaluation: Evaluation) -> bool:
 
 def refined_under_loads(found: FoundLinkage, evaluation: Evaluation) -> Candidates:
     """A linkage refined under the bounds of its loads, with its driver, on its branch."""
+    from burmester.loads.excesses import excesses  # noqa: PLC0415  tasks with loads only
+
     target, asked = evaluation.target, evaluation.task.requirements
     if not found.shortcomings:
         asked = asked.with_standard()
@@ -137,6 +138,8 @@ class _Bearing:
 
     def _excesses(self, linkage: Linkage, there: Displacement) -> FloatArray:
         """Of one linkage at places of the poses that are looked at; nan where it does not move."""
+        from burmester.loads.excesses import excesses  # noqa: PLC0415  tasks with loads only
+
         lost = np.full((len(self.found.error.angle), 3), np.nan)
         places = replaced(Displacement.from_poses(lost), self.index, there)
         error = replace(self.found.error, places=places)

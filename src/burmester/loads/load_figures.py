@@ -23,6 +23,7 @@ from burmester.verdicts.judged_linkage import LinkageAtPoses
 
 Found = TypeVar("Found", bound=LinkageAtPoses)
 
+SAME_SHARE = 1e-9  # of the motion; a place that is nearer to a pose is the pose
 HELD = 1e-9  # of the greatest effort of all loads, each by itself; less is none
 
 
@@ -211,7 +212,9 @@ def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
 def _looked_at(linkage: LoadedLinkage) -> tuple[LoadedMotion, FloatArray]:
     """A linkage at shares (n,) of its motion: even ones, the poses, and more about extremes."""
     met = linkage.pose_shares[np.isfinite(linkage.pose_shares)]
-    even = np.unique(np.concatenate([np.linspace(0.0, 1.0, LOOKS), met]))
+    even = np.linspace(0.0, 1.0, LOOKS)
+    apart = np.abs(even[:, None] - met).min(axis=1, initial=1.0)
+    even = np.unique(np.concatenate([even[apart > SAME_SHARE], met]))
     first = linkage.at(even)
 
     def look(shares: FloatArray) -> tuple[FloatArray, FloatArray]:
