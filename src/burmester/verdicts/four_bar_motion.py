@@ -17,7 +17,7 @@ from burmester.fourbar.dyad import PP
 from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.pose_order import smallest_arc
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.tasks.motion_task import characteristic_length
 from burmester.verdicts.motion import Motion, Way
 
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from burmester.verdicts.found_linkage import FoundLinkage
 
 TURN: Final = 2 * np.pi
+SAME_PLACE: Final = 1e-9  # characteristic lengths; places that differ by less are one
 ANGLE_SAMPLES: Final = 721  # places between which the coupler's angle is unwrapped
 
 
@@ -104,6 +105,8 @@ def _driven(chosen: FoundLinkage) -> Driven:
         locks = any(each.kind == "branch" and each.certain for each in verdict.first.defects)
         return verdict.first, locks
 
+    if _is_of(chosen.driven, chosen.driver_first, places, length):
+        return chosen.driven
     driven, locks = judged(places)
     if locks:
         here = circuit_of(chosen.driver_first, places, as_given=True)
@@ -112,6 +115,17 @@ def _driven(chosen: FoundLinkage) -> Driven:
         keep = on & (here.branch == int(more))
         driven, _ = judged(replace(places, angle=np.where(keep, places.angle, np.nan)))
     return driven
+
+
+def _is_of(driven: Driven, linkage: Linkage, places: Displacement, length: float) -> bool:
+    """Whether a linkage was judged at just these places, and takes them all on one branch."""
+    if driven.circuit < 0 or any(each.kind == "branch" for each in driven.defects):
+        return False
+    own = Circuits.of(linkage, as_given=True)[driven.circuit]
+    there = own.couplers(driven.parameter)
+    away = np.hypot(*(there.translation - places.translation).T)
+    turned = length * np.abs(wrapped_angle(there.angle - places.angle))
+    return bool(((away + turned) <= SAME_PLACE * length).all())
 
 
 def places_on_branches(linkage: Linkage, places: Displacement, count: int) -> Displacement:
