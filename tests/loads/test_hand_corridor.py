@@ -31,7 +31,7 @@ def hand_of(model, linkage, way):
 
     The motor is idle, the hand pulls along its path, and gas springs rub against their motion.
     """
-    at = linkage.at(4001)
+    at = linkage.at(2001)
     place, unit = moved(model, at), 1.0 if at.rates.turns else linkage.metre
     places, loads, h = place(0.0), linkage.loads, 1e-3 * unit
     onwards = 1.0 if at.drive[-1] > at.drive[0] else -1.0

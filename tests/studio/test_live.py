@@ -383,7 +383,11 @@ def test_what_never_ends_is_killed(hasty):
     document = hasty.http.get("/template/folding-table").json()["document"]
     with hasty.live() as tab:
         tab.ask("solve", document=document, options={})
-        before = hasty.workers()
+        before, since = hasty.workers(), time.monotonic()
+        while time.monotonic() < since + 3:  # those that take the place of killed ones have begun
+            time.sleep(0.1)
+            if set(now := hasty.workers()) != set(before):
+                before, since = now, time.monotonic()
         for pid in before:
             os.kill(pid, signal.SIGSTOP)
         document["poses"][1]["x"] += 1

@@ -216,17 +216,20 @@ def _looked_at(linkage: LoadedLinkage) -> tuple[LoadedMotion, FloatArray]:
     apart = np.abs(even[:, None] - met).min(axis=1, initial=1.0)
     even = np.unique(np.concatenate([even[apart > SAME_SHARE], met]))
     first = linkage.at(even)
+    none = _none(first)  # rounding of an effort that is balanced everywhere has no peaks
 
     def look(shares: FloatArray) -> tuple[FloatArray, FloatArray]:
         here = first if shares is even else linkage.at(shares)
-        values = [here.effort, *(np.hypot(*force.T) for force in here.pins.values())]
+        effort = np.where(np.abs(here.effort) <= none, 0.0, here.effort)
+        pins = np.array([np.hypot(*force.T) for force in here.pins.values()])
+        values = [effort, *np.where(pins <= HELD * np.nanmax(pins, initial=0.0), 0.0, pins)]
         divisors = [np.abs(here.rates.closeness)]
         for course in here.springs:
             values += [course.length, course.tension]
             if course.spring.kind != "torsion":
                 divisors.append(course.length)
         if here.loads.hand is not None:
-            push, rubs = here.hand_force(here.effort), np.abs(here.hand_force(here.friction))
+            push, rubs = here.hand_force(effort), np.abs(here.hand_force(here.friction))
             values += [push, rubs, push + rubs, np.abs(push) + rubs]
             divisors.append(np.linalg.norm(here.hand_path, axis=-1))
         return np.array(values), np.array(divisors)

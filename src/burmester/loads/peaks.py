@@ -17,6 +17,7 @@ from burmester.numerics.arrays import FloatArray
 
 ERROR: Final = 2e-4  # of the greatest magnitude; a peak that is off by less is found
 PARTS: Final = 8  # of an interval beside a peak
+MOST: Final = 4096  # places added in a round; where more would be, the values are no curves
 ROUNDS: Final = 4  # the last intervals are 1e-6 of the motion
 NARROW: Final = 0.5  # of a divisor; where it bends more from one place to the next it is narrow
 
@@ -31,7 +32,7 @@ def with_peaks(places: FloatArray, look: Looks) -> FloatArray:
     values, divisors = look(places)
     for _ in range(ROUNDS):
         near = _near(values, divisors)
-        if not near.any():
+        if not near.any() or near.sum() * (PARTS - 1) > MOST:
             break
         low, wide = places[:-1][near], np.diff(places)[near]
         more = (low[:, None] + wide[:, None] * np.arange(1, PARTS) / PARTS).ravel()
