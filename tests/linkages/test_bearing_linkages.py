@@ -8,7 +8,7 @@ import pytest
 
 from burmester import RR, Linkage, Task, read_task
 from burmester.io.templates import text
-from burmester.linkages.bearing_linkages import bears_too_much
+from burmester.linkages.bearing_linkages import only_bears_too_much
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
 from burmester.tasks.limits import Limits
@@ -84,7 +84,7 @@ def test_a_lid_is_found_whose_hand_needs_less_than_any_nearer_one():
     best, *others = found.linkages
     assert best.usable
     assert not best.shortcomings
-    assert all(bears_too_much(each) for each in others[:5])
+    assert all(only_bears_too_much(each) for each in others[:5])
     angle = np.linspace(*best.error.places.angle[[0, -1]], 4001)
     pivots = pivots_of(best.linkage)
     assert hand_force(pivots, angle) == pytest.approx(
@@ -140,7 +140,7 @@ def test_near_a_given_linkage_one_is_found_that_bears_less():
     fixed, moving = np.array([[35, -153], [104, -31]]), np.array([[33, -45], [61, -14]])
     dyads = [RR(f, m, np.hypot(*(m - f))) for f, m in zip(fixed, moving, strict=True)]
     given, *better = judge_linkage(lid(16.0), Linkage(*dyads), improve=True).linkages
-    assert bears_too_much(given)
+    assert only_bears_too_much(given)
     assert better
     for each in better:
         angle = np.linspace(*each.error.places.angle[[0, -1]], 2001)

@@ -27,7 +27,7 @@ from burmester.progress import goes_on, step
 from burmester.refinement.constraints import ConstraintSlopes, ConstraintValues
 from burmester.refinement.defect_free_search import FEW_POSES, refined_on_branch
 from burmester.refinement.target import Target
-from burmester.requirements.loads import OF_LOADS
+from burmester.requirements.loads import KINDS_OF_LOADS
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import closest_usable, digits_leave_open
 from burmester.wording import count
@@ -37,13 +37,12 @@ ENOUGH: Final = 2  # of them, if one has led to another linkage
 STEPS: Final = 30  # of a refinement
 SAME: Final = 1e-3  # motion sizes; linkages whose dimensions differ by less are one
 QUOTIENTS: Final = DifferenceQuotients(stride=1e-6)
-KINDS: Final = frozenset({"spring", *(each.kind for each in OF_LOADS)})
 
 
-def bears_too_much(found: FoundLinkage) -> bool:
+def only_bears_too_much(found: FoundLinkage) -> bool:
     """Whether a linkage would be usable but for its loads."""
     kinds = {each.kind for each in found.violations}
-    return not found.defects and bool(kinds) and kinds <= KINDS
+    return not found.defects and bool(kinds) and kinds <= KINDS_OF_LOADS
 
 
 def bearing_linkages(
@@ -58,7 +57,7 @@ def bearing_linkages(
     """
     problem, closest = evaluation.problem, closest_usable(found)
     most = math.inf if closest is None else closest.combined_error
-    near = [each for each in found if bears_too_much(each) and each.combined_error < most]
+    near = [each for each in found if only_bears_too_much(each) and each.combined_error < most]
     path = evaluation.target.path
     near = near[:MOST] if path is None or path.crank_angles is None else []
     if near:

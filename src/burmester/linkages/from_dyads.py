@@ -19,7 +19,7 @@ from burmester.fourbar.dyad import PP
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch
 from burmester.fourbar.pose_error import error_frames
-from burmester.linkages.bearing_linkages import bearing_linkages, bears_too_much
+from burmester.linkages.bearing_linkages import bearing_linkages, only_bears_too_much
 from burmester.linkages.best_within import best_within
 from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst_left_out
 from burmester.linkages.evaluation import Candidates, Evaluation, numbered
@@ -344,7 +344,7 @@ def _searched(starts: PairsToSearch, evaluation: Evaluation, most: float) -> lis
     evaluated = evaluation.evaluate(
         Candidates(batch, rows, origins, np.ones(len(index), dtype=bool))
     )
-    good = [each for each in evaluated if each.usable or bears_too_much(each)]
+    good = [each for each in evaluated if each.usable or only_bears_too_much(each)]
     near = [each for each in good if each.combined_error < most]
     if not near and most == inf:
         near = by_nearness(filter(only_too_far, evaluated), evaluation.problem.length)[:MAX_TOO_FAR]

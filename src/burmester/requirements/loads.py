@@ -261,6 +261,8 @@ OF_LOADS: Final = (
     BODY_SPEED,
     BODY_ACCELERATION,
 )
+# Of violations that come from loads; a spring off its stroke is one.
+KINDS_OF_LOADS: Final = frozenset({"spring", *(each.kind for each in OF_LOADS)})
 # What each needs that a task may lack.
 NEEDS: Final[dict[Requirement, Callable[[Any], bool]]] = {
     HAND_FORCE: lambda loads: loads.hand is not None,

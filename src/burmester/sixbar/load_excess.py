@@ -24,6 +24,8 @@ def load_excess(found: Candidates, k: int, task: Task) -> float:
     """Logarithms of its greatest forces at the poses to their bounds, in one sum; 0 keeps them."""
     loads, linkage = task.loads, found.linkages[k]
     assert loads is not None
+    if any(spring.kind == "torsion" for spring in loads.springs):
+        return 0.0  # how far it is turned follows from the whole motion, which is judged later
     skeleton, frames = linkage.skeleton, linkage.frames()
     pivot = skeleton.drivers[int(found.driver[k])]
     metre = MILLIMETRES[task.length_unit or ""] / 1000

@@ -11,8 +11,8 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.linkages.bearing_linkages import (
-    bears_too_much,
     meets_exactly,
+    only_bears_too_much,
     refined_under_loads,
 )
 from burmester.linkages.evaluation import Evaluation, at_given_poses
@@ -153,7 +153,7 @@ def _refined(found: FoundLinkage, problem: SynthesisProblem) -> list[FoundLinkag
     good = [
         each
         for each in judged
-        if (each.usable or bears_too_much(each)) and each.combined_error <= most
+        if (each.usable or only_bears_too_much(each)) and each.combined_error <= most
     ]
     return list(at_given_poses(good, problem))
 

@@ -12,7 +12,7 @@ from burmester.synthesis.result import Outcome
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.stated_limits import stated_limits
 from burmester.verdicts.assumptions import assumed_advice
-from burmester.verdicts.explanation import LET_A_SPRING, in_short
+from burmester.verdicts.explanation import SPRING_HELP, in_short
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.wording import count, listed
 
@@ -41,7 +41,7 @@ def family_summary(
         outcome = Outcome(
             "R309",
             f"no usable linkage: {poses} leave infinitely many, {message}",
-            f"{LET_A_SPRING}; or {help}" if family.loaded else help,
+            f"{SPRING_HELP}; or {help}" if family.loaded else help,
             why,
         )
         return outcome, advice

@@ -30,7 +30,7 @@ from burmester.tasks.notation import poses_in_words
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.stated_limits import StatedLimit, stated_limits, without
-from burmester.verdicts.explanation import LET_A_SPRING, bears_too_much
+from burmester.verdicts.explanation import SPRING_HELP, bears_too_much
 from burmester.verdicts.found_linkage import FoundLinkage
 
 if TYPE_CHECKING:  # loaded for few poses only
@@ -328,7 +328,7 @@ def _with_causes(synthesis: Synthesis, causes: Sequence[Loosening], *, alone: bo
     if synthesis.outcome.code == "R301" and synthesis.outcome.help:  # what else would do
         help = Help.of("{}; or {}", synthesis.outcome.help, help)
     if any(bears_too_much(each.found) for each in causes):
-        help = Help.joined("; or ", [help, LET_A_SPRING])
+        help = Help.joined("; or ", [help, SPRING_HELP])
     if synthesis.works:
         warnings = tuple(
             replace(each, why=why, help=help) if each.code == "W216" else each

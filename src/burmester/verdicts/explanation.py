@@ -11,7 +11,7 @@ from burmester.cures import Cure, Help, for_command
 from burmester.errors import Finding
 from burmester.fourbar.pose_error import PoseError
 from burmester.numerics.arrays import ROUNDING
-from burmester.requirements.loads import OF_LOADS
+from burmester.requirements.loads import KINDS_OF_LOADS
 from burmester.requirements.poses import ANY_ORDER, WITHIN, WITHIN_ANGLE
 from burmester.requirements.requirement import above
 from burmester.requirements.table import cured
@@ -25,7 +25,7 @@ from burmester.wording import figure
 
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
 MOST_TURN = math.pi / 2  # radians; a crank that is off by more is no crank at these angles
-LET_A_SPRING = "let a spring help: burmester balance looks for one"
+SPRING_HELP = "let a spring help: burmester balance looks for one"
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
 
 
@@ -170,13 +170,13 @@ def hints(
     if any(why.kind == "clearance" for why in near[0].violations):
         texts.append("make room where it touches")
     if bears_too_much(near[0]):
-        texts.append(LET_A_SPRING)
+        texts.append(SPRING_HELP)
     return Help.joined("; or ", texts or ["move a pose"])
 
 
 def bears_too_much(found: LinkageAtPoses) -> bool:
     """Whether a linkage bears more than what is asked of its loads."""
-    return bool({why.kind for why in found.violations} & {each.kind for each in OF_LOADS})
+    return any(why.kind in KINDS_OF_LOADS for why in found.violations)
 
 
 def cures_of(found: LinkageAtPoses, problem: SynthesisProblem) -> tuple[Cure, ...]:
