@@ -165,11 +165,9 @@ def _pieces(t: FloatArray, p: FloatArray) -> FloatArray:
         out = _quintic(p, h, d, s)
         speed = _piecewise(out[:, None], np.broadcast_to(u, (len(h), LOOKS)))[1]
         back = np.where(rise == 0, np.abs(speed).T, -way * speed.T).max(axis=0)
-        # From rest it may not set out the wrong way, not even between the first looks.
-        starts, ends = (d[:-1] == 0) & (way * s[:-1] < 0), (d[1:] == 0) & (way * s[1:] > 0)
         worse = np.zeros(len(t), dtype=bool)
-        worse[:-1] |= (back > SLACK) | starts
-        worse[1:] |= (back > SLACK) | ends
+        worse[:-1] |= back > SLACK
+        worse[1:] |= back > SLACK
         if not (worse & (level < 2)).any():  # where both ends are limited a piece is monotone
             return out
         level = np.where(worse, np.minimum(level + 1, 2), level)
