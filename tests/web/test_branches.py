@@ -7,7 +7,11 @@ import pytest
 
 from burmester import PR, RP, RR, Displacement, Linkage
 from burmester.fourbar.circuits import Circuits
+from burmester.verdicts.motion import Motion
 from burmester.web.branches import branches_of
+from tests.oracles import witness
+from tests.oracles.page_modules import value
+from tests.oracles.saved_linkages import saved
 
 
 def test_a_way_with_one_dead_point_says_at_which_end():
@@ -71,3 +75,27 @@ def test_a_whole_turn_out_of_order_is_cut_in_its_widest_gap():
     ends = np.array(way["drive"])[[0, -1]]
     assert drive.min() - ends[0] == pytest.approx(ends[1] - drive.max(), abs=1)
     assert frames.min() > 20
+
+
+def test_time_runs_from_the_first_pose_to_the_last():
+    """On the page and in films, whichever way the driver turns: poses of the witness, in order."""
+    rng = np.random.default_rng(5)
+    given, rows = [], []
+    while len(given) < 100:
+        dyads = witness.random_four_bar(rng, (RR, PR, RP)[len(given) % 3])
+        poses = witness.random_poses(dyads, rng, 5, ordered=True)[:: rng.choice([1, -1])]
+        chosen = saved(*dyads, poses)
+        branches = branches_of(chosen, chosen.task.poses, witness.span(poses), 61)
+        if None in branches.at or len({way for way, _ in branches.at}) > 1:
+            continue
+        film = Motion.of(chosen, 2).places.translation
+        np.testing.assert_allclose(film, poses[[0, -1], :2], atol=1e-7 * abs(poses).max())
+        errors = [{"way": way, "frame": frame} for way, frame in branches.at]
+        given.append({"ways": branches.ways, "pose_errors": errors})
+        rows.append([errors[0]["frame"], errors[-1]["frame"]])
+    script = """return all.map((linkage) => {
+      const { low, high, sense } = m.stretchOf(linkage, linkage.pose_errors[0].way);
+      return sense < 0 ? [high, low] : [low, high];
+    });"""
+    assert value("../widget/travel.mjs", script, all=given) == rows
+    assert {a < b for a, b in rows} == {True, False}

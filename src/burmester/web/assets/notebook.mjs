@@ -433,99 +433,101 @@ trols { display: grid; gap: 6px; margin: 0 0 10px; }\n.bm-row { display: flex; f
 font-size: 0.9rem; color: inherit; background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 8px; padding: 5px 11px; min-height: 34px; curso\
 r: pointer; display: inline-flex; gap: 7px; align-items: center; white-space: nowrap; }\n.bm-button:hover { border-color: var(--bm-muted); }\n.bm-button:disabled \
 { opacity: 0.45; cursor: default; }\n.bm-play { background: var(--bm-accent); border-color: var(--bm-accent); color: var(--bm-panel); min-width: 92px; justify-co\
-ntent: center; font-weight: 600; }\n.bm-play svg { fill: currentColor; }\n.bm-whole { display: inline-flex; gap: 6px; align-items: center; min-height: 34px; font-\
-size: 0.9rem; white-space: nowrap; cursor: pointer; }\n.bm-whole input, .bm-far-pivots input { accent-color: var(--bm-accent); margin: 0; }\n.bm-whole:has(:disabl\
-ed) { opacity: 0.45; cursor: default; }\n.bm-track { min-width: 0; }\n.bm-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-color: var(-\
--bm-accent); }\n.bm-stops { width: 100%; overflow: visible; }\n.bm-stops path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-\
-muted); paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { dis\
-play: inline-block; max-width: 100%; }\n.bm-under { display: flex; flex-wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-\
-top: 10px; }\n.bm-choose { display: flex; flex-wrap: wrap; gap: 4px 18px; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer\
-; }\n.bm-far-pivots[hidden], .bm-ways[hidden] { display: none; }\n.bm-factor { white-space: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor selec\
-t { font: inherit; color: var(--bm-ink); background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { l\
-ist-style: none; display: flex; flex-wrap: wrap; gap: 2px 18px; flex: 1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-fle\
-x; gap: 6px; align-items: center; }\n.bm-key { flex: none; }\n\n.bm-aside { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-fa\
-cts { display: grid; font-size: 0.9rem; }\n.bm-facts div { display: flex; justify-content: space-between; gap: 14px; border-bottom: 1px solid var(--bm-faint); pa\
-dding: 2px 0; }\n.bm-facts dt { color: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-note-text { font-size: 0.82rem; color: var(--bm-muted); margin-\
-top: 8px !important; }\n.bm-scroll { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm table { border-collapse: collapse; width: 100%; font-size: 0\
-.86rem; }\n.bm caption { position: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm\
--every caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; font-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-a\
-lign: right; padding: 3px 12px 3px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top; white-space: nowrap; font-weight: 400; }\n.bm thead th { col\
-or: var(--bm-muted); border-bottom-color: var(--bm-line); white-space: normal; vertical-align: bottom; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.b\
-m .bm-words { text-align: left; white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-table td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th\
-, .bm .bm-linkages td { padding-right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:la\
-st-child { white-space: normal; min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbody th { position: sticky; left: 0; background: var(--bm-panel\
-); }\n.bm .bm-pose-table tr.bm-current th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-table) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-chi\
-ld, .bm td:last-child { padding-right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimens\
-ions td:last-child { white-space: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-top: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line\
--of { display: block; white-space: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-every { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summa\
-ry { cursor: pointer; color: var(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px),\
- 1fr)); }\n\n.bm-plots { width: 100%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: none; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-fain\
-t); fill: none; }\n.bm-usual { stroke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-hal\
-o { paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-m\
-uted); }\n.bm-stem { stroke: var(--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill:\
- var(--bm-muted); }\n.bm-line { fill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4;\
- }\n.bm-stale { opacity: 0.35; }\n.bm-line.bm-curve1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve2 { stroke: var(--bm-error); }\n.bm-li\
-ne.bm-curve3 { stroke: var(--bm-good); stroke-dasharray: 6 4; }\n.bm-line.bm-curve4 { stroke: var(--bm-coupler); }\n.bm-line.bm-curve5 { stroke: var(--bm-body); s\
-troke-dasharray: 6 4; }\n.bm-line.bm-curve6 { stroke: var(--bm-muted); }\n.bm .bm-title tspan { font-weight: 700; fill: var(--bm-driver); }\n.bm .bm-title .bm-curv\
-e1 { fill: var(--bm-follower); }\n.bm .bm-title .bm-curve2 { fill: var(--bm-error); }\n.bm .bm-title .bm-curve3 { fill: var(--bm-good); }\n.bm .bm-title .bm-curve4\
- { fill: var(--bm-coupler); }\n.bm .bm-title .bm-curve5 { fill: var(--bm-body); }\n.bm .bm-title .bm-curve6 { fill: var(--bm-muted); }\n.bm-dot.bm-loop0 { fill: va\
-r(--bm-driver); }\n.bm-dot.bm-loop1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--b\
-m-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.\
-bm-map canvas { display: block; width: 100%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus\
--visible { outline-offset: -3px; border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink);\
- opacity: 0.75; }\n.bm-some-pivot { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stro\
-ke: var(--bm-driver); }\n.bm-its-pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel)\
-; stroke-width: 3px; }\n.bm-pairs { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map {\
- position: relative; overflow: hidden; }\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset:\
- 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: \
-1px solid var(--bm-line); border-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\
-\n.bm-pairs-axes text { fill: var(--bm-ink); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: non\
-e; stroke: var(--bm-ink); stroke-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-pane\
-l); stroke-width: 1; }\n.bm-pair-halo { fill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fil\
-l: none; stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); s\
-troke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke\
-; }\n.bm-pair-link { fill: none; stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: \
-var(--bm-follower); }\n.bm-pair-ground { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-si\
-de1 { fill: var(--bm-follower); }\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; \
-width: 64px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low)\
-, var(--bm-pair-middle), var(--bm-pair-high)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside);\
- }\n.bm-pair-order { background: var(--bm-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circ\
-uit); }\n.bm-readout { display: block; }\n.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch {\
- display: inline-block; width: 14px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.\
-bm-far { margin-left: 12px; }\n.bm-near { background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1\
-px solid var(--bm-faint); border-radius: 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grab\
-bing; }\n.bm-space canvas, .bm-space svg { position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width\
-: 0.9; opacity: 0.75; }\n.bm-box.bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: n\
-one; stroke: var(--bm-ink); stroke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { \
-stroke-opacity: 0.42; }\n.bm-image-point { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm\
--image-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stro\
-ke: var(--bm-panel); stroke-width: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); f\
-ont-size: 0.82rem; }\n\n@container (max-width: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-as\
-ide, .bm-main > .bm-loaded { order: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.\
-bm-detail, .bm-choice dl dt.bm-detail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-s\
-ize: 0.8rem; }\n  .bm .bm-dimensions td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named t\
-body th { white-space: normal; min-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .\
-bm-stacks thead { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; \
-border-bottom: 1px solid var(--bm-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: flex; justify-content: space-between; gap: 14px; border: 0; p\
-adding: 1px 0; white-space: normal; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-s\
-pace: normal; min-width: 0; }\n  .bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm\
--linkages td:last-child:not(.bm-none) { display: block; text-align: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14p\
-x; }\n  .bm .bm-stacks td.bm-none { display: none; }\n}\n@container (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minm\
-ax(0, 1fr)); }\n}\n@container (min-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0\
-; align-self: start; max-height: 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch;\
- overflow: hidden auto; padding-bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage, .bm-\
-aside, .bm-loaded, .bm-family-curve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\
-\n  .bm-image, .bm-pivots, .bm-family-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n \
- .bm-aside { grid-column: span 4; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\
-\n  .bm-main:has(.bm-loaded) { grid-template-rows: auto 1fr; }\n  .bm-main:has(.bm-loaded) .bm-aside { grid-row: span 2; }\n  .bm-loaded { grid-column: span 6; ali\
-gn-self: start; }\n}\n@media print {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver\
-: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c758\
-0; --bm-error: #b0125f; --bm-good: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c; --bm-spring: #6b43ab; --bm-hand: #9a5a00;\n    font-size: 10p\
-t; min-height: 0; }\n  .bm-list, .bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !important; }\n  .bm-\
-body, .bm-body:has(.bm-list) { display: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border: 0; padding: 8p\
-x 0; break-inside: avoid; }\n  .bm-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scroll { overflow: v\
-isible; max-height: none; }\n  .bm .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid; }\n  .bm th, .bm\
- td { padding-right: 6px; }\n  .bm-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+ntent: center; font-weight: 600; }\n.bm-play svg { fill: currentColor; }\n.bm-whole, .bm-real { display: inline-flex; gap: 6px; align-items: center; min-height: 3\
+4px; font-size: 0.9rem; white-space: nowrap; cursor: pointer; }\n.bm-whole input, .bm-real input, .bm-far-pivots input { accent-color: var(--bm-accent); margin: \
+0; }\n.bm-whole:has(:disabled) { opacity: 0.45; cursor: default; }\n.bm-real[hidden] { display: none; }\n.bm-small-step { padding: 5px 9px; }\n.bm-pick { font: inhe\
+rit; font-size: 0.86rem; color: var(--bm-ink); background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 8px; min-height: 34px; padding: 2px\
+ 4px; }\n.bm-track { min-width: 0; }\n.bm-slider { display: block; width: 100%; margin: 0 0 2px; height: 18px; accent-color: var(--bm-accent); }\n.bm-stops { width\
+: 100%; overflow: visible; }\n.bm-stops path { stroke: var(--bm-muted); }\n.bm .bm-stops text { font-size: 10.5px; fill: var(--bm-muted); paint-order: stroke; str\
+oke: var(--bm-panel); stroke-width: 3px; }\n.bm-now { display: block; font-size: 0.88rem; min-height: 1.5em; }\n.bm-now span { display: inline-block; max-width: 1\
+00%; }\n.bm-under { display: flex; flex-wrap: wrap; gap: 8px 18px; justify-content: space-between; align-items: flex-end; margin-top: 10px; }\n.bm-choose { displa\
+y: flex; flex-wrap: wrap; gap: 4px 18px; }\n.bm-far-pivots { display: inline-flex; gap: 6px; align-items: center; cursor: pointer; }\n.bm-far-pivots[hidden], .bm-\
+ways[hidden] { display: none; }\n.bm-factor { white-space: nowrap; font-size: 0.86rem; color: var(--bm-muted); }\n.bm-factor select { font: inherit; color: var(--\
+bm-ink); background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 6px; padding: 2px 6px; }\n.bm .bm-keys { list-style: none; display: flex; \
+flex-wrap: wrap; gap: 2px 18px; flex: 1 1 260px; font-size: 0.82rem; color: var(--bm-muted); }\n.bm-keys li { display: inline-flex; gap: 6px; align-items: center\
+; }\n.bm-key { flex: none; }\n\n.bm-aside { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); min-width: 0; }\n.bm-facts { display: grid; font-size: \
+0.9rem; }\n.bm-facts div { display: flex; justify-content: space-between; gap: 14px; border-bottom: 1px solid var(--bm-faint); padding: 2px 0; }\n.bm-facts dt { c\
+olor: var(--bm-muted); }\n.bm-facts dd { text-align: right; }\n.bm-note-text { font-size: 0.82rem; color: var(--bm-muted); margin-top: 8px !important; }\n.bm-scrol\
+l { overflow-x: auto; margin-top: 8px; scrollbar-width: thin; }\n.bm table { border-collapse: collapse; width: 100%; font-size: 0.86rem; }\n.bm caption { position\
+: absolute; width: 1px; height: 1px; overflow: hidden; clip-path: inset(50%); white-space: nowrap; }\n.bm-dimensions caption, .bm-every caption { position: stati\
+c; width: auto; height: auto; clip-path: none; text-align: left; font-weight: 600; padding: 6px 0 2px; }\n.bm th, .bm td { text-align: right; padding: 3px 12px 3\
+px 0; border-bottom: 1px solid var(--bm-faint); vertical-align: top; white-space: nowrap; font-weight: 400; }\n.bm thead th { color: var(--bm-muted); border-bott\
+om-color: var(--bm-line); white-space: normal; vertical-align: bottom; }\n.bm tbody th { text-align: left; font-weight: 650; }\n.bm .bm-words { text-align: left; \
+white-space: normal; }\n.bm .bm-linkages td.bm-words, .bm .bm-pose-table td.bm-words { white-space: nowrap; }\n.bm .bm-linkages th, .bm .bm-linkages td { padding-\
+right: 9px; }\n.bm .bm-linkages td:nth-child(3), .bm .bm-linkages td:nth-child(4) { white-space: normal; }\n.bm .bm-linkages td:last-child { white-space: normal; \
+min-width: 14rem; overflow-wrap: anywhere; }\n.bm .bm-pose-table tbody th { position: sticky; left: 0; background: var(--bm-panel); }\n.bm .bm-pose-table tr.bm-cu\
+rrent th { background: var(--bm-wash); }\n.bm-scroll:has(.bm-pose-table) { max-height: 34rem; overflow-y: auto; }\n.bm th:last-child, .bm td:last-child { padding-\
+right: 2px; }\n.bm tr.bm-current > * { background: var(--bm-wash); }\n.bm .bm-dimensions td { padding-right: 8px; }\n.bm .bm-dimensions td:last-child { white-space\
+: normal; padding-right: 0; }\n.bm .bm-numbers .bm-scroll { margin-top: 0; }\n.bm-numbers .bm-facts { margin-top: 10px; }\n.bm-line-of { display: block; white-spac\
+e: nowrap; }\n.bm .bm-joints tbody th { white-space: normal; }\n.bm-every { margin-top: 12px; font-size: 0.9rem; }\n.bm-every summary { cursor: pointer; color: var\
+(--bm-accent); }\n.bm-every-all { display: grid; gap: 6px 28px; grid-template-columns: repeat(auto-fill, minmax(min(100%, 340px), 1fr)); }\n\n.bm-plots { width: 10\
+0%; cursor: ew-resize; touch-action: pan-y; }\n.bm-panel { fill: none; stroke: var(--bm-line); }\n.bm-rule { stroke: var(--bm-faint); fill: none; }\n.bm-usual { st\
+roke: var(--bm-muted); stroke-dasharray: 5 4; fill: none; }\n.bm .bm-tick { font-size: 11px; fill: var(--bm-muted); }\n.bm .bm-halo { paint-order: stroke; stroke:\
+ var(--bm-panel); stroke-width: 3px; }\n.bm .bm-title { font-size: 12px; fill: var(--bm-muted); }\n.bm .bm-note { fill: var(--bm-muted); }\n.bm-stem { stroke: var(\
+--bm-error); stroke-width: 1.6; }\n.bm-dot { fill: var(--bm-error); }\n.bm .bm-dot-name { font-size: 11px; font-weight: 600; fill: var(--bm-muted); }\n.bm-line { f\
+ill: none; stroke: var(--bm-driver); stroke-width: 1.8; }\n.bm-line.bm-loop1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-stale { opacity: 0.35; }\n\
+.bm-line.bm-curve1 { stroke: var(--bm-follower); stroke-dasharray: 6 4; }\n.bm-line.bm-curve2 { stroke: var(--bm-error); }\n.bm-line.bm-curve3 { stroke: var(--bm-\
+good); stroke-dasharray: 6 4; }\n.bm-line.bm-curve4 { stroke: var(--bm-coupler); }\n.bm-line.bm-curve5 { stroke: var(--bm-body); stroke-dasharray: 6 4; }\n.bm-line\
+.bm-curve6 { stroke: var(--bm-muted); }\n.bm .bm-title tspan { font-weight: 700; fill: var(--bm-driver); }\n.bm .bm-title .bm-curve1 { fill: var(--bm-follower); }\
+\n.bm .bm-title .bm-curve2 { fill: var(--bm-error); }\n.bm .bm-title .bm-curve3 { fill: var(--bm-good); }\n.bm .bm-title .bm-curve4 { fill: var(--bm-coupler); }\n.b\
+m .bm-title .bm-curve5 { fill: var(--bm-body); }\n.bm .bm-title .bm-curve6 { fill: var(--bm-muted); }\n.bm-dot.bm-loop0 { fill: var(--bm-driver); }\n.bm-dot.bm-loo\
+p1 { fill: var(--bm-follower); }\n.bm-cursor path { stroke: var(--bm-ink); stroke-width: 1.3; }\n.bm-cursor circle { fill: var(--bm-panel); stroke: var(--bm-ink);\
+ stroke-width: 1.8; }\n\n.bm-map { position: relative; border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; }\n.bm-map canvas { display: block; \
+width: 100%; }\n.bm-map svg { position: absolute; inset: 0; width: 100%; height: 100%; cursor: crosshair; }\n.bm .bm-map svg:focus-visible { outline-offset: -3px;\
+ border-radius: 8px; }\n.bm-map-cursor { fill: none; stroke: var(--bm-ink); stroke-width: 2; }\n.bm-cross { stroke: var(--bm-ink); opacity: 0.75; }\n.bm-some-pivot\
+ { fill: var(--bm-ink); opacity: 0.55; }\n.bm-its-pivot { fill: var(--bm-panel); stroke-width: 3; }\n.bm-its-pivot.bm-side0 { stroke: var(--bm-driver); }\n.bm-its-\
+pivot.bm-side1 { stroke: var(--bm-follower); }\n.bm .bm-map-name { font-weight: 700; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs\
+ { display: grid; gap: 16px; }\n.bm-pairs.bm-beside { grid-template-columns: auto auto; justify-content: start; }\n.bm-pairs-map { position: relative; overflow: h\
+idden; }\n.bm-pairs-map canvas { position: absolute; image-rendering: pixelated; }\n.bm-pairs-map svg { position: absolute; inset: 0; width: 100%; height: 100%; c\
+ursor: crosshair; }\n.bm .bm-pairs-map svg:focus-visible { outline-offset: -3px; border-radius: 8px; }\n.bm-pairs-scene { border: 1px solid var(--bm-line); border\
+-radius: 8px; display: block; }\n.bm-pairs-axes path, .bm-pairs-axes rect { fill: none; stroke: var(--bm-ink); stroke-width: 1; }\n.bm-pairs-axes text { fill: var\
+(--bm-ink); font-size: 11px; paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; }\n.bm-pairs-under path { fill: none; stroke: var(--bm-ink); stroke\
+-width: 6; }\n.bm-pairs-curve path { fill: none; stroke-width: 4.4; }\n.bm-pairs-mark { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-width: 1; }\n.bm-pair-\
+halo { fill: none; stroke: var(--bm-panel); stroke-width: 5; }\n.bm-pair-halo.bm-thin { stroke-width: 3; }\n.bm-pair-outline { fill: none; stroke: var(--bm-ink); \
+stroke-width: 1.3; }\n.bm-pair-ring { fill: none; stroke: var(--bm-error); stroke-width: 2.4; }\n.bm-pole { fill: var(--bm-ink); stroke: var(--bm-panel); stroke-w\
+idth: 1; }\n.bm-pair-body { fill: none; stroke: var(--bm-coupler); stroke-width: 2.4; stroke-linejoin: round; paint-order: stroke; }\n.bm-pair-link { fill: none; \
+stroke-width: 3; stroke-linecap: round; }\n.bm-pair-link.bm-side0 { stroke: var(--bm-driver); }\n.bm-pair-link.bm-side1 { stroke: var(--bm-follower); }\n.bm-pair-g\
+round { stroke: var(--bm-panel); stroke-width: 1.4; }\n.bm-pair-ground.bm-side0 { fill: var(--bm-driver); }\n.bm-pair-ground.bm-side1 { fill: var(--bm-follower); \
+}\n.bm-pair-pin { fill: var(--bm-panel); stroke: var(--bm-coupler); stroke-width: 1.6; }\n.bm-pair-scale { display: inline-block; width: 64px; height: 11px; borde\
+r: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; background: linear-gradient(to right, var(--bm-pair-low), var(--bm-pair-middle), var(--b\
+m-pair-high)); }\n.bm-pair-key { white-space: nowrap; margin-right: 8px; }\n.bm-pair-outside { background: var(--bm-pair-outside); }\n.bm-pair-order { background: \
+var(--bm-pair-order); }\n.bm-pair-branch { background: var(--bm-pair-branch); }\n.bm-pair-circuit { background: var(--bm-pair-circuit); }\n.bm-readout { display: b\
+lock; }\n.bm-legend, .bm-readout { font-size: 0.82rem; color: var(--bm-muted); }\n.bm .bm-legend { margin-top: 8px; }\n.bm-swatch { display: inline-block; width: 1\
+4px; height: 11px; border: 1px solid var(--bm-muted); border-radius: 2px; vertical-align: -1px; margin-right: 3px; }\n.bm-swatch.bm-far { margin-left: 12px; }\n.b\
+m-near { background: var(--bm-map-near); }\n.bm-far { background: var(--bm-map-far); }\n\n.bm-space { position: relative; border: 1px solid var(--bm-faint); border\
+-radius: 8px; touch-action: pan-y; cursor: grab; user-select: none; -webkit-user-select: none; }\n.bm-space:active { cursor: grabbing; }\n.bm-space canvas, .bm-sp\
+ace svg { position: absolute; inset: 0; width: 100%; height: 100%; }\n.bm-box { stroke: var(--bm-muted); fill: none; stroke-width: 0.9; opacity: 0.75; }\n.bm-box.\
+bm-behind { stroke-dasharray: 3 4; opacity: 0.5; }\n.bm .bm-axis { font-size: 11px; fill: var(--bm-muted); }\n.bm-motion { fill: none; stroke: var(--bm-ink); stro\
+ke-width: 2.4; stroke-linecap: round; }\n.bm-motion.bm-other { stroke-width: 1.5; stroke-opacity: 0.75; }\n.bm-motion.bm-hidden { stroke-opacity: 0.42; }\n.bm-imag\
+e-point { fill: var(--bm-panel); stroke: var(--bm-ink); stroke-width: 1.8; }\n.bm-image-point.bm-hidden { opacity: 0.6; }\n.bm .bm-image-name { font-weight: 700; \
+paint-order: stroke; stroke: var(--bm-panel); stroke-width: 3px; stroke-opacity: 0.8; }\n.bm-runner { fill: var(--bm-error); stroke: var(--bm-panel); stroke-widt\
+h: 2; }\n.bm-foot-notes { max-width: 1760px; margin: 0 auto; padding: 0 clamp(14px, 2.4cqw, 36px) 28px; color: var(--bm-muted); font-size: 0.82rem; }\n\n@container\
+ (max-width: 959px) {\n  .bm-main { display: contents; }\n  .bm-stage { order: -4; }\n  .bm-list { order: -2; }\n  .bm-main > .bm-aside, .bm-main > .bm-loaded { ord\
+er: -3; }\n  .bm-choices { align-items: stretch; }\n  .bm-choice { flex-basis: 264px; }\n  .bm-choice .bm-reason, .bm-choice dl dd.bm-detail, .bm-choice dl dt.bm-d\
+etail { display: none; }\n}\n@container (max-width: 640px) {\n  .bm-card { padding: 12px 12px 14px; }\n  .bm .bm-dimensions { font-size: 0.8rem; }\n  .bm .bm-dimensi\
+ons td, .bm .bm-dimensions th { padding-right: 6px; }\n  .bm .bm-dimensions td:last-child { padding-right: 0; }\n  .bm .bm-named tbody th { white-space: normal; m\
+in-width: 7rem; max-width: 9rem; overflow-wrap: break-word; }\n  .bm .bm-stacks, .bm .bm-stacks tbody { display: block; }\n  .bm .bm-stacks thead { position: abso\
+lute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }\n  .bm .bm-stacks tr { display: block; padding: 6px 0; border-bottom: 1px solid var(--b\
+m-line); }\n  .bm .bm-stacks tbody th, .bm .bm-stacks td { display: flex; justify-content: space-between; gap: 14px; border: 0; padding: 1px 0; white-space: norm\
+al; text-align: right; min-width: 0; }\n  .bm .bm-stacks td.bm-words, .bm .bm-linkages td:last-child { text-align: right; white-space: normal; min-width: 0; }\n  \
+.bm .bm-stacks td::before { content: attr(data-head); color: var(--bm-muted); white-space: nowrap; text-align: left; }\n  .bm .bm-linkages td:last-child:not(.bm-\
+none) { display: block; text-align: left; color: var(--bm-muted); }\n  .bm .bm-linkages td:last-child::before { margin-right: 14px; }\n  .bm .bm-stacks td.bm-none\
+ { display: none; }\n}\n@container (min-width: 620px) and (max-width: 959px) {\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n}\n@container (min\
+-width: 960px) {\n  .bm-body:has(.bm-list) { grid-template-columns: 250px minmax(0, 1fr); }\n  .bm-list { position: sticky; top: 0; align-self: start; max-height:\
+ 100vh; display: flex; flex-direction: column; padding-top: 4px; }\n  .bm-choices { flex-direction: column; align-items: stretch; overflow: hidden auto; padding-\
+bottom: 16px; }\n  .bm-choice { flex: none; }\n  .bm-main { grid-template-columns: repeat(10, minmax(0, 1fr)); }\n  .bm-stage, .bm-aside, .bm-loaded, .bm-family-cu\
+rve, .bm-pose-box, .bm-all, .bm-dyads { grid-column: 1 / -1; }\n  .bm-aside { grid-template-columns: repeat(2, minmax(0, 1fr)); }\n  .bm-image, .bm-pivots, .bm-fa\
+mily-plane { grid-column: span 5; }\n}\n@container (min-width: 1140px) {\n  .bm-stage { grid-column: span 6; align-self: start; }\n  .bm-aside { grid-column: span 4\
+; grid-template-columns: minmax(0, 1fr); align-self: start; }\n  .bm-main:not(:has(.bm-aside)) .bm-stage { grid-column: 1 / -1; }\n  .bm-main:has(.bm-loaded) { gr\
+id-template-rows: auto 1fr; }\n  .bm-main:has(.bm-loaded) .bm-aside { grid-row: span 2; }\n  .bm-loaded { grid-column: span 6; align-self: start; }\n}\n@media print\
+ {\n  .bm { --bm-bg: #fff; --bm-panel: #fff; --bm-ink: #000; --bm-muted: #444; --bm-line: #bbb; --bm-faint: #ddd;\n    --bm-driver: #1b5cb8; --bm-follower: #a84a1\
+2; --bm-coupler: #4a5869; --bm-plate: #d5dce4; --bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n    --bm-wanted: #6c7580; --bm-error: #b0125f; --bm-goo\
+d: #196b3c; --bm-bad: #9c3118; --bm-wash: #fff; --bm-body: #1c7a6c; --bm-spring: #6b43ab; --bm-hand: #9a5a00;\n    font-size: 10pt; min-height: 0; }\n  .bm-list, \
+.bm-row, .bm-track, .bm-factor, .bm-ways, .bm-every summary, .bm-about summary, .bm-readout { display: none !important; }\n  .bm-body, .bm-body:has(.bm-list) { d\
+isplay: block; padding: 0; }\n  .bm-main { display: block; }\n  .bm-head { padding: 0 0 8px; }\n  .bm-card { border: 0; padding: 8px 0; break-inside: avoid; }\n  .b\
+m-pose-box, .bm-all, .bm-dyads, .bm-every { break-inside: auto; }\n  .bm table { font-size: 8pt; }\n  .bm .bm-scroll { overflow: visible; max-height: none; }\n  .b\
+m .bm-linkages td.bm-words { white-space: normal; min-width: 0; }\n  .bm tr, .bm-every-one { break-inside: avoid; }\n  .bm th, .bm td { padding-right: 6px; }\n  .b\
+m-foot-notes { padding: 0; }\n}\n';var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
 value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
 toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
 0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e").map(Number);if(power>=
@@ -652,9 +654,12 @@ const from=this.seen(place),c=x/size2,d=y/size2;put(group.children[0],"d",arrowP
 put(group.children[1],"y",px(from[1]-(long+6)*d+4));put(group.children[1],"text-anchor",c<-.3?"end":c>.3?"start":"middle");group.children[1].textContent=`${group.
 dataset.pin} ${Number(size2.toPrecision(3))} N`}seen([x,y]){const{view}=this;return view?[view.X(x),view.Y(y)]:[0,0]}endOf({link,point},spring,end,place,drive){
 if(link==="ground")return this.seen(point);if(link==="body")return this.seen(act(place,point));const known=this.known?.moved.find(each=>each.spring===spring&&each.
-end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*
-x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(
-a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3}\
+end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};var LEAST_STRETCH=1e-6;function stretchOf(linkage,index,whole=false){const last=(linkage?.ways[index]?.x.length??2)-1,frames=linkage.pose_errors.filter(row=>row.
+way===index).map(row=>row.frame);const low=frames.reduce((a,b)=>Math.min(a,b),last),high=frames.reduce((a,b)=>Math.max(a,b),0);const isApart=high-low>LEAST_STRETCH,
+sense=frames[frames.length-1]<frames[0]?-1:1;return{...isApart&&!whole?{low,high}:{low:0,high:last},sense,isApart}}function driveAtTime({time:{x,y}},time){return y[0]<=y[y.length-1]?valueAt({x:y,y:x},time):valueAt({x:[...y].reverse(),y:[...x].reverse()},time)}function alongLine(dyad,place){
+const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){
+const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along2){
+const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3}\
  16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){
 const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point of list){while(kept.length>1){const[
 a,b]=kept.slice(-2);if((b[0]-a[0])*(point[1]-a[1])-(b[1]-a[1])*(point[0]-a[0])>0)break;kept.pop()}kept.push(point)}return kept.slice(0,-1)};const corners=[...half(
@@ -970,62 +975,75 @@ way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:
 rns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
 span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
-ways.map(one));give(this.element,"hidden",!linkage.ways.length||Boolean(this.data.whole))}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES=100;var ROW=13;var LONGEST_TICK=18;var NO_ERROR=1e-7;var STEPS=360;var Player=class{parts;steps;tick;wholeLabel;constructor(data,show,rebuild){
-this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.whole=false;this.stretch={low:0,high:1};this.playing=false;this.
-remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){return nounOf(this.data)}controls(){const button2=(name,text,label,onclick)=>h(
-"button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));
-this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","aria-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",
-{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"tr\
-ue"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("output",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.
-addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.
-shiftKey?10*step:step)});this.steps=[button2("bm-back","","",()=>this.toPose(-1)),button2("bm-next","","",()=>this.toPose(1))];this.wholeLabel=h("label",{class:"\
-bm-whole"},this.box,this.boxName);this.nameStops();return h("div",{class:"bm-controls"},h("div",{class:"bm-track"},this.slider,this.stops),h("div",{class:"bm-ro\
-w"},this.button,this.steps,this.wholeLabel),this.readout)}nameStops(){const{stop}=this,title=stop[0].toUpperCase()+stop.slice(1);[[`◀ ${title}`,`Previous ${stop}`],
-[`${title} ▶`,`Next ${stop}`]].forEach(([text,label],k)=>{say(this.steps[k],text);put(this.steps[k],"aria-label",label);give(this.steps[k],"title",label)});give(
-this.wholeLabel,"title",`Play all that the driver reaches, not only from the first ${stop} to the last`)}load(linkage){this.linkage=linkage;const counts=linkage.
-ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){
-return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path,
-slider}=this;if(!path)this.play(false);this.nameStops();for(const each of[slider,this.button])give(each,"disabled",!path);const last=path?path.x.length-1:1;const frames=path?
-this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;
-this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};give(this.box,"disabled",!apart);say(this.boxName,path?.round?"Whole turn":"Whole branch");this.heading=
-1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path}=this,{low,high}=this.stretch;
-stops.replaceChildren();if(!path)return;const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.
-stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(
-rows.map(({x,pose})=>({x,text:shortened(poseName(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({
-x,text:pose.label})),width,rows.length>MANY_POSES?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-po\
-se":k+1},s("title",{},calledOf(pose)),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));
-rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},
-text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===
-this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?
-"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;
-let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(
-run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.goesRound?1:2)*(high-
-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,high}=this.stretch;
-const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.play(false);
-this.u=this.firstStop();this.show();return}}this.u+=this.heading*step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.u<=low){this.heading=
-this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*Math.max(.001,(high-
-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){
-const all=this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.
-length);const next=sense>0?all.find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){
-this.way=next.way;this.u=next.frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.
-length)}nearest(place){let near2=0,least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.
-hypot(place.x-pose.x,place.y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){
-const{path}=this;if(!path){for(const part of this.parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path.drive,this.u),transmission=linear(
-path.transmission,this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);
-give(this.slider,"value",this.u);this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;
+ways.map(one));give(this.element,"hidden",!linkage.ways.length||Boolean(this.data.whole))}};var TURN_SECONDS=7;var TURN=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES=100;var ROW=13;var LONGEST_TICK=18;var NO_ERROR=1e-7;var STEPS=360;var SPEEDS=[
+.25,.5,1,2,4];var LOOPS=[["back","there and back"],["again","again and again"],["once","once"]];var Player=class{parts;steps;tick;wholeLabel;speeds;loops;real;realLabel;constructor(data,show,rebuild){
+this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.speed=1;this.loop="back";this.isReal=false;this.whole=false;this.
+stretch={low:0,high:1,sense:1};this.playing=false;this.remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){return nounOf(
+this.data)}controls(){const button2=(name,text,label,onclick)=>h("button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,onclick},text);
+this.button=button2("bm-play","","Play",()=>this.play(!this.playing));this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","aria-label":"Drive\
+r",oninput:()=>this.go(this.turned(Number(this.slider.value)))});this.box=h("input",{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=
+h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"true"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("ou\
+tput",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,
+ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.shiftKey?10*step:step)});const choice=(label,entries,take)=>h("select",{class:"bm-p\
+ick","aria-label":label,title:label,onchange:event=>take(event.target.value)},entries.map(([value,text])=>h("option",{value},text)));this.steps=[button2("bm-bac\
+k","","",()=>this.toPose(-1)),button2("bm-next","","",()=>this.toPose(1))];this.speeds=choice("Speed",SPEEDS.map(each=>[each,`${each} ×`]),value=>this.speed=Number(
+value));this.speeds.value="1";this.loops=choice("What comes after the last pose",LOOPS,value=>this.takeLoop(value));this.real=h("input",{type:"checkbox",onchange:()=>this.
+isReal=this.real.checked});this.realLabel=h("label",{class:"bm-real",hidden:true,title:"Move as the drive of the task moves it"},this.real,h("span",{},"As drive\
+n"));this.wholeLabel=h("label",{class:"bm-whole"},this.box,this.boxName);this.nameStops();return h("div",{class:"bm-controls"},h("div",{class:"bm-track"},this.slider,
+this.stops),h("div",{class:"bm-row"},this.button,this.steps[0],button2("bm-small-step","‹","A small step back",()=>this.step(-1)),button2("bm-small-step","›",
+"A small step on",()=>this.step(1)),this.steps[1],this.speeds,this.loops,this.wholeLabel,this.realLabel),this.readout)}nameStops(){const{stop}=this,title=stop[0].
+toUpperCase()+stop.slice(1);[[`◀ ${title}`,`Previous ${stop}`],[`${title} ▶`,`Next ${stop}`]].forEach(([text,label],k)=>{say(this.steps[k],text);put(this.steps[k],
+"aria-label",label);give(this.steps[k],"title",label)});give(this.wholeLabel,"title",`Play all that the driver reaches, not only from the first ${stop} to the l\
+ast`)}load(linkage){this.linkage=linkage;const counts=linkage.ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){
+this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.
+way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path,slider}=this;if(!path)this.play(false);this.nameStops();for(const each of[slider,this.
+button])give(each,"disabled",!path);if(this.linkage)this.stretch=stretchOf(this.linkage,this.way,this.whole);give(this.box,"disabled",!this.stretch.isApart);give(
+this.realLabel,"hidden",!this.timed);say(this.boxName,path?.round?"Whole turn":"Whole branch");this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.
+high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path}=this,{low,high}=this.stretch;stops.replaceChildren();if(!path)return;const width=Math.
+max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(this.turned(u)-low)/(high-low)*(width-2*inset);const known=this.stopsOnWay.filter(row=>this.data.poses[row.
+k]);const rows=known.sort((a,b)=>X(a.frame)-X(b.frame)).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({
+x,text:shortened(poseName(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.label})),
+width,rows.length>MANY_POSES?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-pose":k+1},s("title",{},
+calledOf(pose)),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));rows.forEach(({k,
+pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},text)))});put(stops,
+"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===this.playing&&this.
+isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?"Pause":"Play");put(
+this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;let before=null;const run=now=>{
+if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(run)};this.tick=
+requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.u=this.turned(low);this.heading=1;this.play(true);this.remaining=(this.
+goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-TURN}turned(u){const{low,high,sense}=this.
+stretch;return sense<0?low+high-u:u}get timed(){const loads=this.linkage?.followed?null:this.linkage?.loads;return loads?.way===this.way&&!this.whole?loads.timed:
+null}takeLoop(loop){this.loop=loop;this.heading=1}advance(seconds){const{low,high}=this.stretch;if(this.isReal&&this.timed)return this.drive(seconds);const step=this.
+speed*seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.play(false);this.
+u=this.firstStop();this.show();return}}const at=this.turned(this.u)+this.heading*step,isOver=at>=high;if(isOver&&this.loop==="once"){this.play(false);this.u=this.
+turned(high)}else if(this.goesRound){this.u=this.turned(around2(at,high))}else if(isOver&&this.loop==="again"){this.u=this.turned(low)}else{if(isOver||at<=low)this.
+heading=isOver?-1:1;this.u=this.turned(clamp(at,low,high))}this.show()}drive(seconds){const{timed}=this,{y}=timed.time,last=Math.max(y[0],y[y.length-1]),here=valueAt(
+timed.time,linear(this.path.drive,this.u))??0;let time=here+this.speed*seconds;if(time>=last&&here<last)time=last;else if(time>=last&&this.loop==="once")return this.
+play(false);else if(time>=last)time=0;this.u=frameAt(this.path.drive,driveAtTime(timed,time)??linear(this.path.drive,this.u)??0);this.show()}step(steps){if(!this.
+path)return;const{low,high}=this.stretch;const at=this.turned(this.u)+steps*Math.max(.001,(high-low)/STEPS);this.go(this.turned(this.goesRound?around2(at,high):
+at))}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){const all=this.linkage.pose_errors.
+map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.
+find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){this.way=next.way;this.u=next.
+frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.length)}nearest(place){let near2=0,
+least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.
+y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path}=this;
+if(!path){for(const part of this.parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path.drive,this.u),transmission=linear(path.
+transmission,this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(
+this.slider,"value",this.turned(this.u));this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;
 return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${linkage.crank??""}${fixed(drive,1)}°`}tell(place,drive,transmission,near2){
 const{data,linkage}=this;const unit=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.
 pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit} fro\
 m ${calledOf(pose)}`;const missed2=()=>`at ${calledOf(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit)}`;const said=!pose?
-"between the poses":pose.called?`${at?"at":"near"} ${pose.called}`:at?missed2():away();const known=this.path.told?.map(each=>this.toldOf(each))??[`driver ${driver}`,
-`body (${fixed(place.x,digits)}, ${fixed(place.y,digits)})${unit}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`];const texts=[...known,`transmission ${transmission===
-null?"–":`${fixed(transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.
-parts[k].textContent=whole});put(this.slider,"aria-valuetext",`${texts[0]}, ${texts[3]}`)}toldOf({name,digits,values,panel}){const error=panel===void 0?null:valueAt(
-this.linkage.panels[panel],smooth(this.path.drive,this.u));const off=error===null?"":`, off by ${Math.abs(error)<NO_ERROR?"0":figure(error)}°`;return`${name} ${fixed(
-smooth(values,this.u),digits)}°${off}`}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.
-length,left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}
-var around2=(u,turn)=>(u%turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1\
- 0h3.5v12H1zM7.5 0H11v12H7.5z":"M1 0l11 6l-11 6z"}))}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);const[x,y]=act(place,
+"between the poses":pose.called?`${at?"at":"near"} ${pose.called}`:at?missed2():away();const time=this.isReal&&this.timed&&drive!==null?valueAt(this.timed.time,
+drive):null;const known=this.path.told?.map(each=>this.toldOf(each))??[`driver ${driver}${time===null?"":` at ${fixed(time,2)} s`}`,`body (${fixed(place.x,digits)}\
+, ${fixed(place.y,digits)})${unit}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`];const texts=[...known,`transmission ${transmission===null?"–":`${fixed(
+transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=
+whole});put(this.slider,"aria-valuetext",`${texts[0]}, ${texts[3]}`)}toldOf({name,digits,values,panel}){const error=panel===void 0?null:valueAt(this.linkage.panels[panel],
+smooth(this.path.drive,this.u));const off=error===null?"":`, off by ${Math.abs(error)<NO_ERROR?"0":figure(error)}°`;return`${name} ${fixed(smooth(values,this.u),
+digits)}°${off}`}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,left=clamp(x-
+size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%
+turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H\
+7.5z":"M1 0l11 6l-11 6z"}))}function driveOf(dyad,place){if(dyad.kind==="PR")return alongLine(dyad,place);if(dyad.kind==="RP")return place.a+radians(dyad.line.normal_deg);const[x,y]=act(place,
 dyad.moving_pivot);return Math.atan2(y-dyad.fixed_pivot[1],x-dyad.fixed_pivot[0])}function transmissionOf(driver,follower,place){if(driver.kind==="PP"||follower.
 kind==="PP")return null;const slot=dyad=>{const[nx,ny]=normalOf(dyad),c=Math.cos(place.a),d=Math.sin(place.a);return[c*nx-d*ny,d*nx+c*ny]};if(driver.kind==="RP"&&
 follower.kind==="RP")return 90;if(follower.kind==="RP"){const pin=act(place,driver.moving_pivot),[x,y]=follower.fixed_pivot;return between(slot(follower),[x-pin[0],

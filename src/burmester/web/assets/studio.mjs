@@ -135,13 +135,17 @@ const from=this.seen(place),c=x/size2,d=y/size2;put(group.children[0],"d",arrowP
 put(group.children[1],"y",px(from[1]-(long+6)*d+4));put(group.children[1],"text-anchor",c<-.3?"end":c>.3?"start":"middle");group.children[1].textContent=`${group.
 dataset.pin} ${Number(size2.toPrecision(3))} N`}seen([x,y]){const{view}=this;return view?[view.X(x),view.Y(y)]:[0,0]}endOf({link,point:point2},spring,end,place,drive){
 if(link==="ground")return this.seen(point2);if(link==="body")return this.seen(act(place,point2));const known=this.known?.moved.find(each=>each.spring===spring&&
-each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};var LONGEST_STEP=.015;var MOST_BETWEEN=40;var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.
-y[u],a:way.angle[u]}:placeAt(linkage,way,u,data.chart.length));function placesAlong(data,{low,high},at){const places=[at(low)];let before=low;const goTo=u=>{const next=at(
-u),last=places[places.length-1];const count=Math.min(MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=
-count;k+=1)places.push(at(before+k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function alongLine(dyad,place){
-const[nx,ny]=normalOf(dyad);const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){
-const along2=places.map(place=>alongLine(dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along2){
-const[nx,ny]=normalOf(dyad),{offset}=dyad.line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var WIDEST=4;function farFrom(data){const[x,y]=["x","y"].map(k=>{const[low,high]=data.poses.reduce(([a,b],pose)=>[Math.min(a,pose[k]),
+each.end===end);const at=known&&drive!==null?known.at.map(each=>valueAt(each,drive)):[null];return at.some(each=>each===null)?null:this.seen(at)}};var LONGEST_STEP=.015;var MOST_BETWEEN=40;var LEAST_STRETCH=1e-6;function stretchOf(linkage,index,whole=false){const last=(linkage?.ways[index]?.x.length??2)-1,
+frames=linkage.pose_errors.filter(row=>row.way===index).map(row=>row.frame);const low=frames.reduce((a,b)=>Math.min(a,b),last),high=frames.reduce((a,b)=>Math.max(
+a,b),0);const isApart=high-low>LEAST_STRETCH,sense=frames[frames.length-1]<frames[0]?-1:1;return{...isApart&&!whole?{low,high}:{low:0,high:last},sense,isApart}}
+var placesOf=(data,linkage,way,stretch)=>placesAlong(data,stretch,u=>Number.isInteger(u)&&!way.joints?{x:way.x[u],y:way.y[u],a:way.angle[u]}:placeAt(linkage,way,
+u,data.chart.length));function placesAlong(data,{low,high},at){const places=[at(low)];let before=low;const goTo=u=>{const next=at(u),last=places[places.length-1];
+const count=Math.min(MOST_BETWEEN,Math.floor(Math.hypot(next.x-last.x,next.y-last.y)/(LONGEST_STEP*data.scene)));for(let k=1;k<=count;k+=1)places.push(at(before+
+k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1;k<high;k+=1)goTo(k);goTo(high);return places}function driveAtTime({time:{x,y}},time){
+return y[0]<=y[y.length-1]?valueAt({x:y,y:x},time):valueAt({x:[...y].reverse(),y:[...x].reverse()},time)}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);
+const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(
+dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.
+line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var WIDEST=4;function farFrom(data){const[x,y]=["x","y"].map(k=>{const[low,high]=data.poses.reduce(([a,b],pose)=>[Math.min(a,pose[k]),
 Math.max(b,pose[k])],[Infinity,-Infinity]);return(low+high)/2});return point2=>!(Math.hypot(point2[0]-x,point2[1]-y)<WIDEST*data.scene)}function pivotsAt(linkage,places){
 const found=[];for(const dyad of linkage.led){if(dyad.fixed_pivot)found.push({dyad,fixed:true,at:dyad.fixed_pivot});const own=dyad.moving_pivot?[dyad.moving_pivot]:
 dyad.kind==="RP"&&places.length?travelOf(dyad,places).map(end=>pointOnLine(dyad,end)):[];for(const point2 of own)for(const place of places)found.push({dyad,fixed:false,
@@ -995,47 +999,49 @@ ways[index];this.linkage=linkage;this.way=way;svg.replaceChildren();this.cursor=
 ({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+
 6:0);const count=linkage.panels?linkage.panels.length+1:way.loops?1:nounOf(data)==="point"?2:3;const[driver]=linkage.led,slides=driver.kind==="PR";this.stretch=
 stretch;const rows=poses.map(row=>({...row,drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";const title=way.told?`${way.told[0].name}\
- (°)`:slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;this.frame(count,linear(way.drive,stretch.low),linear(way.drive,stretch.
-high),!slides,title,()=>{this.panels(rows,unit2);if(upright)this.uprightNames(rows)})}frame(count,low,high,turns,title,draw){const{svg}=this,width=this.width=Math.
-max(260,this.parent.clientWidth);this.count=count;this.low=low;this.high=high;const base=this.top+(count>1?count*PANEL+(count-1)*GAP:ONLY),height=base+BOTTOM;svg.
-setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);this.X=at=>LEFT+INSET+(at-low)/(high-low)*(width-LEFT-RIGHT-2*INSET);this.across=
-turns?angleTicks(low,high,Math.max(3,width/70)):ticks(low,high,width/90);this.marks=[];draw();svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/2,y:height-
-6,"text-anchor":"middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.cursor.append(...this.marks.map(({mark})=>mark));
-svg.append(this.cursor)}heights(k){const y0=this.top+k*(PANEL+GAP);return[y0,y0+(this.count>1?PANEL:ONLY)]}placeOf(drive){return drive}driveAt(place){return place}panels(rows,unit2){
+ (°)`:slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;const ends=[stretch.low,stretch.high].map(u=>linear(way.drive,u)),[low,
+high]=stretch.sense<0?ends.reverse():ends;this.frame(count,low,high,!slides,title,()=>{this.panels(rows,unit2);if(upright)this.uprightNames(rows)})}frame(count,low,high,turns,title,draw){
+const{svg}=this,width=this.width=Math.max(260,this.parent.clientWidth);this.count=count;this.low=low;this.high=high;const base=this.top+(count>1?count*PANEL+(count-
+1)*GAP:ONLY),height=base+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);this.X=at=>LEFT+INSET+(at-low)/(high-low)*
+(width-LEFT-RIGHT-2*INSET);const ends=[Math.min(low,high),Math.max(low,high)],marks=turns?angleTicks(ends[0],ends[1],Math.max(3,width/70)):ticks(ends[0],ends[1],
+width/90);this.across=low>high?marks.reverse():marks;this.marks=[];draw();svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/2,y:height-6,"text-anchor":"\
+middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.cursor.append(...this.marks.map(({mark})=>mark));svg.append(
+this.cursor)}heights(k){const y0=this.top+k*(PANEL+GAP);return[y0,y0+(this.count>1?PANEL:ONLY)]}placeOf(drive){return drive}driveAt(place){return place}panels(rows,unit2){
 this.linkage.panels?.forEach((each,k)=>this.values(k,each));if(this.linkage.panels||this.count===1){this.transmission(this.count-1,rows);return}this.errors(0,`p\
 osition error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);if(nounOf(this.data)==="point"){this.transmission(1,rows);return}this.errors(1,"angle er\
 ror (°)",rows.filter(({pose})=>!isPoint2(pose)),row=>row.turned_deg,1e-9);this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,[y0,base]=this.
 heights(k);const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*greatest:1;const Y=v=>base-
 v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, up to rounding":`no ${nounOf(
 this.data)} is on this assembly`))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT-6,y:base+
-4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[...rows].sort((a,b)=>a.
-drive-b.drive)){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s("circle",{class:"bm-do\
-t",cx:x,cy:y,r:3.5},s("title",{},`${calledOf(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.length<=MANY_POSES||
+4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[...rows].sort((a,b)=>X(
+a.drive)-X(b.drive))){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s("circle",{class:"\
+bm-dot",cx:x,cy:y,r:3.5},s("title",{},`${calledOf(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.length<=MANY_POSES||
 greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{svg,way,width,X}=this,
 [y0,base]=this.heights(k);const Y=v=>base-v/90*(base-y0);this.panel("transmission angle (°)",y0,base,true);for(const at of[0,30,60,90])this.rule(Y(at),at);const{
 deg:limit,said}=this.data.transmission_limit;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}H${width-RIGHT}`}));const below=limit>15&&(linear(
-way.transmission,this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-4,y:px(Y(limit))+(below?12:-4),"text-anchor":"en\
-d"},said);(way.loops??[way.transmission]).forEach((values,loop)=>{this.mark(drive=>linear(values,frameAt(way.drive,drive)),Y);const kind=way.loops?` bm-loop${loop}`:
-"";this.curve(values,Y,`bm-line${kind}`);for(const row of rows){const value=way.loops?row.loops[loop]:row.transmission_deg;if(value!==null)svg.append(s("circle",
-{class:`bm-dot${kind}`,cx:px(X(row.drive)),cy:px(Y(value)),r:3}))}});svg.append(limitName2)}mark(value,Y){this.marks.push({mark:s("circle",{r:4.5}),value,Y})}values(k,curve){
-const{title,x,y,dots,stems}=curve,{svg,low,high}=this,[y0,base]=this.heights(k);const shown2=[...x.keys()].filter(i=>y[i]!==null&&x[i]>=low&&x[i]<=high).map(i=>[
-x[i],y[i]]);const all=[...shown2,...dots].map(([,value])=>value),least2=Math.min(...all),most=Math.max(...all),room=.08*(most-least2);this.panel(title,y0,base);
-if(!(Math.max(Math.abs(least2),Math.abs(most))>NO_ERROR)){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},shown2.length?"exact, up to rounding":"it \
-cannot be assembled"));return}const Y=v=>base-(v-least2+room)/(most-least2+2*room)*PANEL;const at=point2=>`${px(this.X(point2[0]))} ${px(Y(point2[1]))}`;for(const{
-at:value,text}of ticks(least2,most,4))this.rule(Y(value),text);if(least2<0&&most>0)svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));
-if(stems)for(const[a,b]of shown2)svg.append(s("path",{class:"bm-stem",d:`M${at([a,0])}L${at([a,b])}`}));else svg.append(s("path",{class:"bm-line",d:`M${shown2.map(
-at).join("L")}`}));for(const[a,b]of dots)svg.append(s("circle",{class:"bm-dot",cx:px(this.X(a)),cy:px(Y(b)),r:3.5},s("title",{},`${figure(b)}°`)));this.mark(drive=>valueAt(
-curve,drive),Y)}curve(values,Y,name){const{low,high}=this.stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",
-pen="M";for(const u of frames){const value=linear(values,u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen=
-"L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){let last=-99;for(const row of[...rows].sort((a,b)=>a.drive-b.drive)){const x=this.X(row.drive),
-y=this.top-20;if(x-last<NAME_WIDTH)continue;last=x;const text=s("text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});
-text.append(shortened(poseName2(row.pose),LONGEST_NAME5));this.svg.append(s("g",{},s("title",{},poseName2(row.pose)),text))}}panel(title,y0,base,labelled3=false){
-const{svg,width}=this;svg.append(s("rect",{class:"bm-panel",x:LEFT,y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));
-let last=-99;for(const{at,text}of this.across){const x=px(this.X(at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled3&&x-last>34){svg.
-append(s("text",{class:"bm-tick",x,y:base+15,"text-anchor":"middle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}\
-H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-6,y:px(y)+4,"text-anchor":"end"},text))}show(drive){if(!this.cursor)return;const at=this.placeOf(drive);
-put(this.cursor,"visibility",at===null?"hidden":"visible");if(at===null)return;this.cursor.setAttribute("transform",`translate(${px(this.X(at))} 0)`);for(const{
-mark,value,Y}of this.marks){const known=value(at);put(mark,"visibility",known===null?"hidden":"inherit");if(known!==null)put(mark,"cy",px(Y(known)))}}};var TITLE2="Loads";var fieldsets=0;var LoadPlots=class extends Plots{own=null;timed=null;drive;overTime=false;constructor(data,parent,scrub){super(data,parent,scrub);
+way.transmission,this.stretch.sense<0?this.stretch.low:this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-4,y:px(Y(limit))+
+(below?12:-4),"text-anchor":"end"},said);(way.loops??[way.transmission]).forEach((values,loop)=>{this.mark(drive=>linear(values,frameAt(way.drive,drive)),Y);const kind=way.
+loops?` bm-loop${loop}`:"";this.curve(values,Y,`bm-line${kind}`);for(const row of rows){const value=way.loops?row.loops[loop]:row.transmission_deg;if(value!==null)
+svg.append(s("circle",{class:`bm-dot${kind}`,cx:px(X(row.drive)),cy:px(Y(value)),r:3}))}});svg.append(limitName2)}mark(value,Y){this.marks.push({mark:s("circle",
+{r:4.5}),value,Y})}values(k,curve){const{title,x,y,dots,stems}=curve,{svg}=this,[low,high]=[Math.min(this.low,this.high),Math.max(this.low,this.high)],[y0,base]=this.
+heights(k);const shown2=[...x.keys()].filter(i=>y[i]!==null&&x[i]>=low&&x[i]<=high).map(i=>[x[i],y[i]]);const all=[...shown2,...dots].map(([,value])=>value),least2=Math.
+min(...all),most=Math.max(...all),room=.08*(most-least2);this.panel(title,y0,base);if(!(Math.max(Math.abs(least2),Math.abs(most))>NO_ERROR)){svg.append(s("text",
+{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},shown2.length?"exact, up to rounding":"it cannot be assembled"));return}const Y=v=>base-(v-least2+room)/(most-least2+2*room)*
+PANEL;const at=point2=>`${px(this.X(point2[0]))} ${px(Y(point2[1]))}`;for(const{at:value,text}of ticks(least2,most,4))this.rule(Y(value),text);if(least2<0&&most>
+0)svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));if(stems)for(const[a,b]of shown2)svg.append(s("path",{class:"bm-stem",d:`\
+M${at([a,0])}L${at([a,b])}`}));else svg.append(s("path",{class:"bm-line",d:`M${shown2.map(at).join("L")}`}));for(const[a,b]of dots)svg.append(s("circle",{class:"\
+bm-dot",cx:px(this.X(a)),cy:px(Y(b)),r:3.5},s("title",{},`${figure(b)}°`)));this.mark(drive=>valueAt(curve,drive),Y)}curve(values,Y,name){const{low,high}=this.
+stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const value=linear(values,
+u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen="L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){
+let last=-99;for(const row of[...rows].sort((a,b)=>this.X(a.drive)-this.X(b.drive))){const x=this.X(row.drive),y=this.top-20;if(x-last<NAME_WIDTH)continue;last=
+x;const text=s("text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});text.append(shortened(poseName2(row.pose),LONGEST_NAME5));
+this.svg.append(s("g",{},s("title",{},poseName2(row.pose)),text))}}panel(title,y0,base,labelled3=false){const{svg,width}=this;svg.append(s("rect",{class:"bm-pan\
+el",x:LEFT,y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));let last=-99;for(const{at,text}of this.across){const x=px(
+this.X(at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled3&&x-last>34){svg.append(s("text",{class:"bm-tick",x,y:base+15,"text-anch\
+or":"middle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-
+6,y:px(y)+4,"text-anchor":"end"},text))}show(drive){if(!this.cursor)return;const at=this.placeOf(drive);put(this.cursor,"visibility",at===null?"hidden":"visible");
+if(at===null)return;this.cursor.setAttribute("transform",`translate(${px(this.X(at))} 0)`);for(const{mark,value,Y}of this.marks){const known=value(at);put(mark,
+"visibility",known===null?"hidden":"inherit");if(known!==null)put(mark,"cy",px(Y(known)))}}};var TITLE2="Loads";var fieldsets=0;var LoadPlots=class extends Plots{own=null;timed=null;drive;overTime=false;constructor(data,parent,scrub){super(data,parent,scrub);
 const name=`bm-over-${fieldsets+=1}`;const one=(text,overTime)=>h("label",{},h("input",{type:"radio",name,checked:!overTime,onchange:()=>this.take(overTime)}),h(
 "span",{},text));this.choice=h("fieldset",{class:"bm-ways bm-over",hidden:true},one("Over the driver",false),one("Over time",true));this.nothing=h("p",{class:"b\
 m-note-text",hidden:true},"Loads are known from the first pose to the last, of a linkage that leads through all of them with its own driver.");this.forces=h("la\
@@ -1046,16 +1052,16 @@ loads,here=Boolean(loads)&&loads.way===index&&Boolean(linkage.ways[index]);this.
 own?.timed;this.nothing.hidden=here;this.forces.hidden=!here;this.draw()}draw(){const{svg,own,data}=this;svg.replaceChildren();svg.removeAttribute("height");this.
 cursor=null;if(!own)return;const timed=this.overTime&&own.timed?own.timed:null,panels=(timed??own).panels,{x}=panels[0];this.timed=timed;const[driver]=this.linkage.
 led,slides=driver.kind==="PR";const title=timed?"time (s)":slides?`place of ${driver.id} on its line (${data.unit})`:`driver angle (${driver.id})`;svg.setAttribute(
-"aria-label",`${this.linkage.id}: ${TITLE2.toLowerCase()} over ${timed?"time":"the driver"}`);this.frame(panels.length,x[0],x[x.length-1],!slides&&!timed,title,
-()=>{panels.forEach((each,k)=>this.lines(k,each,k+1===panels.length))})}lines(k,{title,x,lines},last){const all=lines.flatMap(({y})=>y.filter(each=>each!==null)),
-[y0,base]=this.heights(k);const least2=Math.min(0,...all),most=Math.max(0,...all),room=.08*(most-least2||1);this.panel(title,y0,base,last);const Y=v=>base-(v-least2+
-room)/(most-least2+2*room)*(base-y0);for(const{at,text}of ticks(least2,most,4))this.rule(Y(at),text);if(least2<0&&most>0)this.svg.append(s("path",{class:"bm-usu\
-al",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(({y},line2)=>{let d="",pen="M";x.forEach((at,i)=>{if(y[i]===null)pen="M";else{d+=`${pen}${px(this.
-X(at))} ${px(Y(y[i]))}`;pen="L"}});this.svg.append(s("path",{class:`bm-line bm-curve${line2}`,d}));this.mark(at=>valueAt({x,y},at),Y)});if(lines.length>1){const names=s(
-"text",{class:"bm-title",x:this.width-RIGHT,y:y0-7,"text-anchor":"end"});lines.forEach(({name},line2)=>names.append(s("tspan",{class:`bm-curve${line2}`,dx:line2?
-7:0},name)));this.svg.append(names)}}placeOf(drive){const{own,timed}=this;if(this.linkage.followed)return null;if(timed)return valueAt(timed.time,drive);const{x}=own.
-panels[0];return drive<x[0]-1e-6||drive>x[x.length-1]+1e-6?null:drive}driveAt(at){if(!this.timed)return at;const{x,y}=this.timed.time;return y[0]<=y[y.length-1]?
-valueAt({x:y,y:x},at):valueAt({x:[...y].reverse(),y:[...x].reverse()},at)}show(drive){this.drive=drive;super.show(drive)}};var NO_MOTION="No linkage is there whose motion could be shown.";var Curves=class{constructor(answers,playing,Kind){this.playing=playing;const fill=h("div",{class:"\
+"aria-label",`${this.linkage.id}: ${TITLE2.toLowerCase()} over ${timed?"time":"the driver"}`);const ends=[x[0],x[x.length-1]],[low,high]=!timed&&stretchOf(this.
+linkage,own.way).sense<0?ends.reverse():ends;this.frame(panels.length,low,high,!slides&&!timed,title,()=>{panels.forEach((each,k)=>this.lines(k,each,k+1===panels.
+length))})}lines(k,{title,x,lines},last){const all=lines.flatMap(({y})=>y.filter(each=>each!==null)),[y0,base]=this.heights(k);const least2=Math.min(0,...all),most=Math.
+max(0,...all),room=.08*(most-least2||1);this.panel(title,y0,base,last);const Y=v=>base-(v-least2+room)/(most-least2+2*room)*(base-y0);for(const{at,text}of ticks(
+least2,most,4))this.rule(Y(at),text);if(least2<0&&most>0)this.svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(
+({y},line2)=>{let d="",pen="M";x.forEach((at,i)=>{if(y[i]===null)pen="M";else{d+=`${pen}${px(this.X(at))} ${px(Y(y[i]))}`;pen="L"}});this.svg.append(s("path",{class:`\
+bm-line bm-curve${line2}`,d}));this.mark(at=>valueAt({x,y},at),Y)});if(lines.length>1){const names=s("text",{class:"bm-title",x:this.width-RIGHT,y:y0-7,"text-an\
+chor":"end"});lines.forEach(({name},line2)=>names.append(s("tspan",{class:`bm-curve${line2}`,dx:line2?7:0},name)));this.svg.append(names)}}placeOf(drive){const{
+own,timed}=this;if(this.linkage.followed)return null;if(timed)return valueAt(timed.time,drive);const{x}=own.panels[0];return drive<x[0]-1e-6||drive>x[x.length-1]+
+1e-6?null:drive}driveAt(at){return this.timed?driveAtTime(this.timed,at):at}show(drive){this.drive=drive;super.show(drive)}};var NO_MOTION="No linkage is there whose motion could be shown.";var Curves=class{constructor(answers,playing,Kind){this.playing=playing;const fill=h("div",{class:"\
 bm-fill"});this.plots=new Kind(answers.data,fill,u=>playing.player.go(u));this.nothing=h("p",{class:"bs-quiet",hidden:true},NO_MOTION);this.element=h("div",{},this.
 nothing,fill);this.pace=new Pace(()=>this.build(),()=>isSeen(fill));playing.on("shape",()=>this.pace.ask());playing.on("place",({drive})=>{if(this.isFresh&&isSeen(
 fill))this.plots.show(drive)});answers.on("poses",()=>this.isFresh=false);new ResizeObserver(()=>this.pace.ask()).observe(fill);watch(fill,()=>this.pace.ask())}build(){
@@ -1300,55 +1306,67 @@ toUpperCase()}${message.slice(1)}.`)].join(" ");const both=linkage.usable?`usabl
 join(" ")} Together a ${linkage.type}: ${both}.`}var Assemblies=class{constructor(data,take){this.data=data;this.take=take;this.name=`bm-way-${Math.random().toString(36).slice(2)}`;this.element=h("fieldset",{class:"\
 bm-ways"})}build(linkage,index){const one=(way,k)=>h("label",{},h("input",{type:"radio",name:this.name,value:k,checked:k===index,onchange:()=>this.take(k)}),h("\
 span",{},h("b",{},wayName(way,linkage).replace("assembly ","")),` ${wayStory(way,this.data.poses)}`));this.element.replaceChildren(h("legend",{},"Assembly"),...linkage.
-ways.map(one));give(this.element,"hidden",!linkage.ways.length||Boolean(this.data.whole))}};var TURN_SECONDS=7;var LEAST_STRETCH=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var NO_ERROR2=1e-7;var STEPS=360;
-var Player=class{parts;steps;tick;wholeLabel;constructor(data,show,rebuild){this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=
-1;this.whole=false;this.stretch={low:0,high:1};this.playing=false;this.remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){
-return nounOf(this.data)}controls(){const button2=(name,text,label,onclick)=>h("button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,
-onclick},text);this.button=button2("bm-play","","Play",()=>this.play(!this.playing));this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","ari\
-a-label":"Driver",oninput:()=>this.go(Number(this.slider.value))});this.box=h("input",{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=
+ways.map(one));give(this.element,"hidden",!linkage.ways.length||Boolean(this.data.whole))}};var TURN_SECONDS=7;var TURN=1e-6;var NAME_ROWS=5;var NUMBER_ROWS=2;var MANY_POSES2=100;var ROW=13;var LONGEST_TICK=18;var NO_ERROR2=1e-7;var STEPS=360;var SPEEDS=[
+.25,.5,1,2,4];var LOOPS=[["back","there and back"],["again","again and again"],["once","once"]];var Player=class{parts;steps;tick;wholeLabel;speeds;loops;real;realLabel;constructor(data,show,rebuild){
+this.data=data;this.draw={show,rebuild};this.linkage=null;this.way=0;this.u=0;this.heading=1;this.speed=1;this.loop="back";this.isReal=false;this.whole=false;this.
+stretch={low:0,high:1,sense:1};this.playing=false;this.remaining=null;this.element=this.controls()}get path(){return this.linkage?.ways[this.way]}get stop(){return nounOf(
+this.data)}controls(){const button2=(name,text,label,onclick)=>h("button",{type:"button",class:`bm-button ${name}`,"aria-label":label,title:label,onclick},text);
+this.button=button2("bm-play","","Play",()=>this.play(!this.playing));this.slider=h("input",{type:"range",class:"bm-slider",min:0,step:"any","aria-label":"Drive\
+r",oninput:()=>this.go(this.turned(Number(this.slider.value)))});this.box=h("input",{type:"checkbox",onchange:()=>this.playWhole(this.box.checked)});this.boxName=
 h("span",{},"Whole branch");this.stops=s("svg",{class:"bm-stops","aria-hidden":"true"});this.parts=["","","",""].map(text=>h("span",{},text));this.readout=h("ou\
 tput",{class:"bm-now"},this.parts.flatMap((part,k)=>k?[" ",part]:[part]));this.slider.addEventListener("keydown",event=>{const step={ArrowLeft:-1,ArrowDown:-1,ArrowRight:1,
-ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.shiftKey?10*step:step)});this.steps=[button2("bm-back","","",()=>this.toPose(-1)),button2(
-"bm-next","","",()=>this.toPose(1))];this.wholeLabel=h("label",{class:"bm-whole"},this.box,this.boxName);this.nameStops();return h("div",{class:"bm-controls"},h(
-"div",{class:"bm-track"},this.slider,this.stops),h("div",{class:"bm-row"},this.button,this.steps,this.wholeLabel),this.readout)}nameStops(){const{stop}=this,title=stop[0].
-toUpperCase()+stop.slice(1);[[`◀ ${title}`,`Previous ${stop}`],[`${title} ▶`,`Next ${stop}`]].forEach(([text,label],k)=>{say(this.steps[k],text);put(this.steps[k],
-"aria-label",label);give(this.steps[k],"title",label)});give(this.wholeLabel,"title",`Play all that the driver reaches, not only from the first ${stop} to the l\
-ast`)}load(linkage){this.linkage=linkage;const counts=linkage.ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){
+ArrowUp:1}[event.key];if(!step)return;event.preventDefault();this.step(event.shiftKey?10*step:step)});const choice2=(label,entries,take)=>h("select",{class:"bm-\
+pick","aria-label":label,title:label,onchange:event=>take(event.target.value)},entries.map(([value,text])=>h("option",{value},text)));this.steps=[button2("bm-ba\
+ck","","",()=>this.toPose(-1)),button2("bm-next","","",()=>this.toPose(1))];this.speeds=choice2("Speed",SPEEDS.map(each=>[each,`${each} ×`]),value=>this.speed=
+Number(value));this.speeds.value="1";this.loops=choice2("What comes after the last pose",LOOPS,value=>this.takeLoop(value));this.real=h("input",{type:"checkbox",
+onchange:()=>this.isReal=this.real.checked});this.realLabel=h("label",{class:"bm-real",hidden:true,title:"Move as the drive of the task moves it"},this.real,h("\
+span",{},"As driven"));this.wholeLabel=h("label",{class:"bm-whole"},this.box,this.boxName);this.nameStops();return h("div",{class:"bm-controls"},h("div",{class:"\
+bm-track"},this.slider,this.stops),h("div",{class:"bm-row"},this.button,this.steps[0],button2("bm-small-step","‹","A small step back",()=>this.step(-1)),button2(
+"bm-small-step","›","A small step on",()=>this.step(1)),this.steps[1],this.speeds,this.loops,this.wholeLabel,this.realLabel),this.readout)}nameStops(){const{stop}=this,
+title=stop[0].toUpperCase()+stop.slice(1);[[`◀ ${title}`,`Previous ${stop}`],[`${title} ▶`,`Next ${stop}`]].forEach(([text,label],k)=>{say(this.steps[k],text);
+put(this.steps[k],"aria-label",label);give(this.steps[k],"title",label)});give(this.wholeLabel,"title",`Play all that the driver reaches, not only from the firs\
+t ${stop} to the last`)}load(linkage){this.linkage=linkage;const counts=linkage.ways.map(way=>way.poses.length);this.take(Math.max(0,counts.indexOf(Math.max(...counts))))}take(index){
 this.way=index;this.u=this.firstStop();this.draw.rebuild()}get stopsOnWay(){return this.linkage.pose_errors.map((row,k)=>({...row,k})).filter(row=>row.way===this.
 way)}firstStop(){return this.stopsOnWay[0]?.frame??0}rebuild(){const{path:path2,slider}=this;if(!path2)this.play(false);this.nameStops();for(const each of[slider,
-this.button])give(each,"disabled",!path2);const last=path2?path2.x.length-1:1;const frames=path2?this.stopsOnWay.map(row=>row.frame):[];const[low,high]=[frames.
-reduce((a,b)=>Math.min(a,b),last),frames.reduce((a,b)=>Math.max(a,b),0)];const apart=high-low>LEAST_STRETCH;this.stretch=apart&&!this.whole?{low,high}:{low:0,high:last};
-give(this.box,"disabled",!apart);say(this.boxName,path2?.round?"Whole turn":"Whole branch");this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.high)}playWhole(on){
-this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,{low,high}=this.stretch;stops.replaceChildren();if(!path2)return;const width=Math.max(
-60,this.slider.clientWidth),inset=9;const X=u=>inset+(u-low)/(high-low)*(width-2*inset);const known=this.stopsOnWay.filter(row=>this.data.poses[row.k]);const rows=known.
-sort((a,b)=>a.frame-b.frame).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(rows.map(({x,pose})=>({x,text:shortened(poseName2(
-pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({x,text:pose.label})),width,rows.length>MANY_POSES2?
-1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-pose":k+1},s("title",{},calledOf(pose)),...parts);rows.
-forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));rows.forEach(({k,pose},i)=>{const{at,middle:middle2,
-text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*
-deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===this.playing&&this.isDressed)return;this.isDressed=true;
-this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?"Pause":"Play");put(this.button,"aria-label",on?"Pause":
-"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;let before=null;const run=now=>{if(!this.playing)return;
-if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(run)};this.tick=requestAnimationFrame(run)}playOnce(){
-if(!this.path)return;const{low,high}=this.stretch;this.play(true);this.remaining=(this.goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.
-high-this.stretch.low>this.path.x.length-1-LEAST_STRETCH}advance(seconds){const{low,high}=this.stretch;const step=seconds*(high-low)/(this.goesRound?TURN_SECONDS:
-TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.play(false);this.u=this.firstStop();this.show();return}}this.u+=this.heading*
-step;if(this.goesRound)this.u=around2(this.u,high);else if(this.u>=high||this.u<=low){this.heading=this.u>=high?-1:1;this.u=clamp(this.u,low,high)}this.show()}step(steps){
-if(!this.path)return;const{low,high}=this.stretch;const u=this.u+steps*Math.max(.001,(high-low)/STEPS);this.go(this.goesRound?around2(u,high):u)}go(u){if(!this.
-path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){const all=this.linkage.pose_errors.map((row,k)=>({...row,
-k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.find(row=>row.k>here)??
-all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){this.way=next.way;this.u=next.frame;this.draw.rebuild()}
-this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.length)}nearest(place){let near2=0,least2=Infinity;this.
-data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.y-pose.y,this.data.chart.
-length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2}=this;if(!path2){for(const part of this.
-parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path2.drive,this.u),transmission=linear(path2.transmission,this.u);const near2=this.
-atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(this.slider,"value",this.u);this.tell(
-place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;return linkage.led[0].kind==="PR"?`${fixed(
-drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${linkage.crank??""}${fixed(drive,1)}°`}tell(place,drive,transmission,near2){const{data,linkage}=this;
-const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.pose_errors[near2];const at=row?.
-at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit2} from ${calledOf(pose)}`;const missed2=()=>`\
-at ${calledOf(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit2)}`;const said=!pose?"between the poses":pose.called?
-`${at?"at":"near"} ${pose.called}`:at?missed2():away();const known=this.path.told?.map(each=>this.toldOf(each))??[`driver ${driver}`,`body (${fixed(place.x,digits)}\
+this.button])give(each,"disabled",!path2);if(this.linkage)this.stretch=stretchOf(this.linkage,this.way,this.whole);give(this.box,"disabled",!this.stretch.isApart);
+give(this.realLabel,"hidden",!this.timed);say(this.boxName,path2?.round?"Whole turn":"Whole branch");this.heading=1;this.u=clamp(this.u,this.stretch.low,this.stretch.
+high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,{low,high}=this.stretch;stops.replaceChildren();if(!path2)return;
+const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(this.turned(u)-low)/(high-low)*(width-2*inset);const known=this.stopsOnWay.filter(row=>this.
+data.poses[row.k]);const rows=known.sort((a,b)=>X(a.frame)-X(b.frame)).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(rows.
+map(({x,pose})=>({x,text:shortened(poseName2(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({
+x,text:pose.label})),width,rows.length>MANY_POSES2?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-p\
+ose":k+1},s("title",{},calledOf(pose)),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));
+rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},
+text)))});put(stops,"viewBox",`0 0 ${width} ${16+ROW*deepest}`);put(stops,"height",16+ROW*deepest)}play(on){if(on&&!this.path)return;this.remaining=null;if(on===
+this.playing&&this.isDressed)return;this.isDressed=true;this.playing=on;put(this.readout,"aria-live",on?"off":"polite");this.button.replaceChildren(icon(on),on?
+"Pause":"Play");put(this.button,"aria-label",on?"Pause":"Play");this.button.title=on?"Pause (space)":"Play (space)";cancelAnimationFrame(this.tick);if(!on)return;
+let before=null;const run=now=>{if(!this.playing)return;if(before!==null)this.advance(Math.min(.1,(now-before)/1e3));before=now;if(this.playing)this.tick=requestAnimationFrame(
+run)};this.tick=requestAnimationFrame(run)}playOnce(){if(!this.path)return;const{low,high}=this.stretch;this.u=this.turned(low);this.heading=1;this.play(true);this.
+remaining=(this.goesRound?1:2)*(high-low)}get goesRound(){return this.path.round&&this.stretch.high-this.stretch.low>this.path.x.length-1-TURN}turned(u){const{low,
+high,sense}=this.stretch;return sense<0?low+high-u:u}get timed(){const loads=this.linkage?.followed?null:this.linkage?.loads;return loads?.way===this.way&&!this.
+whole?loads.timed:null}takeLoop(loop){this.loop=loop;this.heading=1}advance(seconds){const{low,high}=this.stretch;if(this.isReal&&this.timed)return this.drive(seconds);
+const step=this.speed*seconds*(high-low)/(this.goesRound?TURN_SECONDS:TURN_SECONDS/2);if(this.remaining!==null){this.remaining-=step;if(this.remaining<=0){this.
+play(false);this.u=this.firstStop();this.show();return}}const at=this.turned(this.u)+this.heading*step,isOver=at>=high;if(isOver&&this.loop==="once"){this.play(
+false);this.u=this.turned(high)}else if(this.goesRound){this.u=this.turned(around2(at,high))}else if(isOver&&this.loop==="again"){this.u=this.turned(low)}else{if(isOver||
+at<=low)this.heading=isOver?-1:1;this.u=this.turned(clamp(at,low,high))}this.show()}drive(seconds){const{timed}=this,{y}=timed.time,last=Math.max(y[0],y[y.length-
+1]),here=valueAt(timed.time,linear(this.path.drive,this.u))??0;let time=here+this.speed*seconds;if(time>=last&&here<last)time=last;else if(time>=last&&this.loop===
+"once")return this.play(false);else if(time>=last)time=0;this.u=frameAt(this.path.drive,driveAtTime(timed,time)??linear(this.path.drive,this.u)??0);this.show()}step(steps){
+if(!this.path)return;const{low,high}=this.stretch;const at=this.turned(this.u)+steps*Math.max(.001,(high-low)/STEPS);this.go(this.turned(this.goesRound?around2(
+at,high):at))}go(u){if(!this.path)return;this.play(false);this.u=clamp(u,this.stretch.low,this.stretch.high);this.show()}toPose(sense){const all=this.linkage.pose_errors.
+map((row,k)=>({...row,k})).filter(row=>row.way!==null);if(!all.length)return;const here=this.atPose??(sense>0?-1:this.data.poses.length);const next=sense>0?all.
+find(row=>row.k>here)??all[0]:[...all].reverse().find(row=>row.k<here)??all[all.length-1];this.play(false);if(next.way!==this.way){this.way=next.way;this.u=next.
+frame;this.draw.rebuild()}this.go(next.frame);this.atPose=next.k}placeAt(u){return placeAt(this.linkage,this.path,u,this.data.chart.length)}nearest(place){let near2=0,
+least2=Infinity;this.data.poses.forEach((pose,k)=>{const turn=pose.angle_deg===null?0:place.a-radians(pose.angle_deg);const away=Math.hypot(place.x-pose.x,place.
+y-pose.y,this.data.chart.length*(turn-2*Math.PI*Math.round(turn/(2*Math.PI))));if(away<least2)[near2,least2]=[k,away]});return near2}show(told=true){const{path:path2}=this;
+if(!path2){for(const part of this.parts)part.textContent="";return}const place=this.placeAt(this.u);const drive=linear(path2.drive,this.u),transmission=linear(path2.
+transmission,this.u);const near2=this.atPose=this.nearest(place);if(told){give(this.slider,"min",this.stretch.low);give(this.slider,"max",this.stretch.high);give(
+this.slider,"value",this.turned(this.u));this.tell(place,drive,transmission,near2)}this.draw.show(place,drive,transmission,near2)}driverText(drive){const{data,linkage}=this;
+return linkage.led[0].kind==="PR"?`${fixed(drive,decimalsOf(data))}${data.unit?` ${data.unit}`:""}`:`${linkage.crank??""}${fixed(drive,1)}°`}tell(place,drive,transmission,near2){
+const{data,linkage}=this;const unit2=data.unit?` ${data.unit}`:"",digits=decimalsOf(data),driver=this.driverText(drive);const pose=data.poses[near2],row=linkage.
+pose_errors[near2];const at=row?.at===this.path&&Math.abs(row.frame-this.u)<1e-6;const away=()=>`${figure(Math.hypot(place.x-pose.x,place.y-pose.y))}${unit2} fr\
+om ${calledOf(pose)}`;const missed2=()=>`at ${calledOf(pose)}, ${row.said.position==="exact"?"":"off by "}${missOf(row.said.position,row.said.turned,unit2)}`;const said=!pose?
+"between the poses":pose.called?`${at?"at":"near"} ${pose.called}`:at?missed2():away();const time=this.isReal&&this.timed&&drive!==null?valueAt(this.timed.time,
+drive):null;const known=this.path.told?.map(each=>this.toldOf(each))??[`driver ${driver}${time===null?"":` at ${fixed(time,2)} s`}`,`body (${fixed(place.x,digits)}\
 , ${fixed(place.y,digits)})${unit2}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`];const texts=[...known,`transmission ${transmission===null?"–":`${fixed(
 transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=
 whole});put(this.slider,"aria-valuetext",`${texts[0]}, ${texts[3]}`)}toldOf({name,digits,values,panel:panel2}){const error=panel2===void 0?null:valueAt(this.linkage.

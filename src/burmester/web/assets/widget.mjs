@@ -455,6 +455,13 @@ var LoadMarks = class {
 // src/burmester/web/widget/travel.mjs
 var LONGEST_STEP = 0.015;
 var MOST_BETWEEN = 40;
+var LEAST_STRETCH = 1e-6;
+function stretchOf(linkage, index, whole = false) {
+  const last = (linkage?.ways[index]?.x.length ?? 2) - 1, frames = linkage.pose_errors.filter((row) => row.way === index).map((row) => row.frame);
+  const low = frames.reduce((a, b) => Math.min(a, b), last), high = frames.reduce((a, b) => Math.max(a, b), 0);
+  const isApart = high - low > LEAST_STRETCH, sense = frames[frames.length - 1] < frames[0] ? -1 : 1;
+  return { ...isApart && !whole ? { low, high } : { low: 0, high: last }, sense, isApart };
+}
 var placesOf = (data, linkage, way, stretch) => placesAlong(data, stretch, (u) => Number.isInteger(u) && !way.joints ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
 function placesAlong(data, { low, high }, at) {
   const places = [at(low)];
@@ -469,6 +476,9 @@ function placesAlong(data, { low, high }, at) {
   for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
   goTo(high);
   return places;
+}
+function driveAtTime({ time: { x, y } }, time) {
+  return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, time) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, time);
 }
 function alongLine(dyad, place) {
   const [nx, ny] = normalOf(dyad);
@@ -1807,12 +1817,13 @@ var Plots = class {
     const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit2 = data.unit ?? "unit of the poses";
     const title = way.told ? `${way.told[0].name} (°)` : slides ? `place of ${driver.id} on its line (${unit2})` : `driver angle (${driver.id})`;
-    this.frame(count, linear(way.drive, stretch.low), linear(way.drive, stretch.high), !slides, title, () => {
+    const ends = [stretch.low, stretch.high].map((u) => linear(way.drive, u)), [low, high] = stretch.sense < 0 ? ends.reverse() : ends;
+    this.frame(count, low, high, !slides, title, () => {
       this.panels(rows, unit2);
       if (upright) this.uprightNames(rows);
     });
   }
-  /** So many panels, which `draw` fills, over what goes from low to high; with the cursor. */
+  /** So many panels, which `draw` fills, over what goes from low at the left to high at the right; with the cursor. */
   frame(count, low, high, turns, title, draw) {
     const { svg } = this, width = this.width = Math.max(260, this.parent.clientWidth);
     this.count = count;
@@ -1822,7 +1833,8 @@ var Plots = class {
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     this.X = (at) => LEFT + INSET + (at - low) / (high - low) * (width - LEFT - RIGHT - 2 * INSET);
-    this.across = turns ? angleTicks(low, high, Math.max(3, width / 70)) : ticks(low, high, width / 90);
+    const ends = [Math.min(low, high), Math.max(low, high)], marks = turns ? angleTicks(ends[0], ends[1], Math.max(3, width / 70)) : ticks(ends[0], ends[1], width / 90);
+    this.across = low > high ? marks.reverse() : marks;
     this.marks = [];
     draw();
     svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
@@ -1873,7 +1885,7 @@ var Plots = class {
     }
     const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
     let last = -99;
-    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+    for (const row of [...rows].sort((a, b) => X(a.drive) - X(b.drive))) {
       const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
       svg.append(
         s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
@@ -1894,7 +1906,7 @@ var Plots = class {
     for (const at of [0, 30, 60, 90]) this.rule(Y(at), at);
     const { deg: limit, said } = this.data.transmission_limit;
     svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
-    const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
+    const below = limit > 15 && (linear(way.transmission, this.stretch.sense < 0 ? this.stretch.low : this.stretch.high) ?? 90) > limit;
     const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, said);
     (way.loops ?? [way.transmission]).forEach((values, loop) => {
       this.mark((drive) => linear(values, frameAt(way.drive, drive)), Y);
@@ -1913,7 +1925,7 @@ var Plots = class {
   }
   /** A curve of its own over the drive, or stems from zero, with dots. */
   values(k, curve) {
-    const { title, x, y, dots, stems } = curve, { svg, low, high } = this, [y0, base] = this.heights(k);
+    const { title, x, y, dots, stems } = curve, { svg } = this, [low, high] = [Math.min(this.low, this.high), Math.max(this.low, this.high)], [y0, base] = this.heights(k);
     const shown = [...x.keys()].filter((i) => y[i] !== null && x[i] >= low && x[i] <= high).map((i) => [x[i], y[i]]);
     const all = [...shown, ...dots].map(([, value]) => value), least = Math.min(...all), most = Math.max(...all), room = 0.08 * (most - least);
     this.panel(title, y0, base);
@@ -1947,7 +1959,7 @@ var Plots = class {
   /** Names of the poses over their stems, those that have room. */
   uprightNames(rows) {
     let last = -99;
-    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+    for (const row of [...rows].sort((a, b) => this.X(a.drive) - this.X(b.drive))) {
       const x = this.X(row.drive), y = this.top - 20;
       if (x - last < NAME_WIDTH) continue;
       last = x;
@@ -2041,7 +2053,8 @@ var LoadPlots = class extends Plots {
     const [driver] = this.linkage.led, slides = driver.kind === "PR";
     const title = timed ? "time (s)" : slides ? `place of ${driver.id} on its line (${data.unit})` : `driver angle (${driver.id})`;
     svg.setAttribute("aria-label", `${this.linkage.id}: ${TITLE2.toLowerCase()} over ${timed ? "time" : "the driver"}`);
-    this.frame(panels.length, x[0], x[x.length - 1], !slides && !timed, title, () => {
+    const ends = [x[0], x[x.length - 1]], [low, high] = !timed && stretchOf(this.linkage, own.way).sense < 0 ? ends.reverse() : ends;
+    this.frame(panels.length, low, high, !slides && !timed, title, () => {
       panels.forEach((each, k) => this.lines(k, each, k + 1 === panels.length));
     });
   }
@@ -2080,9 +2093,7 @@ var LoadPlots = class extends Plots {
     return drive < x[0] - 1e-6 || drive > x[x.length - 1] + 1e-6 ? null : drive;
   }
   driveAt(at) {
-    if (!this.timed) return at;
-    const { x, y } = this.timed.time;
-    return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, at) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, at);
+    return this.timed ? driveAtTime(this.timed, at) : at;
   }
   show(drive) {
     this.drive = drive;
@@ -2814,7 +2825,7 @@ var Plane = class {
 
 // src/burmester/web/widget/player.mjs
 var TURN_SECONDS = 7;
-var LEAST_STRETCH = 1e-6;
+var TURN = 1e-6;
 var NAME_ROWS = 5;
 var NUMBER_ROWS = 2;
 var MANY_POSES3 = 100;
@@ -2822,6 +2833,8 @@ var ROW = 13;
 var LONGEST_TICK = 18;
 var NO_ERROR2 = 1e-7;
 var STEPS = 360;
+var SPEEDS = [0.25, 0.5, 1, 2, 4];
+var LOOPS = [["back", "there and back"], ["again", "again and again"], ["once", "once"]];
 var Player = class {
   /** @type {any} */
   parts;
@@ -2831,6 +2844,14 @@ var Player = class {
   tick;
   /** @type {any} */
   wholeLabel;
+  /** @type {any} */
+  speeds;
+  /** @type {any} */
+  loops;
+  /** @type {any} */
+  real;
+  /** @type {any} */
+  realLabel;
   constructor(data, show, rebuild) {
     this.data = data;
     this.draw = { show, rebuild };
@@ -2838,8 +2859,11 @@ var Player = class {
     this.way = 0;
     this.u = 0;
     this.heading = 1;
+    this.speed = 1;
+    this.loop = "back";
+    this.isReal = false;
     this.whole = false;
-    this.stretch = { low: 0, high: 1 };
+    this.stretch = { low: 0, high: 1, sense: 1 };
     this.playing = false;
     this.remaining = null;
     this.element = this.controls();
@@ -2855,7 +2879,7 @@ var Player = class {
   controls() {
     const button = (name, text, label2, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label2, title: label2, onclick }, text);
     this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
-    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
+    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(this.turned(Number(this.slider.value))) });
     this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
     this.boxName = h("span", {}, "Whole branch");
     this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
@@ -2867,7 +2891,13 @@ var Player = class {
       event.preventDefault();
       this.step(event.shiftKey ? 10 * step : step);
     });
+    const choice = (label2, entries, take) => h("select", { class: "bm-pick", "aria-label": label2, title: label2, onchange: (event) => take(event.target.value) }, entries.map(([value, text]) => h("option", { value }, text)));
     this.steps = [button("bm-back", "", "", () => this.toPose(-1)), button("bm-next", "", "", () => this.toPose(1))];
+    this.speeds = choice("Speed", SPEEDS.map((each) => [each, `${each} ×`]), (value) => this.speed = Number(value));
+    this.speeds.value = "1";
+    this.loops = choice("What comes after the last pose", LOOPS, (value) => this.takeLoop(value));
+    this.real = h("input", { type: "checkbox", onchange: () => this.isReal = this.real.checked });
+    this.realLabel = h("label", { class: "bm-real", hidden: true, title: "Move as the drive of the task moves it" }, this.real, h("span", {}, "As driven"));
     this.wholeLabel = h("label", { class: "bm-whole" }, this.box, this.boxName);
     this.nameStops();
     return h(
@@ -2878,8 +2908,14 @@ var Player = class {
         "div",
         { class: "bm-row" },
         this.button,
-        this.steps,
-        this.wholeLabel
+        this.steps[0],
+        button("bm-small-step", "‹", "A small step back", () => this.step(-1)),
+        button("bm-small-step", "›", "A small step on", () => this.step(1)),
+        this.steps[1],
+        this.speeds,
+        this.loops,
+        this.wholeLabel,
+        this.realLabel
       ),
       this.readout
     );
@@ -2919,12 +2955,9 @@ var Player = class {
     if (!path) this.play(false);
     this.nameStops();
     for (const each of [slider, this.button]) give(each, "disabled", !path);
-    const last = path ? path.x.length - 1 : 1;
-    const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
-    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
-    const apart = high - low > LEAST_STRETCH;
-    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
-    give(this.box, "disabled", !apart);
+    if (this.linkage) this.stretch = stretchOf(this.linkage, this.way, this.whole);
+    give(this.box, "disabled", !this.stretch.isApart);
+    give(this.realLabel, "hidden", !this.timed);
     say(this.boxName, path?.round ? "Whole turn" : "Whole branch");
     this.heading = 1;
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
@@ -2940,9 +2973,9 @@ var Player = class {
     stops.replaceChildren();
     if (!path) return;
     const width = Math.max(60, this.slider.clientWidth), inset = 9;
-    const X = (u) => inset + (u - low) / (high - low) * (width - 2 * inset);
+    const X = (u) => inset + (this.turned(u) - low) / (high - low) * (width - 2 * inset);
     const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]);
-    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    const rows = known.sort((a, b) => X(a.frame) - X(b.frame)).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
     const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES3 ? 1 : NUMBER_ROWS);
     const deepest = Math.max(0, ...texts.map(({ at }) => at));
@@ -2980,16 +3013,34 @@ var Player = class {
   playOnce() {
     if (!this.path) return;
     const { low, high } = this.stretch;
+    this.u = this.turned(low);
+    this.heading = 1;
     this.play(true);
     this.remaining = (this.goesRound ? 1 : 2) * (high - low);
   }
   /** Whether what is played ends where it begins. */
   get goesRound() {
-    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
+    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - TURN;
+  }
+  /** A frame counted in time, from the low end of the stretch on, and back. */
+  turned(u) {
+    const { low, high, sense } = this.stretch;
+    return sense < 0 ? low + high - u : u;
+  }
+  /** What is known of the linkage's motion in time along this way. */
+  get timed() {
+    const loads = this.linkage?.followed ? null : this.linkage?.loads;
+    return loads?.way === this.way && !this.whole ? loads.timed : null;
+  }
+  /** Another answer to what comes after the last pose. */
+  takeLoop(loop) {
+    this.loop = loop;
+    this.heading = 1;
   }
   advance(seconds) {
     const { low, high } = this.stretch;
-    const step = seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
+    if (this.isReal && this.timed) return this.drive(seconds);
+    const step = this.speed * seconds * (high - low) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
     if (this.remaining !== null) {
       this.remaining -= step;
       if (this.remaining <= 0) {
@@ -2999,19 +3050,35 @@ var Player = class {
         return;
       }
     }
-    this.u += this.heading * step;
-    if (this.goesRound) this.u = around(this.u, high);
-    else if (this.u >= high || this.u <= low) {
-      this.heading = this.u >= high ? -1 : 1;
-      this.u = clamp(this.u, low, high);
+    const at = this.turned(this.u) + this.heading * step, isOver = at >= high;
+    if (isOver && this.loop === "once") {
+      this.play(false);
+      this.u = this.turned(high);
+    } else if (this.goesRound) {
+      this.u = this.turned(around(at, high));
+    } else if (isOver && this.loop === "again") {
+      this.u = this.turned(low);
+    } else {
+      if (isOver || at <= low) this.heading = isOver ? -1 : 1;
+      this.u = this.turned(clamp(at, low, high));
     }
+    this.show();
+  }
+  /** Move as the drive of the task does: from its first moment on, and again or to rest at its last. */
+  drive(seconds) {
+    const { timed } = this, { y } = timed.time, last = Math.max(y[0], y[y.length - 1]), here = valueAt(timed.time, linear(this.path.drive, this.u)) ?? 0;
+    let time = here + this.speed * seconds;
+    if (time >= last && here < last) time = last;
+    else if (time >= last && this.loop === "once") return this.play(false);
+    else if (time >= last) time = 0;
+    this.u = frameAt(this.path.drive, driveAtTime(timed, time) ?? linear(this.path.drive, this.u) ?? 0);
     this.show();
   }
   step(steps) {
     if (!this.path) return;
     const { low, high } = this.stretch;
-    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
-    this.go(this.goesRound ? around(u, high) : u);
+    const at = this.turned(this.u) + steps * Math.max(1e-3, (high - low) / STEPS);
+    this.go(this.turned(this.goesRound ? around(at, high) : at));
   }
   go(u) {
     if (!this.path) return;
@@ -3061,7 +3128,7 @@ var Player = class {
     if (told) {
       give(this.slider, "min", this.stretch.low);
       give(this.slider, "max", this.stretch.high);
-      give(this.slider, "value", this.u);
+      give(this.slider, "value", this.turned(this.u));
       this.tell(place, drive, transmission, near);
     }
     this.draw.show(place, drive, transmission, near);
@@ -3080,8 +3147,9 @@ var Player = class {
     const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit2} from ${calledOf(pose)}`;
     const missed = () => `at ${calledOf(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit2)}`;
     const said = !pose ? "between the poses" : pose.called ? `${at ? "at" : "near"} ${pose.called}` : at ? missed() : away();
+    const time = this.isReal && this.timed && drive !== null ? valueAt(this.timed.time, drive) : null;
     const known = this.path.told?.map((each) => this.toldOf(each)) ?? [
-      `driver ${driver}`,
+      `driver ${driver}${time === null ? "" : ` at ${fixed(time, 2)} s`}`,
       `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit2}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`
     ];
     const texts = [

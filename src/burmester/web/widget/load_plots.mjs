@@ -4,6 +4,7 @@ import { h, s } from "./dom.mjs";
 import { valueAt } from "./kinematics.mjs";
 import { px, ticks } from "./numbers.mjs";
 import { LEFT, Plots, RIGHT } from "./plots.mjs";
+import { driveAtTime, stretchOf } from "./travel.mjs";
 
 const TITLE = "Loads";
 
@@ -56,7 +57,8 @@ export class LoadPlots extends Plots {
     const [driver] = this.linkage.led, slides = driver.kind === "PR";
     const title = timed ? "time (s)" : slides ? `place of ${driver.id} on its line (${data.unit})` : `driver angle (${driver.id})`;
     svg.setAttribute("aria-label", `${this.linkage.id}: ${TITLE.toLowerCase()} over ${timed ? "time" : "the driver"}`);
-    this.frame(panels.length, x[0], x[x.length - 1], !slides && !timed, title, () => {
+    const ends = [x[0], x[x.length - 1]], [low, high] = !timed && stretchOf(this.linkage, own.way).sense < 0 ? ends.reverse() : ends;
+    this.frame(panels.length, low, high, !slides && !timed, title, () => {
       panels.forEach((each, k) => this.lines(k, each, k + 1 === panels.length));
     });
   }
@@ -98,10 +100,7 @@ export class LoadPlots extends Plots {
   }
 
   driveAt(at) {
-    if (!this.timed) return at;
-    const { x, y } = this.timed.time;
-    // Where the driver's angle falls in time, so do the times along it.
-    return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, at) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, at);
+    return this.timed ? driveAtTime(this.timed, at) : at;
   }
 
   show(drive) {

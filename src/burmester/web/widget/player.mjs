@@ -1,12 +1,13 @@
 // What moves a linkage along one of its ways: playing, the slider, steps from pose to pose.
 
 import { give, h, put, s, say } from "./dom.mjs";
-import { linear, placeAt, smooth, valueAt } from "./kinematics.mjs";
+import { frameAt, linear, placeAt, smooth, valueAt } from "./kinematics.mjs";
 import { clamp, degrees, figure, fixed, px, radians } from "./numbers.mjs";
 import { calledOf, decimalsOf, missOf, nounOf, poseName, shortened } from "./tables.mjs";
+import { driveAtTime, stretchOf } from "./travel.mjs";
 
 const TURN_SECONDS = 7; // a whole turn of the driver, or a way there and back
-const LEAST_STRETCH = 1e-6; // frames: poses closer together than that are no stretch to play
+const TURN = 1e-6; // frames: a stretch that is shorter than its way by less is all of it
 const NAME_ROWS = 5; // rows of names under the slider
 const NUMBER_ROWS = 2; // rows of numbers, where the names have no room
 const MANY_POSES = 100; // above this number there is one row of numbers
@@ -14,6 +15,8 @@ const ROW = 13; // pixels: the distance between two of them
 const LONGEST_TICK = 18; // characters of a pose's name under the slider
 const NO_ERROR = 1e-7; // degrees; an error below is rounding
 const STEPS = 360; // of a key along what is played
+const SPEEDS = [0.25, 0.5, 1, 2, 4];
+const LOOPS = [["back", "there and back"], ["again", "again and again"], ["once", "once"]];
 
 /** Where the linkage is, `u` frames along its way, with the elements that show it and change it.
  *
@@ -25,6 +28,10 @@ export class Player {
   /** @type {any} */ steps;
   /** @type {any} */ tick;
   /** @type {any} */ wholeLabel;
+  /** @type {any} */ speeds;
+  /** @type {any} */ loops;
+  /** @type {any} */ real;
+  /** @type {any} */ realLabel;
 
   constructor(data, show, rebuild) {
     this.data = data;
@@ -32,9 +39,12 @@ export class Player {
     this.linkage = null;
     this.way = 0;
     this.u = 0;
-    this.heading = 1; // or -1, on the way back
+    this.heading = 1; // or -1, on the way back to the first pose
+    this.speed = 1;
+    this.loop = "back";
+    this.isReal = false; // whether it moves as its drive moves it
     this.whole = false; // whether all of the way is played, instead of the poses on it
-    this.stretch = { low: 0, high: 1 }; // the frames that are played
+    this.stretch = { low: 0, high: 1, sense: 1 }; // the frames that are played
     this.playing = false;
     this.remaining = null; // frames until it rests by itself; null: it does not
     this.element = this.controls();
@@ -53,7 +63,7 @@ export class Player {
   controls() {
     const button = (name, text, label, onclick) => h("button", { type: "button", class: `bm-button ${name}`, "aria-label": label, title: label, onclick }, text);
     this.button = button("bm-play", "", "Play", () => this.play(!this.playing));
-    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(Number(this.slider.value)) });
+    this.slider = h("input", { type: "range", class: "bm-slider", min: 0, step: "any", "aria-label": "Driver", oninput: () => this.go(this.turned(Number(this.slider.value))) });
     this.box = h("input", { type: "checkbox", onchange: () => this.playWhole(this.box.checked) });
     this.boxName = h("span", {}, "Whole branch");
     this.stops = s("svg", { class: "bm-stops", "aria-hidden": "true" });
@@ -65,7 +75,13 @@ export class Player {
       event.preventDefault();
       this.step(event.shiftKey ? 10 * step : step);
     });
+    const choice = (label, entries, take) => h("select", { class: "bm-pick", "aria-label": label, title: label, onchange: (event) => take(event.target.value) }, entries.map(([value, text]) => h("option", { value }, text)));
     this.steps = [button("bm-back", "", "", () => this.toPose(-1)), button("bm-next", "", "", () => this.toPose(1))];
+    this.speeds = choice("Speed", SPEEDS.map((each) => [each, `${each} ×`]), (value) => (this.speed = Number(value)));
+    this.speeds.value = "1";
+    this.loops = choice("What comes after the last pose", LOOPS, (value) => this.takeLoop(value));
+    this.real = h("input", { type: "checkbox", onchange: () => (this.isReal = this.real.checked) });
+    this.realLabel = h("label", { class: "bm-real", hidden: true, title: "Move as the drive of the task moves it" }, this.real, h("span", {}, "As driven"));
     this.wholeLabel = h("label", { class: "bm-whole" }, this.box, this.boxName);
     this.nameStops();
     return h(
@@ -76,8 +92,14 @@ export class Player {
         "div",
         { class: "bm-row" },
         this.button,
-        this.steps,
+        this.steps[0],
+        button("bm-small-step", "‹", "A small step back", () => this.step(-1)),
+        button("bm-small-step", "›", "A small step on", () => this.step(1)),
+        this.steps[1],
+        this.speeds,
+        this.loops,
         this.wholeLabel,
+        this.realLabel,
       ),
       this.readout,
     );
@@ -123,12 +145,9 @@ export class Player {
     if (!path) this.play(false);
     this.nameStops();
     for (const each of [slider, this.button]) give(each, "disabled", !path);
-    const last = path ? path.x.length - 1 : 1;
-    const frames = path ? this.stopsOnWay.map((row) => row.frame) : [];
-    const [low, high] = [frames.reduce((a, b) => Math.min(a, b), last), frames.reduce((a, b) => Math.max(a, b), 0)];
-    const apart = high - low > LEAST_STRETCH;
-    this.stretch = apart && !this.whole ? { low, high } : { low: 0, high: last };
-    give(this.box, "disabled", !apart);
+    if (this.linkage) this.stretch = stretchOf(this.linkage, this.way, this.whole);
+    give(this.box, "disabled", !this.stretch.isApart);
+    give(this.realLabel, "hidden", !this.timed);
     say(this.boxName, path?.round ? "Whole turn" : "Whole branch");
     this.heading = 1; // at an end it turns round by itself
     this.u = clamp(this.u, this.stretch.low, this.stretch.high);
@@ -146,9 +165,9 @@ export class Player {
     stops.replaceChildren();
     if (!path) return;
     const width = Math.max(60, this.slider.clientWidth), inset = 9;
-    const X = (u) => inset + ((u - low) / (high - low)) * (width - 2 * inset);
+    const X = (u) => inset + ((this.turned(u) - low) / (high - low)) * (width - 2 * inset);
     const known = this.stopsOnWay.filter((row) => this.data.poses[row.k]); // a task may lose poses before it is solved again
-    const rows = known.sort((a, b) => a.frame - b.frame).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
+    const rows = known.sort((a, b) => X(a.frame) - X(b.frame)).map((row) => ({ ...row, x: X(row.frame), pose: this.data.poses[row.k] }));
     // Names where all of them have room, else numbers; the whole name is there to point at.
     const named = laidOut(rows.map(({ x, pose }) => ({ x, text: shortened(poseName(pose), LONGEST_TICK) })), width, NAME_ROWS);
     const texts = named.every(({ at }) => at >= 0) ? named : laidOut(rows.map(({ x, pose }) => ({ x, text: pose.label })), width, rows.length > MANY_POSES ? 1 : NUMBER_ROWS);
@@ -189,18 +208,39 @@ export class Player {
   playOnce() {
     if (!this.path) return;
     const { low, high } = this.stretch;
+    this.u = this.turned(low);
+    this.heading = 1;
     this.play(true);
     this.remaining = (this.goesRound ? 1 : 2) * (high - low);
   }
 
   /** Whether what is played ends where it begins. */
   get goesRound() {
-    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - LEAST_STRETCH;
+    return this.path.round && this.stretch.high - this.stretch.low > this.path.x.length - 1 - TURN;
+  }
+
+  /** A frame counted in time, from the low end of the stretch on, and back. */
+  turned(u) {
+    const { low, high, sense } = this.stretch;
+    return sense < 0 ? low + high - u : u;
+  }
+
+  /** What is known of the linkage's motion in time along this way. */
+  get timed() {
+    const loads = this.linkage?.followed ? null : this.linkage?.loads;
+    return loads?.way === this.way && !this.whole ? loads.timed : null;
+  }
+
+  /** Another answer to what comes after the last pose. */
+  takeLoop(loop) {
+    this.loop = loop;
+    this.heading = 1;
   }
 
   advance(seconds) {
     const { low, high } = this.stretch;
-    const step = (seconds * (high - low)) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
+    if (this.isReal && this.timed) return this.drive(seconds);
+    const step = (this.speed * seconds * (high - low)) / (this.goesRound ? TURN_SECONDS : TURN_SECONDS / 2);
     if (this.remaining !== null) {
       this.remaining -= step;
       if (this.remaining <= 0) {
@@ -210,21 +250,38 @@ export class Player {
         return;
       }
     }
-    this.u += this.heading * step;
-    if (this.goesRound) this.u = around(this.u, high);
-    else if (this.u >= high || this.u <= low) {
+    const at = this.turned(this.u) + this.heading * step, isOver = at >= high;
+    if (isOver && this.loop === "once") {
+      this.play(false);
+      this.u = this.turned(high);
+    } else if (this.goesRound) {
+      this.u = this.turned(around(at, high));
+    } else if (isOver && this.loop === "again") {
+      this.u = this.turned(low);
+    } else {
       // It goes back at the last pose, or at a dead point: it never flips to the other branch.
-      this.heading = this.u >= high ? -1 : 1;
-      this.u = clamp(this.u, low, high);
+      if (isOver || at <= low) this.heading = isOver ? -1 : 1;
+      this.u = this.turned(clamp(at, low, high));
     }
+    this.show();
+  }
+
+  /** Move as the drive of the task does: from its first moment on, and again or to rest at its last. */
+  drive(seconds) {
+    const { timed } = this, { y } = timed.time, last = Math.max(y[0], y[y.length - 1]), here = valueAt(timed.time, linear(this.path.drive, this.u)) ?? 0;
+    let time = here + this.speed * seconds;
+    if (time >= last && here < last) time = last;
+    else if (time >= last && this.loop === "once") return this.play(false);
+    else if (time >= last) time = 0;
+    this.u = frameAt(this.path.drive, driveAtTime(timed, time) ?? linear(this.path.drive, this.u) ?? 0);
     this.show();
   }
 
   step(steps) {
     if (!this.path) return;
     const { low, high } = this.stretch;
-    const u = this.u + steps * Math.max(1e-3, (high - low) / STEPS);
-    this.go(this.goesRound ? around(u, high) : u);
+    const at = this.turned(this.u) + steps * Math.max(1e-3, (high - low) / STEPS);
+    this.go(this.turned(this.goesRound ? around(at, high) : at));
   }
 
   go(u) {
@@ -279,7 +336,7 @@ export class Player {
     if (told) {
       give(this.slider, "min", this.stretch.low);
       give(this.slider, "max", this.stretch.high);
-      give(this.slider, "value", this.u);
+      give(this.slider, "value", this.turned(this.u));
       this.tell(place, drive, transmission, near);
     }
     this.draw.show(place, drive, transmission, near);
@@ -301,8 +358,9 @@ export class Player {
     const away = () => `${figure(Math.hypot(place.x - pose.x, place.y - pose.y))}${unit} from ${calledOf(pose)}`;
     const missed = () => `at ${calledOf(pose)}, ${row.said.position === "exact" ? "" : "off by "}${missOf(row.said.position, row.said.turned, unit)}`;
     const said = !pose ? "between the poses" : pose.called ? `${at ? "at" : "near"} ${pose.called}` : at ? missed() : away();
+    const time = this.isReal && this.timed && drive !== null ? valueAt(this.timed.time, drive) : null;
     const known = this.path.told?.map((each) => this.toldOf(each)) ?? [
-      `driver ${driver}`,
+      `driver ${driver}${time === null ? "" : ` at ${fixed(time, 2)} s`}`,
       `body (${fixed(place.x, digits)}, ${fixed(place.y, digits)})${unit}, ${fixed(((degrees(place.a) + 180) % 360 + 360) % 360 - 180, 2)}°`,
     ];
     const texts = [

@@ -66,13 +66,14 @@ export class Plots {
     const rows = poses.map((row) => ({ ...row, drive: linear(way.drive, row.frame) }));
     const unit = data.unit ?? "unit of the poses";
     const title = way.told ? `${way.told[0].name} (°)` : slides ? `place of ${driver.id} on its line (${unit})` : `driver angle (${driver.id})`;
-    this.frame(count, linear(way.drive, stretch.low), linear(way.drive, stretch.high), !slides, title, () => {
+    const ends = [stretch.low, stretch.high].map((u) => linear(way.drive, u)), [low, high] = stretch.sense < 0 ? ends.reverse() : ends;
+    this.frame(count, low, high, !slides, title, () => {
       this.panels(rows, unit);
       if (upright) this.uprightNames(rows);
     });
   }
 
-  /** So many panels, which `draw` fills, over what goes from low to high; with the cursor. */
+  /** So many panels, which `draw` fills, over what goes from low at the left to high at the right; with the cursor. */
   frame(count, low, high, turns, title, draw) {
     const { svg } = this, width = (this.width = Math.max(260, this.parent.clientWidth));
     this.count = count;
@@ -82,7 +83,8 @@ export class Plots {
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
     this.X = (at) => LEFT + INSET + ((at - low) / (high - low)) * (width - LEFT - RIGHT - 2 * INSET);
-    this.across = turns ? angleTicks(low, high, Math.max(3, width / 70)) : ticks(low, high, width / 90);
+    const ends = [Math.min(low, high), Math.max(low, high)], marks = turns ? angleTicks(ends[0], ends[1], Math.max(3, width / 70)) : ticks(ends[0], ends[1], width / 90);
+    this.across = low > high ? marks.reverse() : marks;
     this.marks = [];
     draw();
     svg.append(s("text", { class: "bm-title", x: (LEFT + width - RIGHT) / 2, y: height - 6, "text-anchor": "middle" }, title));
@@ -138,7 +140,7 @@ export class Plots {
     }
     const greatestThree = new Set([...rows].sort((a, b) => value(b) - value(a)).slice(0, 3));
     let last = -99;
-    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+    for (const row of [...rows].sort((a, b) => X(a.drive) - X(b.drive))) {
       const x = px(X(row.drive)), y = px(visible ? Y(value(row)) : base);
       svg.append(
         s("path", { class: "bm-stem", d: `M${x} ${base}V${y}` }),
@@ -161,7 +163,7 @@ export class Plots {
     const { deg: limit, said } = this.data.transmission_limit;
     svg.append(s("path", { class: "bm-usual", d: `M${LEFT} ${px(Y(limit))}H${width - RIGHT}` }));
     // Its name stands on the side of the line where the curve is not.
-    const below = limit > 15 && (linear(way.transmission, this.stretch.high) ?? 90) > limit;
+    const below = limit > 15 && (linear(way.transmission, this.stretch.sense < 0 ? this.stretch.low : this.stretch.high) ?? 90) > limit;
     const limitName = s("text", { class: "bm-tick bm-halo", x: width - RIGHT - 4, y: px(Y(limit)) + (below ? 12 : -4), "text-anchor": "end" }, said);
     (way.loops ?? [way.transmission]).forEach((values, loop) => {
       this.mark((drive) => linear(values, frameAt(way.drive, drive)), Y);
@@ -182,7 +184,7 @@ export class Plots {
 
   /** A curve of its own over the drive, or stems from zero, with dots. */
   values(k, curve) {
-    const { title, x, y, dots, stems } = curve, { svg, low, high } = this, [y0, base] = this.heights(k);
+    const { title, x, y, dots, stems } = curve, { svg } = this, [low, high] = [Math.min(this.low, this.high), Math.max(this.low, this.high)], [y0, base] = this.heights(k);
     const shown = [...x.keys()].filter((i) => y[i] !== null && x[i] >= low && x[i] <= high).map((i) => [x[i], y[i]]);
     const all = [...shown, ...dots].map(([, value]) => value), least = Math.min(...all), most = Math.max(...all), room = 0.08 * (most - least);
     this.panel(title, y0, base);
@@ -218,7 +220,7 @@ export class Plots {
   /** Names of the poses over their stems, those that have room. */
   uprightNames(rows) {
     let last = -99;
-    for (const row of [...rows].sort((a, b) => a.drive - b.drive)) {
+    for (const row of [...rows].sort((a, b) => this.X(a.drive) - this.X(b.drive))) {
       const x = this.X(row.drive), y = this.top - 20;
       if (x - last < NAME_WIDTH) continue;
       last = x;

@@ -1,14 +1,26 @@
 // What a linkage passes through along a stretch of its way: its places, and how far its blocks go.
 //
-// A stretch is { low, high }, two frames of a way, which may be fractions.
+// A stretch is { low, high }, two frames of a way, which may be fractions; sense: 1 where time runs from low to high, -1
+// where it runs from high to low.
 
-import { act, back, normalOf, placeAt } from "./kinematics.mjs";
+import { act, back, normalOf, placeAt, valueAt } from "./kinematics.mjs";
 
 /** @typedef {import("./types").Dyad} Dyad @typedef {import("./types").Place} Place
- * @typedef {{ low: number, high: number }} Stretch @typedef {{ scene: number, chart: { length: number } }} Data */
+ * @typedef {{ low: number, high: number, sense?: number }} Stretch @typedef {{ scene: number, chart: { length: number } }} Data */
 
 const LONGEST_STEP = 0.015; // scenes: where frames are farther apart, there are places between them
 const MOST_BETWEEN = 40; // places between two frames
+const LEAST_STRETCH = 1e-6; // frames: poses closer together than that are no stretch to play
+
+/** The frames of a way that are played, from the first of its poses to the last one; whole: all of the way, in the same sense.
+ * isApart: whether the poses themselves are a stretch.
+ * @param {import("./types").Moved} linkage @param {number} index @param {boolean} whole */
+export function stretchOf(linkage, index, whole = false) {
+  const last = (linkage?.ways[index]?.x.length ?? 2) - 1, frames = linkage.pose_errors.filter((row) => row.way === index).map((row) => row.frame);
+  const low = frames.reduce((a, b) => Math.min(a, b), last), high = frames.reduce((a, b) => Math.max(a, b), 0);
+  const isApart = high - low > LEAST_STRETCH, sense = frames[frames.length - 1] < frames[0] ? -1 : 1;
+  return { ...(isApart && !whole ? { low, high } : { low: 0, high: last }), sense, isApart };
+}
 
 /** The places of a linkage along a stretch of a way, as `placesAlong`.
  * @param {Data} data @param {import("./types").Moved} linkage @param {import("./types").Way} way @param {Stretch} stretch */
@@ -30,6 +42,13 @@ function placesAlong(data, { low, high }, at) {
   for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
   goTo(high);
   return places;
+}
+
+/** The place of the driver at a time, in seconds, of a motion whose times are known over the driver.
+ * @param {{ time: { x: number[], y: number[] } }} timed @param {number} time */
+export function driveAtTime({ time: { x, y } }, time) {
+  // Where the driver's angle falls in time, so do the times along it.
+  return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, time) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, time);
 }
 
 /** How far a block is along the line of its slider, counted from the foot of the origin's normal.
