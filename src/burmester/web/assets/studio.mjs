@@ -82,7 +82,13 @@ ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixe
 text:`${fixed(k*step,0)}°`})}return marks.length>1?marks:ticks(low,high,about).map(t=>({...t,text:`${t.text}°`}))}function listed(words){if(words.length<2)return words.
 join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){const parts=[];for(let k=0;k<numbers.length;){let end=k;
 while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=
-end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
+end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=
+2;k+=1)hatch+=`M${5.5*k+3} 16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}
+function axes(length){const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function polyline(points,view){
+let path2="",pen="M";for(const[x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(y)){pen="M";continue}path2+=`${pen}${px(view.X(x))} ${px(view.Y(y))}`;pen=
+"L"}return path2}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point2 of list){while(kept.
+length>1){const[a,b]=kept.slice(-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*(point2[0]-a[0])>0)break;kept.pop()}kept.push(point2)}return kept.slice(0,-1)};const corners=[
+...half(sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
 a),d=Math.sin(place.a);return[c*(x-place.x)+d*(y-place.y),-d*(x-place.x)+c*(y-place.y)]}var normalOf=dyad=>{const angle=radians(dyad.line.normal_deg);return[Math.
 cos(angle),Math.sin(angle)]};function constraint(dyad,place){if(dyad.kind==="PP"){const away=place.a-radians(dyad.angle_deg);return[away-2*Math.PI*Math.round(away/
 (2*Math.PI)),0,0,1]}if(dyad.kind==="RP"){const[nx2,ny2]=normalOf(dyad);const c=Math.cos(place.a),d=Math.sin(place.a);const tx=c*nx2-d*ny2,ty=d*nx2+c*ny2;const ax=dyad.
@@ -145,39 +151,87 @@ k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1
 return y[0]<=y[y.length-1]?valueAt({x:y,y:x},time):valueAt({x:[...y].reverse(),y:[...x].reverse()},time)}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);
 const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(
 dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.
-line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var AXIS=26;var BLOCK=[22,14];var WIDEST=4;function farFrom(data){const[x,y]=["x","y"].map(k=>{const[low,high]=data.poses.reduce(([a,b],pose)=>[Math.min(a,pose[k]),
-Math.max(b,pose[k])],[Infinity,-Infinity]);return(low+high)/2});return point2=>!(Math.hypot(point2[0]-x,point2[1]-y)<WIDEST*data.scene)}function pivotsAt(linkage,places){
-const found=[];for(const dyad of linkage.led){if(dyad.fixed_pivot)found.push({dyad,fixed:true,at:dyad.fixed_pivot});const own=dyad.moving_pivot?[dyad.moving_pivot]:
-dyad.kind==="RP"&&places.length?travelOf(dyad,places).map(end=>pointOnLine(dyad,end)):[];for(const point2 of own)for(const place of places)found.push({dyad,fixed:false,
-at:act(place,point2)})}for(const{joints}of places)for(const at of Object.values(joints??{}))found.push({fixed:false,at});return found}function boundsOf(data,linkage,places,far){
-const isFar=farFrom(data),box=[Infinity,Infinity,-Infinity,-Infinity];const include=([x,y])=>{if(!Number.isFinite(x+y)||!far&&isFar([x,y]))return;box[0]=Math.min(
-box[0],x);box[1]=Math.min(box[1],y);box[2]=Math.max(box[2],x);box[3]=Math.max(box[3],y)};for(const pose of data.poses)include([pose.x,pose.y]);if(linkage){for(const row of linkage.
-pose_errors)if(row.x!==null)include([row.x,row.y]);for(const place of places)include([place.x,place.y]);for(const{at}of pivotsAt(linkage,places))include(at);for(const at of markPoints(
-data,places))include(at)}const least2=.25*data.scene;for(const k of[0,1]){const lack=least2-(box[k+2]-box[k]);if(lack>0){box[k]-=lack/2;box[k+2]+=lack/2}}return box}
-function viewOf(box,width,height,margin){const scale=Math.min((width-2*margin)/(box[2]-box[0]),(height-2*margin)/(box[3]-box[1]));const left=width/2-scale*(box[0]+
-box[2])/2;const top=height/2+scale*(box[1]+box[3])/2;return{scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y}}var transform=(x,y,angle)=>`translat\
-e(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=2;k+=1)hatch+=`M${5.5*k+3} 16l-6 7`;return s("g",{class:"bm-fo\
-ot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}function axes(length){const l=length,head=Math.max(4,
-.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function polyline(points,view){let path2="",pen="M";for(const[
-x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(y)){pen="M";continue}path2+=`${pen}${px(view.X(x))} ${px(view.Y(y))}`;pen="L"}return path2}function hull(points){
-const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point2 of list){while(kept.length>1){const[a,b]=kept.slice(
--2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*(point2[0]-a[0])>0)break;kept.pop()}kept.push(point2)}return kept.slice(0,-1)};const corners=[...half(sorted),...half(
-sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
+line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var WIDEST=4;var ROOM=2.5;var SPARE=.75;var LEAST=.25;var MOST_PLACES=400;var INSET=12;var bounds=points=>points.reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?
+[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var placesAtPoses=(data,linkage)=>data.poses.flatMap(
+(pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return at.angle_deg===null?[]:[{x:at.x,y:at.y,a:radians(at.angle_deg),k}]});function farFrom(data){
+const[x,y,u,v]=bounds(data.poses.map(pose=>[pose.x,pose.y])),reach=(data.body??[]).reduce((most,[a,b])=>Math.max(most,Math.hypot(a,b)),0);return point2=>!(Math.
+hypot(point2[0]-(x+u)/2,point2[1]-(y+v)/2)<Math.max(WIDEST*data.scene,reach))}function pivotsAt(linkage,places){const fixed2=linkage.led.flatMap(dyad=>dyad.fixed_pivot?
+[dyad.fixed_pivot]:[]);const own=linkage.led.flatMap(dyad=>dyad.moving_pivot?[dyad.moving_pivot]:dyad.kind==="RP"&&places.length?travelOf(dyad,places).map(end=>pointOnLine(
+dyad,end)):[]);return[...fixed2,...places.flatMap(place=>[...own.map(point2=>act(place,point2)),...Object.values(place.joints??{})])]}function nearPoints(data,linkage,places,{
+far=false,close=false}={}){const isFar=farFrom(data),seen2=point2=>far||!isFar(point2);const reached=linkage?[...linkage.pose_errors.filter(row=>row.x!==null),...places]:
+[];const points=[...[...data.poses,...reached].map(({x,y})=>[x,y]),...linkage?[...pivotsAt(linkage,places),...markPoints(data,places)]:[]];const some2=places.filter(
+(place,k)=>k%Math.ceil(places.length/MOST_PLACES)===0&&seen2([place.x,place.y]));const corners=data.body&&!close?[...placesAtPoses(data,linkage),...some2].flatMap(
+place=>data.body.map(corner=>act(place,corner))):[];return[...points.filter(seen2),...corners]}function fitted(near2,others,whole){const all=bounds([...near2,...others]);
+const[x,y,u,v]=bounds(near2),size2=Math.max(u-x,v-y)||1,reach=SPARE*size2;if(whole||!near2.length||Math.max(all[2]-all[0],all[3]-all[1])<=ROOM*size2)return all;
+return[Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(all[2],u+reach),Math.min(all[3],v+reach)]}function boxOf(data,linkage,places,{whole=false,close=false}={}){
+const near2=nearPoints(data,linkage,places,{far:whole,close}),regions=close?[]:data.keep_out.flatMap(region=>region.outline);const box=fitted(near2,regions,whole||
+!linkage),least2=LEAST*data.scene;for(const k of[0,1]){const lack=Math.max(0,least2-(box[k+2]-box[k]));box[k]-=lack/2;box[k+2]+=lack/2}return box}function viewOf(box,width,height,margin){
+const scale=Math.min((width-2*margin)/(box[2]-box[0]),(height-2*margin)/(box[3]-box[1]));const left=width/2-scale*(box[0]+box[2])/2,top=height/2+scale*(box[1]+box[3])/
+2;return{scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y}}function edgeTowards({X,Y,width,height},at){const x=X(at[0]),y=Y(at[1]),cx=width/2,cy=height/
+2;if(x>=0&&y>=0&&x<=width&&y<=height)return null;const size2=Math.hypot(x-cx,y-cy),u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.min((cx-INSET)/Math.abs(u),(cy-
+INSET)/Math.abs(v));return{x:cx+reach*u,y:cy+reach*v,angle:Math.atan2(-v,u)}}var MOST_NAMES=24;var NAME_STEP=5;var MOST_ROWS=40;var NONE="–";function table(caption,heads,rows,attributes){return h("div",{class:"bm-scroll",tabindex:"0",role:"\
+region","aria-label":caption},h("table",attributes,h("caption",{},caption),h("thead",{},h("tr",{},heads.map(head=>h("th",{scope:"col",class:head.text?"bm-words":
+null},head.name??head)))),h("tbody",{},rows)))}function longTable(caption,heads,rows,attributes){const first=table(caption,heads,rows.slice(0,MOST_ROWS),attributes),
+others=rows.slice(MOST_ROWS);if(!others.length)return first;return h("div",{class:"bm-long"},first,h("details",{class:"bm-every"},h("summary",{},`${others.length}\
+ more`),table(`${caption}, from ${MOST_ROWS+1}`,heads,others,attributes)))}var cells=(values,words=[],heads=[])=>values.map((value,k)=>k===0?h("th",{scope:"row"},
+value):h("td",{class:classes(words.includes(k)&&"bm-words",(value??NONE)===NONE&&"bm-none"),"data-head":heads[k]?.name??heads[k]},value??NONE));var classes=(...names)=>names.
+filter(Boolean).join(" ")||null;var UNIT_NAMES={in:"inches",ft:"feet"};var inUnit=data=>data.unit?`, in ${UNIT_NAMES[data.unit]??data.unit}`:"";var unitOf=data=>data.
+unit?` (${data.unit})`:"";var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName=pose=>pose.label===pose.name?pose.name:`${pose.label}\
+: ${pose.name}`;var isPoint=pose=>pose.angle_deg===null;var nounOf=({poses,stop=void 0})=>stop??(poses.length&&poses.every(isPoint)?"point":"pose");var isNamed=({
+path:path2,poses},k)=>!path2||poses.length<=MOST_NAMES||k===0||(k+1)%NAME_STEP===0;var calledOf=pose=>pose.called??`${isPoint(pose)?"point":"pose"} ${poseName(pose)}`;
+var shortened=(text,most)=>text.length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position==="-")return"–";const[
+away,...share]=position.split(" (");const length=[away==="exact"?away:`${away}${unit2}`,...share].join(" (");return angle==="free"||position==="exact"&&angle===
+"exact"?length:`${length} and ${angle}`}function dyadTable(data){const misses=data.poses.some(isPoint)?[]:["rms miss","worst miss"];const heads=["",{name:"kind",
+text:true},"on the ground (F)","on the body (M)",`length${unitOf(data)}`,...misses];const rows=data.dyads.map(dyad=>h("tr",{},cells([dyad.id,dyad.kind,dyad.said.
+ground,dyad.said.body,dyad.said.length,...misses.length?[dyad.said.rms,dyad.said.worst]:[]],[1],heads)));return longTable(data.dyads_title,heads,rows,{class:"bm\
+-stacks"})}function worded(data,{caption,heads,words=[],rows,...how}){const named=heads.map((name,k)=>words.includes(k)?{name,text:true}:name);const lines=cell=>Array.
+isArray(cell)?cell.map(part=>h("span",{class:"bm-line-of"},part)):cell;const made2=longTable(caption+(how.lengths?inUnit(data):""),named,rows.map(row=>h("tr",{},
+cells(row.map(lines),words,named))),{class:how.class});return how.folded?h("details",{class:"bm-every"},h("summary",{},how.folded),made2):made2}function dimensionRows(linkage){
+const uncertain=linkage.said.dimensions.some(row=>row.give);let last=null;return linkage.said.dimensions.map(row=>{const name=row.dyad===last?"":row.dyad;last=row.
+dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{},h("th",{scope:"row",class:name?`bm-side${side}`:null},name),h("td",{class:"bm-w\
+ords"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){return table(`Dimensions of ${linkage.id}${inUnit(
+data)}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data),noun=nounOf(data),turned=noun!=="point";const ifTurned=value=>turned?[value]:[];
+const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];if(linkage)heads.push("body x",`y${unit2}`,"angle","off by",...ifTurned("turned by"),...linkage.columns?.
+map(([head])=>head)??["transm."],{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName(pose)+(pose.exact?" (exact)":""),fixed(pose.
+x,digits),fixed(pose.y,digits),...ifTurned(isPoint(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(
+row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,...ifTurned(row.said.turned),...linkage.columns?.map(
+([,texts])=>texts[k])??[row.said.transmission],row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,[heads.
+length-1]))});const what=turned?"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.poses.some(pose=>pose.
+label!==pose.name)?"bm-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.filter(pose=>!isPoint(
+pose)).map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];
+return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image points of the poses${unitOf(data)}\
+, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.
+said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + \
+p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.
+circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.
+join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var MANY_GHOSTS=6;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(x+view.scale*each[0])}\
+ ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var hasGhost=(k,count)=>count<=MANY_GHOSTS||k===0||k===count-
+1;function ghosts(data,linkage,view){const group=s("g",{class:"bm-ghosts"});if(!data.body){for(const row of linkage?.drawn?linkage.pose_errors.filter((_,k)=>hasGhost(
+k,linkage.pose_errors.length)):[])group.append(plate(placeAt(linkage,linkage.ways[row.way],row.frame,data.chart.length),linkage,view));return group}const last=Math.
+max(1,data.poses.length-1);for(const{x,y,a,k}of placesAtPoses(data,linkage).filter(place=>!linkage||hasGhost(place.k,data.poses.length))){const opacity=(PALEST+
+(1-PALEST)*k/last).toFixed(3);group.append(s("path",{class:"bm-ghost",d:bodyOutline(data,view),"data-pose":k+1,opacity,transform:transform(view.X(x),view.Y(y),a)}))}
+return group}var plate=(place,{drawn},view)=>s("path",{class:"bm-ghost",d:`${polyline([...drawn.find(({kind})=>kind==="carried").joints].map(joint=>place.joints[joint]??
+[place.x,place.y]),view)}Z`});function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm-hatch-${patterns+=
+1}`;group.append(s("defs",{},s("pattern",{id,width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`\
+M0 0V${HATCH}`}))));for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"bm-region"},s("title",
+{},region.name||"keep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){
+return data.keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME);labels.block(view.X(x),view.Y(y),7.2*text.length,14);
+return s("text",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function withKeys(object,changes){const copy={...object,...changes};for(const[key,value]of Object.entries(changes))if(value===void 0)delete copy[key];return copy}
 var replaced=(list,index,value)=>list.map((each,k)=>k===index?value:each);var without=(list,index)=>list.filter((_,k)=>k!==index);var inserted=(list,index,value)=>[
 ...list.slice(0,index),value,...list.slice(index)];var withList=(document2,key,list)=>withKeys(document2,{[key]:list.length?list:void 0});var filled=table3=>Object.
 keys(table3).length?table3:void 0;var EXACT={x:0,y:0,angle_deg:0};var FEWEST_TRACED=10;var isFree=(pose,key)=>Boolean(pose?.free?.includes(key))||pose?.tolerance?.[key]===
-"free";var isPoint=pose=>isFree(pose,"angle");var isOfPoints=({poses})=>poses.length>0&&poses.every(isPoint);var isPath=document2=>isOfPoints(document2)&&(document2.
+"free";var isPoint2=pose=>isFree(pose,"angle");var isOfPoints=({poses})=>poses.length>0&&poses.every(isPoint2);var isPath=document2=>isOfPoints(document2)&&(document2.
 path!==void 0||document2.poses.length>=FEWEST_TRACED);var setPath=(document2,changes)=>withKeys(document2,{path:withKeys(document2.path??{closed:false},changes)});
 var setUsual=(document2,key,value)=>withKeys(document2,{tolerance:{...EXACT,...document2.tolerance,[key]:value??0}});var pathDocument=(document2,points,closed2)=>withKeys(
 document2,{poses:points.map(([x,y])=>({x,y,free:["angle"]})),path:{closed:closed2},tolerance:isOfPoints(document2)?document2.tolerance??EXACT:EXACT});var isExact=tolerance=>tolerance&&
 ["x","y","angle_deg"].every(key=>!tolerance[key]);function settled(document2){const{poses,path:path2,tolerance}=document2,some2=poses.some(pose=>pose.free?.length);
-return withKeys(document2,{path:path2&&poses.length&&!poses.every(isPoint)?void 0:path2,tolerance:some2?tolerance??EXACT:isExact(tolerance)?void 0:tolerance})}var withCrank=(document2,change)=>document2.
-path?.crank_deg?setPath(document2,{crank_deg:change(document2.path.crank_deg)}):document2;function betweenCranks(angles,index){const[a,b]=[angles[index-1],angles[index]];
-if(a!==void 0&&b!==void 0)return(a+b)/2;return a===void 0?(b??0)-10:a+(a-(angles[index-2]??a-10))}var setPose=(document2,index,changes)=>withKeys(document2,{poses:replaced(
-document2.poses,index,withKeys(document2.poses[index],changes))});var addPose=(document2,pose,index=document2.poses.length)=>settled(withCrank(withKeys(document2,
-{poses:inserted(document2.poses,index,pose)}),angles=>inserted(angles,index,betweenCranks(angles,index))));var removePose=(document2,index)=>settled(withCrank(withKeys(
-document2,{poses:without(document2.poses,index)}),angles=>without(angles,index)));function setAngle(document2,index,angle){const free=angle===void 0,same=isPoint(
-document2.poses[index])===free;return setPose(same?document2:setFree(document2,index,"angle",free),index,{angle})}var setCrank=(document2,index,angle)=>withCrank(
+return withKeys(document2,{path:path2&&poses.length&&!poses.every(isPoint2)?void 0:path2,tolerance:some2?tolerance??EXACT:isExact(tolerance)?void 0:tolerance})}
+var withCrank=(document2,change)=>document2.path?.crank_deg?setPath(document2,{crank_deg:change(document2.path.crank_deg)}):document2;function betweenCranks(angles,index){
+const[a,b]=[angles[index-1],angles[index]];if(a!==void 0&&b!==void 0)return(a+b)/2;return a===void 0?(b??0)-10:a+(a-(angles[index-2]??a-10))}var setPose=(document2,index,changes)=>withKeys(
+document2,{poses:replaced(document2.poses,index,withKeys(document2.poses[index],changes))});var addPose=(document2,pose,index=document2.poses.length)=>settled(withCrank(
+withKeys(document2,{poses:inserted(document2.poses,index,pose)}),angles=>inserted(angles,index,betweenCranks(angles,index))));var removePose=(document2,index)=>settled(
+withCrank(withKeys(document2,{poses:without(document2.poses,index)}),angles=>without(angles,index)));function setAngle(document2,index,angle){const free=angle===
+void 0,same=isPoint2(document2.poses[index])===free;return setPose(same?document2:setFree(document2,index,"angle",free),index,{angle})}var setCrank=(document2,index,angle)=>withCrank(
 document2,angles=>replaced(angles,index,angle));var duplicatePose=(document2,index)=>addPose(document2,withKeys(document2.poses[index],{name:void 0}),index+1);function movePose(document2,from,to){
 const moved=list=>inserted(without(list,from),to,list[from]);return withCrank(withKeys(document2,{poses:moved(document2.poses)}),moved)}function setFree(document2,index,component2,free){
 const pose=document2.poses[index],others=(pose.free??[]).filter(each=>each!==component2);const list=free?[...others,component2]:others;const{[component2]:_,[component2===
@@ -198,111 +252,15 @@ map(key=>{const[[shape,points]]=Object.entries(table3[key]);return{table:index,k
 pose=>Number.isFinite(pose[key]));const behind=poses.slice(index+1).findIndex(pose=>Number.isFinite(pose[key]))+index+1;const[a,b]=[poses[before]?.[key],behind>
 index?poses[behind][key]:void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,
 y,angle}=poses[index];if(Number.isFinite(x)&&Number.isFinite(y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,
-index,"y"),angle:component(poses,index,"angle")}}var poseName=({poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(
-Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST=250;var SHARE=8;var Pace=class{timer;constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){
+index,"y"),angle:component(poses,index,"angle")}}var poseName2=({poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(
+Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST2=250;var SHARE=8;var Pace=class{timer;constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){
 if(this.timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
-clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST,SHARE*(end-start))}};
+clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST2,SHARE*(end-start))}};
 var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
 (fact,k)=>!Object.is(fact,before[k]))}var sights=new WeakMap;var callers=new WeakMap;var observer=null;function watch(element,fn){observer??=new IntersectionObserver(
 entries=>{for(const{target,isIntersecting}of entries){sights.set(target,isIntersecting);if(isIntersecting)callers.get(target)?.()}});callers.set(element,fn);observer.
 observe(element)}var isSeen=element=>printing||sights.get(element)===true;var paces=new Set;var printing=false;function catchUpForPrint(){addEventListener("befo\
-reprint",()=>{printing=true;for(const pace of paces)if(pace.wanted())pace.now()});addEventListener("afterprint",()=>printing=false)}var MOST_NAMES=24;var NAME_STEP=5;var MOST_ROWS=40;var NONE="–";function table(caption,heads,rows,attributes){return h("div",{class:"bm-scroll",tabindex:"0",role:"\
-region","aria-label":caption},h("table",attributes,h("caption",{},caption),h("thead",{},h("tr",{},heads.map(head=>h("th",{scope:"col",class:head.text?"bm-words":
-null},head.name??head)))),h("tbody",{},rows)))}function longTable(caption,heads,rows,attributes){const first=table(caption,heads,rows.slice(0,MOST_ROWS),attributes),
-others=rows.slice(MOST_ROWS);if(!others.length)return first;return h("div",{class:"bm-long"},first,h("details",{class:"bm-every"},h("summary",{},`${others.length}\
- more`),table(`${caption}, from ${MOST_ROWS+1}`,heads,others,attributes)))}var cells=(values,words=[],heads=[])=>values.map((value,k)=>k===0?h("th",{scope:"row"},
-value):h("td",{class:classes(words.includes(k)&&"bm-words",(value??NONE)===NONE&&"bm-none"),"data-head":heads[k]?.name??heads[k]},value??NONE));var classes=(...names)=>names.
-filter(Boolean).join(" ")||null;var UNIT_NAMES={in:"inches",ft:"feet"};var inUnit=data=>data.unit?`, in ${UNIT_NAMES[data.unit]??data.unit}`:"";var unitOf=data=>data.
-unit?` (${data.unit})`:"";var decimalsOf=data=>clamp(4-Math.ceil(Math.log10(data.scene)),0,12);var poseName2=pose=>pose.label===pose.name?pose.name:`${pose.label}\
-: ${pose.name}`;var isPoint2=pose=>pose.angle_deg===null;var nounOf=({poses,stop=void 0})=>stop??(poses.length&&poses.every(isPoint2)?"point":"pose");var isNamed=({
-path:path2,poses},k)=>!path2||poses.length<=MOST_NAMES||k===0||(k+1)%NAME_STEP===0;var calledOf=pose=>pose.called??`${isPoint2(pose)?"point":"pose"} ${poseName2(
-pose)}`;var shortened=(text,most)=>text.length>most?`${text.slice(0,most-1).trimEnd()}…`:text;function missOf(position,angle,unit2){if(position==="-")return"–";
-const[away,...share]=position.split(" (");const length=[away==="exact"?away:`${away}${unit2}`,...share].join(" (");return angle==="free"||position==="exact"&&angle===
-"exact"?length:`${length} and ${angle}`}function dyadTable(data){const misses=data.poses.some(isPoint2)?[]:["rms miss","worst miss"];const heads=["",{name:"kind",
-text:true},"on the ground (F)","on the body (M)",`length${unitOf(data)}`,...misses];const rows=data.dyads.map(dyad=>h("tr",{},cells([dyad.id,dyad.kind,dyad.said.
-ground,dyad.said.body,dyad.said.length,...misses.length?[dyad.said.rms,dyad.said.worst]:[]],[1],heads)));return longTable(data.dyads_title,heads,rows,{class:"bm\
--stacks"})}function worded(data,{caption,heads,words=[],rows,...how}){const named=heads.map((name,k)=>words.includes(k)?{name,text:true}:name);const lines=cell=>Array.
-isArray(cell)?cell.map(part=>h("span",{class:"bm-line-of"},part)):cell;const made2=longTable(caption+(how.lengths?inUnit(data):""),named,rows.map(row=>h("tr",{},
-cells(row.map(lines),words,named))),{class:how.class});return how.folded?h("details",{class:"bm-every"},h("summary",{},how.folded),made2):made2}function dimensionRows(linkage){
-const uncertain=linkage.said.dimensions.some(row=>row.give);let last=null;return linkage.said.dimensions.map(row=>{const name=row.dyad===last?"":row.dyad;last=row.
-dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{},h("th",{scope:"row",class:name?`bm-side${side}`:null},name),h("td",{class:"bm-w\
-ords"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){return table(`Dimensions of ${linkage.id}${inUnit(
-data)}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data),noun=nounOf(data),turned=noun!=="point";const ifTurned=value=>turned?[value]:[];
-const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];if(linkage)heads.push("body x",`y${unit2}`,"angle","off by",...ifTurned("turned by"),...linkage.columns?.
-map(([head])=>head)??["transm."],{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName2(pose)+(pose.exact?" (exact)":""),fixed(pose.
-x,digits),fixed(pose.y,digits),...ifTurned(isPoint2(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(
-row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,...ifTurned(row.said.turned),...linkage.columns?.map(
-([,texts])=>texts[k])??[row.said.transmission],row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,[heads.
-length-1]))});const what=turned?"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.poses.some(pose=>pose.
-label!==pose.name)?"bm-pose-table bm-named":"bm-pose-table"})}function imageTables(data,linkage){const digits=decimalsOf(data);const rows=data.poses.filter(pose=>!isPoint2(
-pose)).map(pose=>{const c=Math.cos(pose.angle_deg*Math.PI/360),d=Math.sin(pose.angle_deg*Math.PI/360);const z=[(pose.x*d-pose.y*c)/2,(pose.x*c+pose.y*d)/2,d,c];
-return h("tr",{},cells([pose.label,...z.map((value,k)=>fixed(value,k<2?digits:5))]))});const points=rows.length?[table(`Image points of the poses${unitOf(data)}\
-, Z3² + Z4² = 1`,["pose","Z1","Z2","Z3","Z4"],rows)]:[];if(!linkage)return points;const surfaces=linkage.led.map((dyad,k)=>h("tr",{},cells([dyad.id,...linkage.
-said.manifolds[k]])));const heads=["",...[1,2,3,4,5,6,7,8].map(k=>`p${k}`)];const caption="Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + \
-p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";return[...points,table(caption,heads,surfaces)]}function wayName(way,linkage){const circuits=new Set(linkage.ways.map(each=>each.
-circuit)).size;const parts=[];if(circuits>1||way.branches<2)parts.push(`assembly ${way.circuit}`);if(way.branches>1)parts.push(`branch ${way.branch}`);return parts.
-join(", ")}var HATCH=9;var PALEST=.45;var LONGEST_NAME=28;var LEAST_LINKAGE=110;var MOST_PLACES=400;var patterns=0;var closed=(points,view,[x,y])=>`M${points.map(each=>`${px(
-x+view.scale*each[0])} ${px(y-view.scale*each[1])}`).join("L")}Z`;var bodyOutline=(data,view)=>closed(data.body,view,[0,0]);var placesAtPoses=(data,linkage)=>data.
-poses.flatMap((pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return isPoint2(at)?[]:[{x:at.x,y:at.y,a:radians(at.angle_deg),k}]});function ghosts(data,linkage,view){
-const group=s("g",{class:"bm-ghosts"});if(!data.body){for(const row of linkage?.drawn?linkage.pose_errors:[])group.append(plate(placeAt(linkage,linkage.ways[row.
-way],row.frame,data.chart.length),linkage,view));return group}const last=Math.max(1,data.poses.length-1);for(const{x,y,a,k}of placesAtPoses(data,linkage)){const opacity=(PALEST+
-(1-PALEST)*k/last).toFixed(3);group.append(s("path",{class:"bm-ghost",d:bodyOutline(data,view),"data-pose":k+1,opacity,transform:transform(view.X(x),view.Y(y),a)}))}
-return group}var plate=(place,{drawn},view)=>s("path",{class:"bm-ghost",d:`${polyline([...drawn.find(({kind})=>kind==="carried").joints].map(joint=>place.joints[joint]??
-[place.x,place.y]),view)}Z`});function keepOut(data,view){const group=s("g",{class:"bm-keep-out"});if(!data.keep_out.length)return group;const id=`bm-hatch-${patterns+=
-1}`;group.append(s("defs",{},s("pattern",{id,width:HATCH,height:HATCH,patternUnits:"userSpaceOnUse",patternTransform:"rotate(45)"},s("path",{class:"bm-hatch",d:`\
-M0 0V${HATCH}`}))));for(const region of data.keep_out){const d=closed(region.outline,view,[view.left,view.top]);group.append(s("g",{class:"bm-region"},s("title",
-{},region.name||"keep out"),s("path",{class:"bm-region-plain",d}),s("path",{class:"bm-region-edge",d,fill:`url(#${id})`})))}return group}function keepOutNames(data,view,labels){
-return data.keep_out.filter(({name})=>name).map(({name,at:[x,y]})=>{const text=shortened(name,LONGEST_NAME);labels.block(view.X(x),view.Y(y),7.2*text.length,14);
-return s("text",{class:"bm-region-name",x:px(view.X(x)),y:px(view.Y(y)+4),"text-anchor":"middle"},text)})}function bodyCorners(data,linkage,places){if(!data.body)
-return[];const some2=places.filter((_,k)=>k%Math.ceil(places.length/MOST_PLACES)===0);return[...placesAtPoses(data,linkage),...some2].flatMap(place=>data.body.map(
-corner=>act(place,corner)))}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var including=(box,points)=>points.reduce(([x,y,u,v],[a,b])=>[Math.min(x,a),Math.min(y,b),
-Math.max(u,a),Math.max(v,b)],box);function widened(box,data,linkage,places,width,all){const withBody=including(box,bodyCorners(data,linkage,places));const whole=including(
-withBody,data.keep_out.flatMap(region=>region.outline));const most=Math.max(2,width/LEAST_LINKAGE)*sizeOf(box);if(all||!linkage||sizeOf(whole)<=most)return whole;
-const inner=sizeOf(withBody)<=most?withBody:box,reach=(most-sizeOf(inner))/2;return whole.map((each,k)=>k<2?Math.max(each,inner[k]-reach):Math.min(each,inner[k]+
-reach))}var BODY_AXIS=AXIS+10;var LETTER=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE=5;var NAME=15;var ARROW=24;
-function mechanism(data,linkage,view,places){const drawn=new Mechanism(linkage);drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({
-led,drawn:links=[],ground,names}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s("g");
-this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middle"},"\
-M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.
-kind](this,side));if(links.length)this.parts.push(...links.map(link=>new JointedLink(this,link)),new Joints(this,ground,names));this.coupler.append(s("path",{class:"\
-bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.marks=new LoadMarks;
-this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,this.marks.group,links.length?null:this.letter)}fits({led}){return kindsOf(
-led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(
-data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.
-moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).
-map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate2 of linkage.drawn?[]:this.plates)put(plate2,"d",d);for(const part of this.parts.slice(linkage.
-led.length))part.shape(view);this.marks.shape(data,linkage,view);this.shapeArrow()}show(place,drive=null){const{view}=this,at=transform(view.X(place.x),view.Y(place.
-y),place.a);this.marks.show(place,drive);put(this.coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(
-place);const[x,y]=act(place,[LETTER/view.scale,-LETTER/view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.
-led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.
-led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",
-TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([
-x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(
-x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[
-x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,
-pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("c\
-ircle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=
-dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);
-setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,
-"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=
-s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,
-inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){
-this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);
-this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){
-this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE)/view.scale;const seen2=along2=>inBody(pointOnLine(
-dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);
-for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){
-const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};
-var JointedLink=class{constructor({links},{joints,kind}){this.joints=[...joints];this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];links.append(
-s("g",{class:`bm-link bm-${kind}${joints.length>2?" bm-ternary":""}`,"data-link":joints.replace("M","")},this.strokes))}shape(view){this.view=view}show(place){const d=`\
-M${this.joints.map(joint=>inGround(place.joints[joint]??[place.x,place.y],this.view).map(px).join(" ")).join("L")}${this.joints.length>2?"Z":""}`;for(const stroke of this.
-strokes)put(stroke,"d",d)}};var Joints=class{constructor({pins},ground,names){this.pins=[...Object.keys(ground),...Object.keys(names)].map(joint=>{const pin=s("\
-circle",{class:`bm-pin${joint in ground?" bm-fixed-pin":""}`,r:4.5,"data-joint":joint});return{joint,pin,link:[...names[joint]??""],name:joint in ground?null:s(
-"text",{class:"bm-name","text-anchor":"middle"},joint)}});pins.append(...this.pins.map(({pin})=>pin),...this.pins.flatMap(({name})=>name??[]))}shape(view){this.
-view=view}show({joints}){for(const{joint,pin,link,name}of this.pins){const[x,y]=inGround(joints[joint],this.view);put(pin,"cx",px(x));put(pin,"cy",px(y));if(!name)
-continue;const[u,v]=outwards(link.map(each=>inGround(joints[each],this.view)),[x,y]);put(name,"x",px(x+NAME*u));put(name,"y",px(y+NAME*v+4))}}};function outwards(corners,[
-x,y]){const middle2=[0,1].map(k=>corners.reduce((sum,corner)=>sum+corner[k],0)/corners.length);const u=x-middle2[0],v=y-middle2[1],size2=Math.hypot(u,v);return size2>
-1?[u/size2,v/size2]:[0,-1]}var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing,crank:Nothing};var LETTER2=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER2*
+reprint",()=>{printing=true;for(const pace of paces)if(pace.wanted())pace.now()});addEventListener("afterprint",()=>printing=false)}var LETTER=7.2;var HEIGHT=14;var REST=80;var MANY=60;var OUTSIDE=500;var HABIT=6;var MISLEADING=60;var SAME=2;function around(text,toward,distance,few=false){const half=(LETTER*
 text.length+4)/2,places=[],count=few?8:16;for(let ring=0;ring<(few?1:3);ring+=1){for(let k=0;k<count;k+=1){const turn=(k%2?1:-1)*Math.ceil(k/2)*(2*Math.PI/count),
 angle=toward+turn,away=distance+9*ring;places.push([(away+half-5)*Math.cos(angle),away*Math.sin(angle),3*Math.abs(turn)+14*ring])}}return places}function along(up,width){
 const reach=Math.max(0,width/2-30);return[0,-.5,.5,-1,1].flatMap(share=>[[share*reach,up,8*Math.abs(share)],[share*reach,-up,10+8*Math.abs(share)]])}var NamePlaces=class{timer;constructor(scene){
@@ -311,20 +269,20 @@ names.size>MANY}put(element,x,y,text,places){const before=this.names.get(element
 element,name);this.show(element,name);this.ask()}ask(){clearTimeout(this.timer);if(!this.scene.dragged)this.timer=setTimeout(()=>this.place(),REST)}show(element,{
 x,y,at}){put(element,"text-anchor","middle");put(element,"transform",`translate(${px(x+at[0])} ${px(y-at[1]+4)})`)}place(){if(this.scene.dragged)return;for(const element of[
 ...this.names.keys()])if(!element.isConnected)this.names.delete(element);const{width,height}=this.scene.view;const seen2=[...this.names].filter(([element,{x,y}])=>x>
--20&&y>-20&&x<width+20&&y<height+20&&element.getAttribute("display")!=="none");const taken=this.obstacles.flatMap(fn=>fn()).map(boxOf),stands=new Map;for(let pass=0;pass<
+-20&&y>-20&&x<width+20&&y<height+20&&element.getAttribute("display")!=="none");const taken=this.obstacles.flatMap(fn=>fn()).map(boxOf2),stands=new Map;for(let pass=0;pass<
 (this.areMany?1:2);pass+=1){for(const[element,name]of seen2){stands.delete(element);const others=[...stands.values()];let best={cost:Infinity,at:name.at,box:[0,
 0,0,0]};for(const at of name.places){const box=boxAt(name,at);const habit=at[0]===name.at[0]&&at[1]===name.at[1]?HABIT:0;let cost=at[2]-habit;if(box[0]<2||box[1]<
 2||box[2]>width-2||box[3]>height-2)cost+=OUTSIDE;for(const other of taken)cost+=overlap(box,other);for(const other of others)cost+=SAME*overlap(box,other);const own=awayFrom(
 box,name);if(seen2.some(([,other])=>other!==name&&awayFrom(box,other)<own+1))cost+=MISLEADING;if(cost<best.cost)best={cost,at,box}}name.at=best.at;stands.set(element,
-best.box)}}for(const[element,name]of seen2)this.show(element,name)}};var boxOf=([x,y,width,height])=>[x-width/2,y-height/2,x+width/2,y+height/2];var boxAt=({x,y,
-text},at)=>boxOf([x+at[0],y-at[1],LETTER2*text.length+4,HEIGHT]);var awayFrom=(box,{x,y})=>Math.hypot(Math.max(box[0]-x,0,x-box[2]),Math.max(box[1]-y,0,y-box[3]));
+best.box)}}for(const[element,name]of seen2)this.show(element,name)}};var boxOf2=([x,y,width,height])=>[x-width/2,y-height/2,x+width/2,y+height/2];var boxAt=({x,
+y,text},at)=>boxOf2([x+at[0],y-at[1],LETTER*text.length+4,HEIGHT]);var awayFrom=(box,{x,y})=>Math.hypot(Math.max(box[0]-x,0,x-box[2]),Math.max(box[1]-y,0,y-box[3]));
 function overlap(one,other){const across=Math.min(one[2],other[2])-Math.max(one[0],other[0]),down=Math.min(one[3],other[3])-Math.max(one[1],other[1]);return across>
 0&&down>0?across*down:0}var LAYERS=["grid","regions","ghosts","map","curves","paths","mechanism","limits","pivots","poses","labels","tool"];var MARGIN=46;var ZOOM=1.0018;var WIDEST2=1e6;
-var CLICK=4;var RAW=8;var SPARE2=.5;var Scene=class{view;constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],
-tool:[],dropped:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get("g\
-rid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow ke\
-ys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin={
-scale:1,left:320,top:240};this.isFitted=true;this.pointers=new Map;this.boxes=[];this.names=new NamePlaces(this);this.update();this.listen();store.on("document",
+var CLICK=4;var RAW=8;var Scene=class{view;constructor(store,{zoomKey=false}={}){this.store=store;this.zoomKey=zoomKey;this.listeners={view:[],click:[],tool:[],
+dropped:[],closer:[]};this.tool=null;this.dragged=null;this.layers=new Map(LAYERS.map(name=>[name,s("g",{class:`bs-layer bs-layer-${name}`})]));this.layers.get(
+"grid").setAttribute("aria-hidden","true");this.svg=s("svg",{class:"bs-scene",tabindex:0,role:"group","aria-label":"The plane: poses, linkage and limits. Arrow \
+keys pan, plus and minus zoom, 0 fits."},...this.layers.values());this.element=h("div",{class:"bs-plane"},this.svg);this.size={width:640,height:480};this.origin=
+{scale:1,left:320,top:240};this.isFitted=true;this.pointers=new Map;this.boxes=[];this.names=new NamePlaces(this);this.update();this.listen();store.on("document",
 ()=>this.unit===store.document.length_unit||this.grid());new ResizeObserver(()=>this.resize()).observe(this.element);addEventListener("scroll",()=>this.box=null,
 {capture:true,passive:true})}layer(name){return this.layers.get(name)}on(name,fn){this.listeners[name].push(fn)}emit(name,...values){return this.listeners[name].
 map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){this.boxes.push({fn,far})}update(){const{width,height}=this.size,{scale,left,top}=this.origin;this.view=
@@ -332,27 +290,27 @@ map(fn=>fn(...values)).some(Boolean)}hold(fn,far=false){this.boxes.push({fn,far}
 isFitted?this.isWhole?"all":"near":""});this.grid();this.emit("view",this.view)}resize(){this.box=null;const{width,height}=this.svg.getBoundingClientRect();if(!width||
 !height||width===this.size.width&&height===this.size.height)return;this.origin={...this.origin,left:this.origin.left+(width-this.size.width)/2,top:this.origin.top+
 (height-this.size.height)/2};this.size={width,height};put(this.svg,"viewBox",`0 0 ${width} ${height}`);if(this.isFitted)this.fit(this.isWhole);else this.update()}pan(dx,dy){
-this.isFitted=false;this.origin={...this.origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted=this.fittedScale??this.
-origin.scale;const scale=clamp(this.origin.scale*factor,fitted/WIDEST2,fitted*WIDEST2),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,left:X+
-by*(this.origin.left-X),top:Y+by*(this.origin.top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far:far2})=>far2===isFar).flatMap(
-({fn})=>fn());const near2=pointsOf(false),far=pointsOf(true),all=bounds([...near2,...far]);let[x,y,u,v]=near2.length&&!whole?bounds(near2):Number.isFinite(all[0])?
-all:[-50,-50,50,50];const size2=Math.max(u-x,v-y)||Math.max(1,Math.abs(u),Math.abs(v));if(near2.length&&far.length&&!whole){const reach=SPARE2*size2;[x,y,u,v]=[
-Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(all[2],u+reach),Math.min(all[3],v+reach)]}this.isWhole=whole;const{width,height}=this.size,margin=Math.
-min(MARGIN,width/8);const scale=Math.min((width-2*margin)/Math.max(u-x,.1*size2),(height-2*margin)/Math.max(v-y,.1*size2));this.fittedScale=scale;this.origin={scale,
-left:width/2-scale*(x+u)/2,top:height/2+scale*(y+v)/2};this.isFitted=true;this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}grid(){const{view}=this,
-{width,height}=view,group=this.layer("grid");const name=this.unit=this.store.document.length_unit,unit2=name?` ${name}`:"";const across=ticks(view.x(0),view.x(width),
-width/110),up=ticks(view.y(height),view.y(0),height/80);const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`M0 ${px(view.Y(at))}\
-H${width}`)];const origin=`M${px(clamp(view.X(0),-9,width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(s("path",{class:"\
-bs-grid-line",d:lines.join("")}),s("path",{class:"bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit2?54:30)).map(({at,text})=>s(
-"text",{x:px(view.X(at)),y:height-6,"text-anchor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s("text",{x:6,y:px(
-view.Y(at)-4)},text)),s("text",{x:6,y:14},`y${unit2}`),s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit2}`))}get grain(){return 10**Math.floor(Math.
-log10(.35/this.view.scale))}rounded(value){const{grain}=this,digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*grain).toFixed(
-digits))+0}get step(){const[x,y,u,v]=bounds(this.store.document.poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.isFinite(span)&&
-span>0?10**Math.floor(Math.log10(span/50)):1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();if(!this.dragged)requestAnimationFrame(()=>this.dragged||
-(this.box=null))}const{left,top}=this.box,X=event.clientX-left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{start=()=>true,move,
-end=()=>{},cancel=()=>{},click=()=>{}}){element.addEventListener("pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.preventDefault();
-event.stopPropagation();element.focus?.({preventScroll:true});const from=this.at(event),ended=new AbortController,{signal}=ended;let begun=false;const stop=finish=>{
-ended.abort();this.dragged=this.box=null;this.svg.classList.remove("bs-grasped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(
+this.isFitted=false;this.origin={...this.origin,left:this.origin.left+dx,top:this.origin.top+dy};this.update()}zoom(factor,X,Y){const fitted2=this.fittedScale??
+this.origin.scale;const scale=clamp(this.origin.scale*factor,fitted2/WIDEST2,fitted2*WIDEST2),by=scale/this.origin.scale;this.isFitted=false;this.origin={scale,
+left:X+by*(this.origin.left-X),top:Y+by*(this.origin.top-Y)};this.update()}fit(whole=false){const pointsOf=isFar=>this.boxes.filter(({far})=>far===isFar).flatMap(
+({fn})=>fn());this.isWhole=whole;this.isFitted=true;this.fitBox(fitted(pointsOf(false),pointsOf(true),whole))}fitBox(box){const[x,y,u,v]=Number.isFinite(box[0])?
+box:[-50,-50,50,50],size2=.1*(Math.max(u-x,v-y)||Math.max(1,Math.abs(u),Math.abs(v)));const{width,height}=this.size,wide=Math.max(0,size2-u+x)/2,high=Math.max(0,
+size2-v+y)/2;const{scale,left,top}=viewOf([x-wide,y-high,u+wide,v+high],width,height,Math.min(MARGIN,width/8));this.fittedScale=scale;this.origin={scale,left,top};
+this.update()}fitAgain(){this.fit(this.isFitted&&!this.isWhole)}closeUp(points){this.isFitted=false;this.fitBox(bounds(points))}reveal(point2){const{view}=this,
+margin=Math.min(MARGIN,view.width/8);this.closeUp([point2,[view.x(margin),view.y(margin)],[view.x(view.width-margin),view.y(view.height-margin)]])}grid(){const{
+view}=this,{width,height}=view,group=this.layer("grid");const name=this.unit=this.store.document.length_unit,unit2=name?` ${name}`:"";const across=ticks(view.x(
+0),view.x(width),width/110),up=ticks(view.y(height),view.y(0),height/80);const lines=[...across.map(({at})=>`M${px(view.X(at))} 0V${height}`),...up.map(({at})=>`\
+M0 ${px(view.Y(at))}H${width}`)];const origin=`M${px(clamp(view.X(0),-9,width+9))} 0V${height}M0 ${px(clamp(view.Y(0),-9,height+9))}H${width}`;group.replaceChildren(
+s("path",{class:"bs-grid-line",d:lines.join("")}),s("path",{class:"bs-grid-axis",d:origin}),...across.filter(({at})=>view.X(at)>46&&view.X(at)<width-(unit2?54:30)).
+map(({at,text})=>s("text",{x:px(view.X(at)),y:height-6,"text-anchor":"middle"},text)),...up.filter(({at})=>view.Y(at)>30&&view.Y(at)<height-24).map(({at,text})=>s(
+"text",{x:6,y:px(view.Y(at)-4)},text)),s("text",{x:6,y:14},`y${unit2}`),s("text",{x:width-6,y:height-6,"text-anchor":"end"},`x${unit2}`))}get grain(){return 10**
+Math.floor(Math.log10(.35/this.view.scale))}rounded(value){const{grain}=this,digits=clamp(-Math.round(Math.log10(grain)),0,12);return Number((Math.round(value/grain)*
+grain).toFixed(digits))+0}get step(){const[x,y,u,v]=bounds(this.store.document.poses.map(pose=>[pose.x??0,pose.y??0]));const span=Math.hypot(u-x,v-y);return Number.
+isFinite(span)&&span>0?10**Math.floor(Math.log10(span/50)):1}at(event){if(!this.box){this.box=this.svg.getBoundingClientRect();if(!this.dragged)requestAnimationFrame(
+()=>this.dragged||(this.box=null))}const{left,top}=this.box,X=event.clientX-left,Y=event.clientY-top;return{X,Y,x:this.view.x(X),y:this.view.y(Y)}}drag(element,{
+start=()=>true,move,end=()=>{},cancel=()=>{},click=()=>{}}){element.addEventListener("pointerdown",event=>{if(event.button!==0||this.tool||this.dragged)return;event.
+preventDefault();event.stopPropagation();element.focus?.({preventScroll:true});const from=this.at(event),ended=new AbortController,{signal}=ended;let begun=false;
+const stop=finish=>{ended.abort();this.dragged=this.box=null;this.svg.classList.remove("bs-grasped");if(this.svg.hasPointerCapture?.(event.pointerId))this.svg.releasePointerCapture(
 event.pointerId);finish();this.emit("dropped")};this.dragged={cancel:()=>stop(()=>begun&&cancel())};this.capture(event);const on=(name,fn)=>this.svg.addEventListener(
 name,each=>each.pointerId===event.pointerId&&fn(each),{signal});let last=from,then=event.timeStamp;const go=each=>{const point2=this.at(each);if(point2.X===last.
 X&&point2.Y===last.Y)return;last=point2;then=each.timeStamp;if(!begun){if(Math.hypot(point2.X-from.X,point2.Y-from.Y)<CLICK)return;begun=start(from,event)!==false;
@@ -373,64 +331,11 @@ if(!held)return;this.pointers.delete(event.pointerId);this.svg.classList.remove(
 hover?.(null);else if(held.panned)this.tool?.release?.(point2,held);else if(held.button===0)this.tool?this.tool.click(point2,event):this.emit("click",point2,event)}key(event){
 if(event.target!==this.svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,
 0],ArrowRight:[-by,0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,
-width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else return;event.preventDefault()}};var bounds=points=>points.
-reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?[Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var Kept=class{constructor(group,make,show){
-this.group=group;this.make=make;this.show=show;this.elements=new Map}draw(items){const kept=new Map;for(const[key,item]of items){const element=this.elements.get(
-key)??this.make(key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.elements)if(!kept.has(key))element.remove();let before=null;
-for(const element of kept.values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==next||element.parentNode!==this.group)this.group.insertBefore(
-element,next);before=element}this.elements=kept}};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM=14;var NAME2=14;var LONGEST_NAME2=18;var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
-0,1],ArrowDown:[0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);var strideOf=({poses},scale)=>{
-const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);return poses.length<=FEW?1:Math.ceil(poses.length/clamp(scale*
-length/ROOM,FEW,MOST))};function drawnPoses({document:document2,selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)
-return all;const stride=strideOf(document2,scale),chosen=selection?.kind==="pose"?selection.index:-1;return all.filter(k=>k%stride===0||k===count-1||k===chosen)}
-var PoseHandles=class{constructor(store,scene){this.store=store;this.scene=scene;this.element=scene.layer("poses");this.names=scene.layer("labels");this.kept=new Kept(
-this.element,k=>this.make(k),(group,k)=>this.show(group,k));this.labels=new Kept(this.names,()=>s("text",{class:"bs-pose-name"}),(text,k)=>this.showName(text,k));
-store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>store.document.poses.map((_,k)=>standing(store.document,k)).map(({
-x,y})=>[x,y]));scene.on("click",()=>store.select(null));scene.names.avoid(()=>this.obstacles());this.draw()}get arm(){const{document:document2}=this.store,{scale}=this.
-scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].x,y-places[k].
-y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):LONGEST_ARM}draw(){this.length=this.scene.dragged?this.length??
-this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.draw(poses);this.labels.draw(poses.length>FEW&&isPath(this.store.
-document)?[]:poses)}make(k){const origin=s("g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"\
-bs-dot",r:5.5}));const turn=s("g",{class:"bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",{class:"bs-hold",
-r:12}),s("circle",{class:"bs-tip",r:5}));const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);this.dragTurn(turn,
-k);for(const part of[origin,turn])part.addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydown",event=>this.key(
-event,k,false));turn.addEventListener("keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
-document,k),pose=store.document.poses[k];const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit2=store.document.length_unit??"",name=poseName(
-store.document,k);const point2=isPoint(pose);if(!isOther(group,[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit2,selected,point2]))return;const[
-arrow2,origin,turn]=group.children;put(group,"transform",transform(view.X(x),view.Y(y),point2?0:radians(angle)));for(const part of[arrow2,turn])put(part,"displa\
-y",point2?"none":"inline");group.classList.toggle("bs-point",point2);put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(this.length)} 0)`);
-group.classList.toggle("bs-selected",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const what=point2?"Point":"Pose",called=pose.name?`${what}\
- ${k+1}, ${name}`:`${what} ${k+1}`;put(origin,"aria-label",`${called}: x ${x} ${unit2}, y ${y} ${unit2}, ${point2?"angle free":`angle ${angle}°`}. Drag, or use\
- the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria\
--valuetext",`${angle}°`)}obstacles(){const{store,scene:{view},length}=this,boxes=[];for(const k of drawnPoses(store,view.scale)){const{x,y,angle}=standing(store.
-document,k),a=radians(angle),[c,d]=[Math.cos(a),Math.sin(a)];const at=(along2,across,size2)=>boxes.push([view.X(x)+along2*c-across*d,view.Y(y)-along2*d-across*c,
-size2,size2]);at(0,0,13);if(isPoint(store.document.poses[k]))continue;at(length,0,12);at(LETTER,-LETTER,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[
-.3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName(
-store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(
-angle+215),NAME2,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
-const{store,scene}=this;let gesture,off,before,reach;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-
-from.x,y-from.y];before=store.document;reach=isPath(before)?strideOf(before,scene.view.scale):1},move:point2=>reach>1?this.bend(before,k,reach,[point2.x+off[0]-
-before.poses[k].x,point2.y+off[1]-before.poses[k].y],gesture):this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(point2.y+off[1])},gesture),cancel:()=>store.
-abandon(gesture)})}bend({poses,path:path2},k,reach,[dx,dy],gesture){const count=poses.length;const moved=poses.map((pose,j)=>{const away=path2?.closed?Math.min(
-Math.abs(j-k),count-Math.abs(j-k)):Math.abs(j-k),share=1-away/reach;return share>0?{...pose,x:this.scene.rounded(pose.x+share*dx),y:this.scene.rounded(pose.y+share*
-dy)}:pose});this.store.edit(document2=>({...document2,poses:moved}),{gesture})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point2=>{
-const{x,y}=standing(store.document,k);return degrees(Math.atan2(point2.y-y,point2.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(
-store.document,k).angle-angleTo(from)},move:point2=>this.set(k,{angle:tenths(unwrapped(angleTo(point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.
-abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.
-keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===
-0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key===
-"Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);
-this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PointTool=class{constructor(store,scene){
-this.store=store;this.scene=scene;this.name="point";this.hint="Click where the body's point is to pass; how the body turns there is free. Escape ends."}click({x,
-y}){const{store,scene}=this,index=store.document.poses.length;store.edit(document2=>setAngle(addPose(document2,{x:scene.rounded(x),y:scene.rounded(y)}),index,void 0));
-store.select({kind:"pose",index})}key(event){if(event.key!=="Escape")return false;this.scene.use(null);return true}};var PoseTool=class{constructor(store,scene){
-this.store=store;this.scene=scene;this.name="pose";this.gesture=null;this.hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){
-const{store,scene}=this;if(this.gesture){this.turn(point2);this.gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.findLast(
-pose=>Number.isFinite(pose.angle))?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.
-gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point2){if(this.gesture&&point2)this.turn(point2)}turn(point2){const{store,gesture}=this,
-k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point2.x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(
-unwrapped(degrees(Math.atan2(point2.y-y,point2.x-x)),angle));store.edit(document2=>setPose(document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escap\
-e")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.use(null);return true}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along2=minus(
+width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else if(event.key==="z")this.emit("closer");else
+return;event.preventDefault()}};var Kept=class{constructor(group,make,show){this.group=group;this.make=make;this.show=show;this.elements=new Map}draw(items){const kept=new Map;
+for(const[key,item]of items){const element=this.elements.get(key)??this.make(key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.
+elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==
+next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=element}this.elements=kept}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along2=minus(
 end,start),away=minus(point2,start),square=along2[0]**2+along2[1]**2;const share=square>0?Math.min(1,Math.max(0,(along2[0]*away[0]+along2[1]*away[1])/square)):0;
 return size(minus(away,[share*along2[0],share*along2[1]]))}var boxCorners=([[a,b],[c,d]])=>[[a,b],[c,b],[c,d],[a,d]];var outlineOf=(shape,points)=>shape==="box"?
 boxCorners(points):points;function isInside([x,y],corners){let inside2=false;corners.forEach(([a,b],k)=>{const[c,d]=corners[(k+1)%corners.length];if(b>y!==d>y&&
@@ -441,7 +346,7 @@ size(along2)}const corners=outlineOf(shape,points);if(isInside(point2,corners))r
 b)<0};var edges=corners=>corners.map((corner,k)=>[corner,corners[(k+1)%corners.length]]);function overlap2(one,other){if(isInside(one[0],other)||isInside(other[0],
 one))return true;return edges(one).some(([a,b])=>edges(other).some(([c,d])=>crosses(a,b,c,d)))}function segmentFromPolygon([start,end],corners){if(isInside(start,
 corners)||edges(corners).some(([c,d])=>crosses(start,end,c,d)))return 0;return Math.min(...edges(corners).map(([c,d])=>Math.min(fromSegment(start,c,d),fromSegment(
-end,c,d),fromSegment(c,start,end),fromSegment(d,start,end))))}var ARROWS2={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var LEAST_CORNERS=3;var CLOSED=new Set(["box","polygon"]);var GROUND={x:0,y:0,a:0};
+end,c,d),fromSegment(c,start,end),fromSegment(d,start,end))))}var ARROWS={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var LEAST_CORNERS=3;var CLOSED=new Set(["box","polygon"]);var GROUND={x:0,y:0,a:0};
 function pathOf(shape,points,place,view){const seen2=outlineOf(shape,points).map(point2=>act(place,point2)).map(([x,y])=>[view.X(x),view.Y(y)]);if(shape==="poin\
 t")return`M${px(seen2[0][0]-7)} ${px(seen2[0][1])}h14m-7 -7v14`;if(shape==="line"){const[[a,b],[c,d]]=seen2,size2=Math.hypot(c-a,d-b)||1,far=view.width+view.height+
 Math.hypot(a,b);const[u,v]=[far*(c-a)/size2,far*(d-b)/size2];return`M${px(a-u)} ${px(b-v)}L${px(c+u)} ${px(d+v)}`}return`M${seen2.map(point2=>point2.map(px).join(
@@ -473,7 +378,7 @@ slice(k+1)],gesture)},move:point2=>this.set(withCorner("polygon",this.now.points
 const corner=outlineOf(this.now.shape,this.now.points)[k];for(const[name,value]of Object.entries(this.at(corner)))put(element,name,value);put(element,"aria-labe\
 l",`Corner ${k+1} of ${this.now.name}: ${corner.join(", ")}`)}showMiddle(element,k){const{points}=this.now,next=points[(k+1)%points.length];const middle2=this.at(
 [(points[k][0]+next[0])/2,(points[k][1]+next[1])/2]);for(const[name,value]of Object.entries(middle2))put(element,name,value)}keys(event,moved,remove){if(event.ctrlKey||
-event.metaKey)return;const arrow2=ARROWS2[event.key];if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(
+event.metaKey)return;const arrow2=ARROWS[event.key];if(arrow2){if(!event.repeat)this.keyed=Symbol("keys");const by=stepOf(event,this.scene.step);this.set(moved(
 this.now.points,[by*arrow2[0],by*arrow2[1]]),this.keyed)}else if(event.key==="Delete"||event.key==="Backspace"){remove()}else{return}event.preventDefault();event.
 stopPropagation()}};var CLOSE=12;var PAIRS=new Set(["segment","line","box"]);var HINTS={point:"Click the point. Enter puts it in the middle, Escape gives up.",segment:"Click both e\
 nds. Enter puts one in the middle, Escape gives up.",line:"Click two points of the line. Enter puts one in the middle, Escape gives up.",box:"Drag from corner t\
@@ -495,23 +400,21 @@ key==="Enter"&&!this.points.length)this.finish(this.inMiddle());else if(event.ke
 draw();return true}draw(){const{scene:{view},shape}=this,shown2=this.dragging??[...this.points,...this.next?[this.next]:[]];const place=this.place(),whole=shape===
 "polygon"?"open polygon":shape;const complete=shown2.length>1||shape==="point";put(this.path,"d",complete&&shown2.length?pathOf(whole,shown2,place,view):"");this.
 dots.replaceChildren(...(this.dragging??this.points).map(point2=>act(place,point2)).map(([x,y],k)=>s("circle",{class:k?"bs-draft-dot":"bs-draft-dot bs-first",r:4,
-cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var MOST_GHOSTS=60;var PALEST2=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.
-poses.length)store.reference=selection.index;return Math.min(store.reference??0,document2.poses.length-1)}function referencePlace(store){const k=referenceIndex(
-store);if(k<0)return{x:0,y:0,a:0};const{x,y,angle}=standing(store.document,k);return{x,y,a:radians(angle)}}var BodyEditor=class{constructor(store,scene){this.store=
-store;this.scene=scene;this.ghosts=new Kept(s("g",{class:"bs-ghosts","aria-hidden":"true"}),()=>s("path",{class:"bs-ghost"}),(path2,item)=>this.showGhost(path2,
-item));scene.layer("ghosts").append(this.ghosts.group);this.handles=new ShapeHandles(scene,{className:"bs-body-shape",what:()=>({shape:"polygon",points:bodyOf(store.
-document),place:referencePlace(store),name:"Outline of the body",selected:store.selection?.kind==="body",data:{body:""}}),set:(points,gesture)=>store.edit(document2=>setBody(
-document2,points),{gesture}),remove:()=>store.edit(document2=>setBody(document2,[])),select:()=>store.select({kind:"body",index:0}),abandon:gesture=>store.abandon(
-gesture)});store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>this.corners(),true);this.draw()}corners(){const body=bodyOf(
-this.store.document);return this.indices().flatMap(k=>{const{x,y,angle}=standing(this.store.document,k);return body.map(corner=>act({x,y,a:radians(angle)},corner))})}indices(){
-const drawn=drawnPoses(this.store,this.scene.view.scale),stride=Math.ceil(drawn.length/MOST_GHOSTS);return drawn.filter((_,i)=>i%stride===0||i===drawn.length-1)}draw(){
-const body=bodyOf(this.store.document),{scale}=this.scene.view;this.path=body.length?`M${body.map(([x,y])=>`${px(scale*x)} ${px(-scale*y)}`).join("L")}Z`:"";this.
-ghosts.draw(body.length?this.indices().map(k=>[k,k]):[]);if(!body.length||!this.store.document.poses.length)return this.handles.clear();if(!this.handles.element.
-parentNode)this.scene.layer("ghosts").append(this.handles.element);return this.handles.draw()}showGhost(path2,k){const{view}=this.scene,{x,y,angle}=standing(this.
-store.document,k),last=Math.max(1,this.store.document.poses.length-1);if(!isOther(path2,[view,x,y,angle,k/last,this.path]))return;put(path2,"d",this.path);put(path2,
-"opacity",(PALEST2+(1-PALEST2)*k/last).toFixed(3));put(path2,"transform",transform(view.X(x),view.Y(y),radians(angle)))}tool(){return new ShapeTool(this.scene,{
-shape:"polygon",name:"body",place:()=>referencePlace(this.store),done:points=>{this.store.edit(document2=>setBody(document2,points));this.store.select({kind:"bo\
-dy",index:0})}})}};var ROUNDING=1e-6;var MOST_PLACES2=90;var KEYS=["fixed_pivot","moving_pivot"];function currentLinkage(store){if(store.chosen==="placed")return store.placed?.linkage??
+cx:px(view.X(x)),cy:px(view.Y(y))})))}end(){this.element.remove()}};var PALEST2=.4;function referenceIndex(store){const{selection,document:document2}=store;if(selection?.kind==="pose"&&selection.index<document2.poses.length)store.
+reference=selection.index;return Math.min(store.reference??0,document2.poses.length-1)}function referencePlace(store){const k=referenceIndex(store);if(k<0)return{
+x:0,y:0,a:0};const{x,y,angle}=standing(store.document,k);return{x,y,a:radians(angle)}}var BodyEditor=class{constructor(store,scene){this.store=store;this.scene=
+scene;this.ghosts=new Kept(s("g",{class:"bs-ghosts","aria-hidden":"true"}),()=>s("path",{class:"bs-ghost"}),(path2,item)=>this.showGhost(path2,item));scene.layer(
+"ghosts").append(this.ghosts.group);this.handles=new ShapeHandles(scene,{className:"bs-body-shape",what:()=>({shape:"polygon",points:bodyOf(store.document),place:referencePlace(
+store),name:"Outline of the body",selected:store.selection?.kind==="body",data:{body:""}}),set:(points,gesture)=>store.edit(document2=>setBody(document2,points),
+{gesture}),remove:()=>store.edit(document2=>setBody(document2,[])),select:()=>store.select({kind:"body",index:0}),abandon:gesture=>store.abandon(gesture)});store.
+on("document selection",()=>this.draw());scene.on("view",()=>this.draw());this.draw()}indices(){const{document:{poses},selection}=this.store,chosen=selection?.kind===
+"pose"?selection.index:null;return poses.map((_,k)=>k).filter(k=>hasGhost(k,poses.length)||k===chosen)}draw(){const body=bodyOf(this.store.document),{scale}=this.
+scene.view;this.path=body.length?`M${body.map(([x,y])=>`${px(scale*x)} ${px(-scale*y)}`).join("L")}Z`:"";this.ghosts.draw(body.length?this.indices().map(k=>[k,k]):
+[]);if(!body.length||!this.store.document.poses.length)return this.handles.clear();if(!this.handles.element.parentNode)this.scene.layer("ghosts").append(this.handles.
+element);return this.handles.draw()}showGhost(path2,k){const{view}=this.scene,{x,y,angle}=standing(this.store.document,k),last=Math.max(1,this.store.document.poses.
+length-1);if(!isOther(path2,[view,x,y,angle,k/last,this.path]))return;put(path2,"d",this.path);put(path2,"opacity",(PALEST2+(1-PALEST2)*k/last).toFixed(3));put(
+path2,"transform",transform(view.X(x),view.Y(y),radians(angle)))}tool(){return new ShapeTool(this.scene,{shape:"polygon",name:"body",place:()=>referencePlace(this.
+store),done:points=>{this.store.edit(document2=>setBody(document2,points));this.store.select({kind:"body",index:0})}})}};var ROUNDING=1e-6;var MOST_PLACES2=90;var KEYS=["fixed_pivot","moving_pivot"];function currentLinkage(store){if(store.chosen==="placed")return store.placed?.linkage??
 null;const followed=store.followed?.linkages.find(({id})=>id===store.chosen);if(followed?.led)return followed;if(store.followed?.vanished?.some(({id})=>id===store.
 chosen))return null;return store.solved?.linkages.find(({id})=>id===store.chosen)??null}var PIVOT={fixed_pivot:"fixed pivot",moving_pivot:"moving pivot"};function missed(table3,dyad,slack){
 const found=[];for(const key of KEYS){if(!table3[key])continue;const[[shape,stated]]=Object.entries(table3[key]),points=shape==="point"?[stated]:stated;const away=dyad[key]?
@@ -531,8 +434,8 @@ null);var seen=(body,place)=>body.map(corner=>act(place,corner));function posePl
 function regionsTouched(document2,linkage,body){const places=usedPlaces(linkage),width=document2.surroundings?.link_width??0,margin=document2.surroundings?.margin??
 0;const apart=Math.ceil(document2.poses.length/MOST_PLACES2),some2=[...document2.poses.keys()].filter(k=>k%apart===0);return regionsOf(document2).map(region=>{const corners=regionCorners(
 region);if(!corners)return"";const pose=body.length>2?some2.find(k=>overlap2(seen(body,posePlace(document2,k)),corners)):void 0;if(pose!==void 0)return`The body\
- touches it at pose ${poseName(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap2(seen(body,place),corners)))return"The\
- body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(
+ touches it at pose ${poseName2(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap2(seen(body,place),corners)))return"Th\
+e body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(
 place,dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id}\
  comes nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var KEY2="burmester.studio.key";var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){
 super(messages.map(each=>each.message).join(" ")||`the server answered ${status}`);this.status=status;this.messages=messages}};async function messagesOf(response){
@@ -690,7 +593,102 @@ key,field.element))),this.hint);store.on("document",()=>this.draw());this.draw()
 document2),timed=document2.path?.crank_deg;give(this.element,"hidden",!isOfPoints(document2));if(this.element.hidden)return;say(this.title,path2?`A path of ${count}\
  points${timed?", timed by the crank":""}`:`${count} point${count===1?"":"s"}`);give(this.closed.box,"checked",Boolean(document2.path?.closed));for(const{key,field}of this.
 fields)field.show(document2.tolerance?.[key]||void 0);say(this.hint,path2?"Blank: as near as possible, and of what is about as near the one that transmits best.":
-"Nine points are met exactly by finitely many linkages, all of which are found; more are a path, which is met as nearly as possible.")}};var PAGE=60;var NUMBERS2=[["x","length"],["y","length"],["angle","angle"]];var BOUNDS=[["x","x","length"],["y","y","length"],["angle","angle_deg","angle"]];var oneLine=name=>(name??
+"Nine points are met exactly by finitely many linkages, all of which are found; more are a path, which is met as nearly as possible.")}};var BODY_AXIS=AXIS+10;var LETTER2=14;var TURNING_ARROW="M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";var BLOCK_IN_SLOT=[18,10];var SPARE2=5;var NAME=15;
+var ARROW=24;function mechanism(data,linkage,view,places){const drawn=new Mechanism(linkage);drawn.shape(data,linkage,view,places);return drawn}var Mechanism=class{constructor({
+led,drawn:links=[],ground,names}){this.kinds=kindsOf(led);this.outline=s("path",{class:"bm-body-outline"});this.links=s("g");this.blocks=s("g");this.pins=s("g");
+this.coupler=s("g",{class:"bm-coupler"});this.arrow=s("path",{class:"bm-drive-mark bm-side0"});this.letter=s("text",{class:"bm-letter","text-anchor":"middle"},"\
+M");this.plates=[s("path",{class:"bm-plate-rim"}),s("path",{class:"bm-plate"})];this.coupler.append(...this.plates);this.parts=led.map((dyad,side)=>new PARTS[dyad.
+kind](this,side));if(links.length)this.parts.push(...links.map(link=>new JointedLink(this,link)),new Joints(this,ground,names));this.coupler.append(s("path",{class:"\
+bm-body-frame",d:axes(BODY_AXIS)}),s("circle",{class:"bm-origin",r:4}));for(const part of this.parts)if(part.pin)this.coupler.append(part.pin);this.marks=new LoadMarks;
+this.group=s("g",{class:"bm-linkage"},this.arrow,this.links,this.coupler,this.blocks,this.pins,this.marks.group,links.length?null:this.letter)}fits({led}){return kindsOf(
+led)===this.kinds}shape(data,linkage,view,places){this.view=view;this.led=linkage.led;this.hasBody=Boolean(data.body);if(this.hasBody){put(this.outline,"d",bodyOutline(
+data,view));if(!this.outline.parentNode)this.group.prepend(this.outline)}else{this.outline.remove()}const corners=[[0,0]];linkage.led.forEach((dyad,side)=>{if(dyad.
+moving_pivot)corners.push(inBody(dyad.moving_pivot,view));const more=this.parts[side].shape(dyad,view,places);if(more)corners.push(more)});const d=`M${hull(corners).
+map(corner=>corner.map(px).join(" ")).join("L")}Z`;for(const plate2 of linkage.drawn?[]:this.plates)put(plate2,"d",d);for(const part of this.parts.slice(linkage.
+led.length))part.shape(view);this.marks.shape(data,linkage,view);this.shapeArrow()}show(place,drive=null){const{view}=this,at=transform(view.X(place.x),view.Y(place.
+y),place.a);this.marks.show(place,drive);put(this.coupler,"transform",at);if(this.hasBody)put(this.outline,"transform",at);for(const part of this.parts)part.show(
+place);const[x,y]=act(place,[LETTER2/view.scale,-LETTER2/view.scale]);put(this.letter,"transform",`translate(${px(view.X(x))} ${px(view.Y(y)+4)})`);const[driver]=this.
+led;if(driver.kind==="PR")put(this.arrow,"transform",`${onRail(driver,place,view)} translate(0 ${-ARROW})`)}shapeArrow(){const{arrow:arrow2,view}=this,[driver]=this.
+led;if(driver.kind==="PR")put(arrow2,"d","M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");if(!driver.fixed_pivot)return;const[x,y]=driver.fixed_pivot;put(arrow2,"d",
+TURNING_ARROW);put(arrow2,"transform",`translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`)}};var kindsOf=led=>led.map(dyad=>dyad.kind).join();var inBody=([
+x,y],view)=>[view.scale*x,-view.scale*y];function onRail(dyad,place,view){const[x,y]=act(place,dyad.moving_pivot),[nx,ny]=normalOf(dyad);return transform(view.X(
+x),view.Y(y),Math.atan2(nx,-ny))}var block=(side,width,height)=>s("g",{class:`bm-block bm-side${side}`},s("rect",{x:-width/2,y:-height/2,width,height,rx:2}));function setPin(pin,[
+x,y],dyad){put(pin,"cx",px(x));put(pin,"cy",px(y));put(pin,"data-dyad",dyad.id)}var inGround=([x,y],view)=>[view.X(x),view.Y(y)];var Bar=class{constructor({links,
+pins},side){this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];this.bar=s("g",{class:`bm-link bm-side${side}`},this.strokes);this.ground=s("c\
+ircle",{class:"bm-pin bm-fixed-pin",r:4.5});this.pin=s("circle",{class:"bm-pin",r:4.5});links.append(this.bar);pins.append(this.ground)}shape(dyad,view){this.dyad=
+dyad;this.view=view;for(const stroke of this.strokes)put(stroke,"d",`M0 0H${px(view.scale*dyad.radius)}`);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);
+setPin(this.pin,inBody(dyad.moving_pivot,view),dyad)}show(place){const{dyad,view}=this,[cx,cy]=dyad.fixed_pivot,[x,y]=act(place,dyad.moving_pivot);put(this.bar,
+"transform",transform(view.X(cx),view.Y(cy),Math.atan2(y-cy,x-cx)))}};var BlockOnRail=class{constructor({blocks},side){this.block=block(side,...BLOCK);this.pin=
+s("circle",{class:"bm-pin",r:4.5});blocks.append(this.block)}shape(dyad,view){this.dyad=dyad;this.view=view;put(this.block,"data-dyad",dyad.id);setPin(this.pin,
+inBody(dyad.moving_pivot,view),dyad)}show(place){put(this.block,"transform",onRail(this.dyad,place,this.view))}};var Slot=class{constructor({blocks,pins,coupler},side){
+this.strokes=["rim","plate","edge"].map(name=>s("path",{class:`bm-slot-${name}`}));this.strokes.push(s("path",{class:"bm-slot"}));this.block=block(side,...BLOCK_IN_SLOT);
+this.ground=s("circle",{class:"bm-pin bm-fixed-pin",r:4});coupler.append(...this.strokes);blocks.append(this.block);pins.append(this.ground)}shape(dyad,view,places){
+this.dyad=dyad;this.view=view;const[low,high]=places.length?travelOf(dyad,places):[0,0],end=(BLOCK_IN_SLOT[0]/2+SPARE2)/view.scale;const seen2=along2=>inBody(pointOnLine(
+dyad,along2),view);const d=`M${[seen2(low-end),seen2(high+end)].map(each=>each.map(px).join(" ")).join("L")}`;for(const stroke of this.strokes)put(stroke,"d",d);
+for(const part of[this.strokes[3],this.block])put(part,"data-dyad",dyad.id);setPin(this.ground,inGround(dyad.fixed_pivot,view),dyad);return seen2((low+high)/2)}show(place){
+const{dyad,view}=this,[nx,ny]=normalOf(dyad),[cx,cy]=dyad.fixed_pivot;put(this.block,"transform",transform(view.X(cx),view.Y(cy),place.a+Math.atan2(nx,-ny)))}};
+var JointedLink=class{constructor({links},{joints,kind}){this.joints=[...joints];this.strokes=[s("path",{class:"bm-bar"}),s("path",{class:"bm-core"})];links.append(
+s("g",{class:`bm-link bm-${kind}${joints.length>2?" bm-ternary":""}`,"data-link":joints.replace("M","")},this.strokes))}shape(view){this.view=view}show(place){const d=`\
+M${this.joints.map(joint=>inGround(place.joints[joint]??[place.x,place.y],this.view).map(px).join(" ")).join("L")}${this.joints.length>2?"Z":""}`;for(const stroke of this.
+strokes)put(stroke,"d",d)}};var Joints=class{constructor({pins},ground,names){this.pins=[...Object.keys(ground),...Object.keys(names)].map(joint=>{const pin=s("\
+circle",{class:`bm-pin${joint in ground?" bm-fixed-pin":""}`,r:4.5,"data-joint":joint});return{joint,pin,link:[...names[joint]??""],name:joint in ground?null:s(
+"text",{class:"bm-name","text-anchor":"middle"},joint)}});pins.append(...this.pins.map(({pin})=>pin),...this.pins.flatMap(({name})=>name??[]))}shape(view){this.
+view=view}show({joints}){for(const{joint,pin,link,name}of this.pins){const[x,y]=inGround(joints[joint],this.view);put(pin,"cx",px(x));put(pin,"cy",px(y));if(!name)
+continue;const[u,v]=outwards(link.map(each=>inGround(joints[each],this.view)),[x,y]);put(name,"x",px(x+NAME*u));put(name,"y",px(y+NAME*v+4))}}};function outwards(corners,[
+x,y]){const middle2=[0,1].map(k=>corners.reduce((sum,corner)=>sum+corner[k],0)/corners.length);const u=x-middle2[0],v=y-middle2[1],size2=Math.hypot(u,v);return size2>
+1?[u/size2,v/size2]:[0,-1]}var Nothing=class{shape(){}show(){}};var PARTS={RR:Bar,PR:BlockOnRail,RP:Slot,PP:Nothing,crank:Nothing};var LONGEST_ARM=46;var SHORTEST_ARM=27;var FEW=24;var MOST=240;var ROOM2=14;var NAME2=14;var LONGEST_NAME2=18;var ARROWS2={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[
+0,1],ArrowDown:[0,-1]};var tenths=angle=>Number(angle.toFixed(1))+0;var unwrapped=(angle,near2)=>angle+360*Math.round((near2-angle)/360);var strideOf=({poses},scale)=>{
+const length=poses.slice(1).reduce((sum,{x,y},k)=>sum+(Math.hypot(x-poses[k].x,y-poses[k].y)||0),0);return poses.length<=FEW?1:Math.ceil(poses.length/clamp(scale*
+length/ROOM2,FEW,MOST))};function drawnPoses({document:document2,selection},scale){const{poses}=document2,count=poses.length,all=[...poses.keys()];if(count<=FEW)
+return all;const stride=strideOf(document2,scale),chosen=selection?.kind==="pose"?selection.index:-1;return all.filter(k=>k%stride===0||k===count-1||k===chosen)}
+var PoseHandles=class{constructor(store,scene){this.store=store;this.scene=scene;this.element=scene.layer("poses");this.names=scene.layer("labels");this.kept=new Kept(
+this.element,k=>this.make(k),(group,k)=>this.show(group,k));this.labels=new Kept(this.names,()=>s("text",{class:"bs-pose-name"}),(text,k)=>this.showName(text,k));
+store.on("document selection",()=>this.draw());scene.on("view",()=>this.draw());scene.hold(()=>store.document.poses.map((_,k)=>standing(store.document,k)).map(({
+x,y})=>[x,y]));scene.on("click",()=>store.select(null));scene.names.avoid(()=>this.obstacles());this.draw()}get arm(){const{document:document2}=this.store,{scale}=this.
+scene.view,places=drawnPoses(this.store,scale).map(k=>standing(document2,k));const away=places.slice(1).map(({x,y},k)=>scale*Math.hypot(x-places[k].x,y-places[k].
+y)).sort((a,b)=>a-b);return away.length?clamp(1.2*away[away.length>>1],SHORTEST_ARM,LONGEST_ARM):LONGEST_ARM}draw(){this.length=this.scene.dragged?this.length??
+this.arm:this.arm;const poses=drawnPoses(this.store,this.scene.view.scale).map(k=>[k,k]);this.kept.draw(poses);this.labels.draw(poses.length>FEW&&isPath(this.store.
+document)?[]:poses)}make(k){const origin=s("g",{class:"bs-origin","data-pose":k+1,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:12}),s("circle",{class:"\
+bs-dot",r:5.5}));const turn=s("g",{class:"bs-turn","data-turn":k+1,tabindex:0,role:"slider","aria-valuemin":-360,"aria-valuemax":360},s("circle",{class:"bs-hold",
+r:12}),s("circle",{class:"bs-tip",r:5}));const group=s("g",{class:"bs-pose"},s("path",{class:"bs-axes"}),origin,turn);this.dragOrigin(origin,k);this.dragTurn(turn,
+k);for(const part of[origin,turn])part.addEventListener("focus",()=>this.store.select({kind:"pose",index:k}));origin.addEventListener("keydown",event=>this.key(
+event,k,false));turn.addEventListener("keydown",event=>this.key(event,k,true));return group}show(group,k){const{store,scene:{view}}=this,{x,y,angle}=standing(store.
+document,k),pose=store.document.poses[k];const selected=store.selection?.kind==="pose"&&store.selection.index===k,unit2=store.document.length_unit??"",name=poseName2(
+store.document,k);const point2=isPoint2(pose);if(!isOther(group,[view,this.length,x,y,angle,Boolean(pose.exact),pose.name,name,unit2,selected,point2]))return;const[
+arrow2,origin,turn]=group.children;put(group,"transform",transform(view.X(x),view.Y(y),point2?0:radians(angle)));for(const part of[arrow2,turn])put(part,"displa\
+y",point2?"none":"inline");group.classList.toggle("bs-point",point2);put(arrow2,"d",axes(this.length-8));put(turn,"transform",`translate(${px(this.length)} 0)`);
+group.classList.toggle("bs-selected",selected);group.classList.toggle("bs-exact",Boolean(pose.exact));const what=point2?"Point":"Pose",called=pose.name?`${what}\
+ ${k+1}, ${name}`:`${what} ${k+1}`;put(origin,"aria-label",`${called}: x ${x} ${unit2}, y ${y} ${unit2}, ${point2?"angle free":`angle ${angle}°`}. Drag, or use\
+ the arrow keys; Delete removes it.`);put(origin,"aria-pressed",selected);put(turn,"aria-label",`Turn ${called}`);put(turn,"aria-valuenow",angle);put(turn,"aria\
+-valuetext",`${angle}°`)}obstacles(){const{store,scene:{view},length}=this,boxes=[];for(const k of drawnPoses(store,view.scale)){const{x,y,angle}=standing(store.
+document,k),a=radians(angle),[c,d]=[Math.cos(a),Math.sin(a)];const at=(along2,across,size2)=>boxes.push([view.X(x)+along2*c-across*d,view.Y(y)-along2*d-across*c,
+size2,size2]);at(0,0,13);if(isPoint2(store.document.poses[k]))continue;at(length,0,12);at(LETTER2,-LETTER2,12);for(const share of[.35,.7])at(share*length,0,6);for(const share of[
+.3,.6])at(0,share*(length-8),6)}return boxes}showName(text,k){const{store,scene}=this,{view}=scene,{x,y,angle}=standing(store.document,k),name=shortened(poseName2(
+store.document,k),LONGEST_NAME2);if(!isOther(text,[view,x,y,angle,name]))return;say(text,name);scene.names.put(text,view.X(x),view.Y(y),name,around(name,radians(
+angle+215),NAME2,scene.names.areMany))}set(k,changes,gesture){this.store.edit(document2=>setPose(document2,k,statedOf(document2.poses[k],changes)),{gesture})}dragOrigin(element,k){
+const{store,scene}=this;let gesture,off,before,reach;scene.drag(element,{start:from=>{const{x,y}=standing(store.document,k);gesture=Symbol("move a pose");off=[x-
+from.x,y-from.y];before=store.document;reach=isPath(before)?strideOf(before,scene.view.scale):1},move:point2=>reach>1?this.bend(before,k,reach,[point2.x+off[0]-
+before.poses[k].x,point2.y+off[1]-before.poses[k].y],gesture):this.set(k,{x:scene.rounded(point2.x+off[0]),y:scene.rounded(point2.y+off[1])},gesture),cancel:()=>store.
+abandon(gesture)})}bend({poses,path:path2},k,reach,[dx,dy],gesture){const count=poses.length;const moved=poses.map((pose,j)=>{const away=path2?.closed?Math.min(
+Math.abs(j-k),count-Math.abs(j-k)):Math.abs(j-k),share=1-away/reach;return share>0?{...pose,x:this.scene.rounded(pose.x+share*dx),y:this.scene.rounded(pose.y+share*
+dy)}:pose});this.store.edit(document2=>({...document2,poses:moved}),{gesture})}dragTurn(element,k){const{store,scene}=this;let gesture,off;const angleTo=point2=>{
+const{x,y}=standing(store.document,k);return degrees(Math.atan2(point2.y-y,point2.x-x))};scene.drag(element,{start:from=>{gesture=Symbol("turn a pose");off=standing(
+store.document,k).angle-angleTo(from)},move:point2=>this.set(k,{angle:tenths(unwrapped(angleTo(point2)+off,standing(store.document,k).angle))},gesture),cancel:()=>store.
+abandon(gesture)})}key(event,k,turning){const{store,scene}=this,arrow2=ARROWS2[event.key];if(event.ctrlKey||event.metaKey)return;if(arrow2){if(!event.repeat)this.
+keyed=Symbol("keys");const{x,y,angle}=standing(store.document,k),by=stepOf(event,turning?1:scene.step);if(turning)this.set(k,{angle:stepped(angle,by*(arrow2[0]===
+0?arrow2[1]:-arrow2[0]))},this.keyed);else this.set(k,{x:stepped(x,by*arrow2[0]),y:stepped(y,by*arrow2[1])},this.keyed)}else if(event.key==="Delete"||event.key===
+"Backspace"){store.edit(document2=>removePose(document2,k));const left=store.document.poses.length;store.select(left?{kind:"pose",index:Math.min(k,left-1)}:null);
+this.focus(Math.min(k,left-1))}else{return}event.preventDefault()}focus(k){this.element.querySelector(`[data-pose="${k+1}"]`)?.focus({preventScroll:true})}};var PointTool=class{constructor(store,scene){
+this.store=store;this.scene=scene;this.name="point";this.hint="Click where the body's point is to pass; how the body turns there is free. Escape ends."}click({x,
+y}){const{store,scene}=this,index=store.document.poses.length;store.edit(document2=>setAngle(addPose(document2,{x:scene.rounded(x),y:scene.rounded(y)}),index,void 0));
+store.select({kind:"pose",index})}key(event){if(event.key!=="Escape")return false;this.scene.use(null);return true}};var PoseTool=class{constructor(store,scene){
+this.store=store;this.scene=scene;this.name="pose";this.gesture=null;this.hint="Click where the pose is to stand, and click again to turn it. Escape ends."}click(point2){
+const{store,scene}=this;if(this.gesture){this.turn(point2);this.gesture=null;return}this.gesture=Symbol("add a pose");const angle=store.document.poses.findLast(
+pose=>Number.isFinite(pose.angle))?.angle??0;store.edit(document2=>addPose(document2,{x:scene.rounded(point2.x),y:scene.rounded(point2.y),angle}),{gesture:this.
+gesture});store.select({kind:"pose",index:store.document.poses.length-1})}hover(point2){if(this.gesture&&point2)this.turn(point2)}turn(point2){const{store,gesture}=this,
+k=store.document.poses.length-1,{x,y,angle}=standing(store.document,k);const away=Math.hypot(point2.x-x,point2.y-y)*this.scene.view.scale;if(away<6)return;const next=tenths(
+unwrapped(degrees(Math.atan2(point2.y-y,point2.x-x)),angle));store.edit(document2=>setPose(document2,k,{angle:next}),{gesture})}key(event){if(event.key!=="Escap\
+e")return false;if(this.gesture)this.store.abandon(this.gesture);this.gesture=null;this.scene.use(null);return true}};var PAGE=60;var NUMBERS2=[["x","length"],["y","length"],["angle","angle"]];var BOUNDS=[["x","x","length"],["y","y","length"],["angle","angle_deg","angle"]];var oneLine=name=>(name??
 "").replace(/[\r\n\u2028\u2029]+/g," ");var PoseTable=class{exact;crank;weight;bounds;crankLine;constructor(store,scene){this.store=store;this.scene=scene;this.
 page=0;this.rows=[];this.body=h("tbody",{});this.unit=h("span",{class:"bs-unit"});this.pages=h("div",{class:"bs-pages",hidden:true});this.details=h("div",{class:"\
 bs-details","data-details":"pose"});this.hint=h("p",{class:"bs-hint"},"A blank angle is free: then the row is a point, which the body passes at any angle.");this.
@@ -740,8 +738,8 @@ component2),h("td",{},field.element),h("td",{},free.element))))),this.axes,h("di
 k=>k+1),act2("Delete","delete-pose",removePose,k=>last()<0?null:Math.min(k,last()))))}showDetails(){const k=this.selected;give(this.details,"hidden",k===null);if(k===
 null)return;const{poses}=this.store.document,pose=poses[k];if(!isOther(this.details,[k,pose,poses.length,this.store.document.path])&&!this.details.contains(document.
 activeElement))return;const turned=this.store.document.path?.crank_deg?.[k];give(this.crankLine,"hidden",turned===void 0);this.crank.turnTo(k,turned);this.crank.
-show(turned);this.title.replaceChildren(`${isPoint(pose)?"Point":"Pose"} ${k+1}`,...pose.name?[": ",h("bdi",{},oneLine(pose.name))]:[]);give(this.exact.box,"che\
-cked",Boolean(pose.exact));this.weight.turnTo(k,pose.weight);this.weight.show(pose.weight);for(const{component:component2,key,field,free}of this.bounds){const isFree2=this.
+show(turned);this.title.replaceChildren(`${isPoint2(pose)?"Point":"Pose"} ${k+1}`,...pose.name?[": ",h("bdi",{},oneLine(pose.name))]:[]);give(this.exact.box,"ch\
+ecked",Boolean(pose.exact));this.weight.turnTo(k,pose.weight);this.weight.show(pose.weight);for(const{component:component2,key,field,free}of this.bounds){const isFree2=this.
 isFree(k,component2)||pose.tolerance?.[component2]==="free";give(free.box,"checked",isFree2);give(field.input,"disabled",isFree2);const stated=pose.tolerance?.[key],
 bound=typeof stated==="number"?stated:void 0;field.turnTo(k,bound);field.show(bound)}give(this.axes,"hidden",!pose.tolerance);give(this.axes,"value",pose.tolerance?.
 axes??"fixed");give(this.up,"disabled",k===0);give(this.down,"disabled",k===poses.length-1)}};var LONGEST_NAME3=22;var ABOVE=10;var HATCH2=9;var PIVOT2={fixed_pivot:"Fixed pivot",moving_pivot:"Moving pivot"};function limitName(document2,{table:table3,key}){
@@ -817,7 +815,7 @@ emit("answers")}else{this.emit("moved")}}takePlaced(){const placed=this.store.pl
 "placed");if(this.store.chosen===PLACED)this.emit(before&&placed?"moved":"shown")}};var linked=linkage=>({...linkage,pose_errors:linkage.pose_errors.map(row=>({
 ...row,at:row.way===null?null:linkage.ways[row.way]}))});var figured=linkage=>Object.assign(linkage,{worst:linkage.position_error.max,least:linkage.min_transmission_angle_deg.
 range});function posesOf({poses=[]}){const names=poses.map((pose,k)=>pose.name||String(k+1));const short=names.every(name=>name.length<=LONGEST_NAME4);return poses.
-map((pose,k)=>({...pose,angle_deg:isPoint(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.
+map((pose,k)=>({...pose,angle_deg:isPoint2(pose)?null:pose.angle,name:names[k],label:short?names[k]:String(k+1)}))}var surroundingsOf=(document2,data)=>({body:Array.
 isArray(document2.body)?document2.body:document2.body===void 0?null:data.body});function follow(now,each,data){now.usable=each.usable;now.led=each.led;now.worst=
 each.worst;now.least=each.transmission_deg;now.reason=each.reason;now.followed=true;now.gone=null;if(each.type)now.type=each.type;if(!each.ways?.length){now.ways=
 now.ways??[];return}now.ways=each.ways;now.pose_errors=each.pose_errors.map(row=>({...row,at:row.way===null?null:each.ways[row.way],said:row.x===null?{position:"\
@@ -853,58 +851,60 @@ cost+=500;if(cost<best.cost)best={cost,cx,cy,box}}}this.taken.push(best.box);ret
 text)}};var LONGEST=4e3;function railOf(dyad,places,view){const[nx,ny]=normalOf(dyad),[low,high]=travelOf(dyad,places);const half=view.scale*(high-low)/2+BLOCK[0],edge=BLOCK[1]/
 2+1;const[x,y]=(at=>[view.X(at[0]),view.Y(at[1])])(pointOnLine(dyad,(low+high)/2));const bodySide=places.reduce((sum,place)=>sum+nx*place.x+ny*place.y-dyad.line.
 offset,0);const turned=Math.atan2(nx,-ny)+(bodySide>0?Math.PI:0);const drawn=Math.min(half,LONGEST);let hatch="";for(let k=-drawn+4;k<drawn-2;k+=8)hatch+=`M${px(
-k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var BESIDE_PIVOT=[16,28,40];var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(row=>row.position??
-0));if(!(worst>1e-9*data.scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*data.scene);return fits.length?fits[fits.length-1]:1}var standing2=(dyad,places)=>dyad.
-fixed_pivot??(dyad.kind==="PR"&&places.length?pointOnLine(dyad,travelOf(dyad,places).reduce((a,b)=>(a+b)/2)):null);var Plane=class{view;places;linkage;constructor(data,parent){this.data=data;this.svg=s("svg",{class:"bm-plane",role:"img",tabindex:"0"});this.parent=parent;parent.
-append(this.svg)}build(linkage,way,stretch,{factor,fill,far}){const{data,svg}=this,path2=linkage?.ways[way];this.linkage=linkage;this.way=way;this.places=path2?
-placesOf(data,linkage,path2,stretch):[];const bare=boundsOf(data,linkage,this.places,far);const width=Math.max(260,this.parent.clientWidth);const box=widened(bare,
-data,linkage,this.places,width,far);this.cut=!far&&widened(bare,data,linkage,this.places,width,true).some((each,k)=>each!==box[k]);const shape=(box[3]-box[1])/(box[2]-
-box[0]);const own=clamp(width*clamp(shape,.45,1),260,clamp(.62*window.innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(
-box,width,height,width<500?34:42);this.view=view;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;
-svg.dataset.left=view.left;svg.dataset.top=view.top;svg.replaceChildren();svg.append(this.grid(),keepOut(data,view),ghosts(data,linkage,view));svg.append(...[this.
-wantedPath(),linkage?this.paths():null].filter(Boolean));const labels=new Labels(view);this.names=s("g",{class:"bm-names"},keepOutNames(data,view,labels));if(linkage)
-svg.append(this.ground(labels));for(const pose of data.poses){const x=view.X(pose.x),y=view.Y(pose.y),angle=radians(pose.angle_deg);const c=AXIS*Math.cos(angle),
-d=AXIS*Math.sin(angle);labels.block(x,y,12,12);if(isPoint2(pose))continue;for(const share of[.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-.6*
-share*d,y-.6*share*c,6,6)}}svg.append(this.poses(linkage,factor,labels));this.moving=path2?mechanism(data,linkage,view,this.places):null;if(this.moving)svg.append(
-this.moving.group);if(linkage&&!far)this.farPivots(labels);svg.append(this.names)}grid(){const{view}=this,group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.
-data.unit?` ${this.data.unit}`:"";const across=ticks(-view.left/view.scale,(view.width-view.left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/
-view.scale,view.top/view.scale,view.height/80);for(const{at,text}of across){const x=px(view.X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&
-x<view.width-(unit2?54:30)){group.append(s("text",{x,y:view.height-6,"text-anchor":"middle"},text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(
-s("path",{d:`M0 ${y}H${view.width}`}));if(y>26&&y<view.height-24)group.append(s("text",{x:6,y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",
-{x:view.width-6,y:view.height-6,"text-anchor":"end"},`x${unit2}`));return group}paths(){const{view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.
-ways.forEach((way,k)=>{const same=way.circuit===linkage.ways[this.way]?.circuit;const kind=k===this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=placesOf(
-this.data,linkage,way,{low:0,high:way.x.length-1});const d2=polyline(whole.map(({x,y})=>[x,y]),view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const{
-side,points}of this.pivotPaths()){group.append(s("path",{class:`bm-pivot-path bm-side${side}`,d:polyline(points,view)}))}const d=polyline(places.map(({x,y})=>[x,
-y]),view);group.append(s("path",{class:"bm-curve bm-here",d}));return group}pivotPaths(){const{places,linkage}=this;if(linkage.traced)return[...linkage.traced].
-map(joint=>({side:"-inner",points:places.map(place=>place.joints[joint])}));const drawn=[...linkage.led.entries()].filter(([,dyad])=>dyad.moving_pivot&&dyad.kind!==
-"PR");return drawn.map(([side,dyad])=>({side,points:places.map(place=>act(place,dyad.moving_pivot))}))}ground(labels){const group=s("g",{class:"bm-grounds"});this.
-keepCranksFree(labels);this.linkage.led.forEach((dyad,k)=>{const side=Math.min(k,1);if(dyad.kind==="PR")this.rail(group,labels,dyad,side);else if(dyad.fixed_pivot)
-this.fixedPivot(group,labels,dyad,side)});return group}keepCranksFree(labels){const{view,places,linkage}=this,every=Math.ceil(places.length/9);const arms=(linkage.
-drawn??[]).flatMap(({joints})=>[...joints].filter(joint=>joint in linkage.ground).flatMap(pivot=>[...joints].map(end=>[pivot,end])));for(const{joints}of places.
-filter((_,k)=>k%every===0)){for(const[pivot,end]of arms){const[[x,y],[u,v]]=[joints[pivot],joints[end]].map(at=>[view.X(at[0]),view.Y(at[1])]),size2=Math.hypot(
-u-x,v-y);if(size2)for(const along2 of BESIDE_PIVOT)labels.block(x+along2*(u-x)/size2,y+along2*(v-y)/size2,12,12)}}}rail(group,labels,dyad,side){if(!this.places.
-length)return;const{x,y,drawn,turned,paths}=railOf(dyad,this.places,this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,"data-d\
-yad":dyad.id,transform:transform(x,y,turned)},s("path",{class:"bm-ground",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=
-14)labels.block(x-k*ny,y-k*nx,22,22);this.names.append(labels.put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.
-view.X(dyad.fixed_pivot[0]),y=this.view.Y(dyad.fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute("tran\
-sform",`translate(${px(x)} ${px(y)})`);group.append(at);this.names.append(labels.put(x,y+4,dyad.name??dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){
-const{data,view}=this,isFar=farFrom(data),digits=decimalsOf(data);this.linkage.led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);if(!at||!isFar(at))
-return;const[x,y]=[view.X(at[0]),view.Y(at[1])];const cx=view.width/2,cy=view.height/2,size2=Math.hypot(x-cx,y-cy);const u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.
-min((cx-12)/Math.abs(u),(cy-12)/Math.abs(v));const ex=cx+reach*u,ey=cy+reach*v;const text=`${dyad.name??dyad.id}: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.
-map(each=>fixed(each,digits)).join(", ")})`;labels.block(ex,ey,20,20);this.names.append(s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(
-ex,ey,Math.atan2(-v,u))}),labels.put(ex,ey,text,14,{class:`bm-name bm-far-name bm-side${side}`}))})}wantedPath(){const{data,view}=this;if(!data.path)return null;
-const points=data.poses.map(({x,y})=>[x,y]);return s("path",{class:"bm-wanted-path",d:`${polyline(points,view)}${data.path.closed?"Z":""}`})}poses(linkage,factor,labels){
-const{data,view}=this,group=s("g",{class:"bm-poses"});const small=data.poses.length>24?.6:1;const arrows=this.errors(linkage,factor,labels);const names=s("g",{class:"\
-bm-pose-names"});data.poses.forEach((pose,k)=>{const x=view.X(pose.x),y=view.Y(pose.y);group.append(s("g",{class:"bm-wanted",transform:transform(x,y,isPoint2(pose)?
-0:radians(pose.angle_deg)),"data-pose":k+1},isPoint2(pose)?null:s("path",{d:axes(AXIS*small)}),s("circle",{r:4.5*small})));if(data.poses.length<=60&&isNamed(data,
-k))names.append(labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===null)return;const elsewhere=row.way===this.way?"":" bm-else\
-where";group.append(s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg))},isPoint2(pose)?null:s("path",
-{d:axes(.72*AXIS*small)}),s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){const{data,view}=this,arrows=s("g",
-{class:"bm-errors"});if(!linkage||!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.x),y=view.
-Y(pose.y);const dx=factor*view.scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.min(7,
-.5*size2),ux=dx/size2,uy=dy/size2;const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;arrows.
-append(s("path",{d:`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});return arrows}show(place,drive){
-this.moving?.show(place,drive)}};var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
+k+4)} ${edge}l-6 7`;return{x,y,half,drawn,turned,paths:[`M${px(-half)} ${edge}H${px(half)}${hatch}`,`M${px(-half)} ${-edge}H${px(half)}`]}}var CLOSER=.4;var BESIDE_PIVOT=[16,28,40];var FACTORS=[0,1,10,100,1e3,1e4,1e5];function factorFor(data,linkage){const worst=Math.max(0,...linkage.pose_errors.map(
+row=>row.position??0));if(!(worst>1e-9*data.scene))return 0;const fits=FACTORS.filter(factor=>factor>=1&&factor*worst<.3*data.scene);return fits.length?fits[fits.
+length-1]:1}var sizeOf=([x,y,u,v])=>Math.max(u-x,v-y);var standing2=(dyad,places)=>dyad.fixed_pivot??(dyad.kind==="PR"&&places.length?pointOnLine(dyad,travelOf(
+dyad,places).reduce((a,b)=>(a+b)/2)):null);var Plane=class{view;places;linkage;reveal;constructor(data,parent){this.data=data;this.svg=s("svg",{class:"bm-plane",role:"img",tabindex:"0"});this.parent=parent;
+parent.append(this.svg)}build(linkage,way,stretch,{factor,fill,far,close=false}){const{data,svg}=this,path2=linkage?.ways[way];this.linkage=linkage;this.way=way;
+this.places=path2?placesOf(data,linkage,path2,stretch):[];const width=Math.max(260,this.parent.clientWidth);const box=boxOf(data,linkage,this.places,{whole:far,
+close}),different=other=>other.some((each,k)=>each!==box[k]);this.cut=!far&&different(boxOf(data,linkage,this.places,{whole:true}));this.isLarge=close||Boolean(
+linkage)&&sizeOf(boxOf(data,linkage,this.places,{close:true}))<CLOSER*sizeOf(box);const shape=(box[3]-box[1])/(box[2]-box[0]);const own=clamp(width*clamp(shape,
+.45,1),260,clamp(.62*window.innerHeight,340,680));const height=Math.round(fill?clamp(fill,own,1.15*width):own);const view=viewOf(box,width,height,width<500?34:42);
+this.view=view;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);svg.dataset.scale=view.scale;svg.dataset.left=view.left;svg.
+dataset.top=view.top;svg.replaceChildren();svg.append(this.grid(),keepOut(data,view),ghosts(data,linkage,view));svg.append(...[this.wantedPath(),linkage?this.paths():
+null].filter(Boolean));const labels=new Labels(view);this.names=s("g",{class:"bm-names"},keepOutNames(data,view,labels));if(linkage)svg.append(this.ground(labels));
+for(const pose of data.poses){const x=view.X(pose.x),y=view.Y(pose.y),angle=radians(pose.angle_deg);const c=AXIS*Math.cos(angle),d=AXIS*Math.sin(angle);labels.block(
+x,y,12,12);if(isPoint(pose))continue;for(const share of[.35,.65,1]){labels.block(x+share*c,y-share*d,6,6);labels.block(x-.6*share*d,y-.6*share*c,6,6)}}svg.append(
+this.poses(linkage,factor,labels));this.moving=path2?mechanism(data,linkage,view,this.places):null;if(this.moving)svg.append(this.moving.group);if(linkage)this.
+farPivots(labels);svg.append(this.names)}grid(){const{view}=this,group=s("g",{class:"bm-grid","aria-hidden":"true"});const unit2=this.data.unit?` ${this.data.unit}`:
+"";const across=ticks(-view.left/view.scale,(view.width-view.left)/view.scale,view.width/110);const up=ticks((view.top-view.height)/view.scale,view.top/view.scale,
+view.height/80);for(const{at,text}of across){const x=px(view.X(at));group.append(s("path",{d:`M${x} 0V${view.height}`}));if(x>46&&x<view.width-(unit2?54:30)){group.
+append(s("text",{x,y:view.height-6,"text-anchor":"middle"},text))}}for(const{at,text}of up){const y=px(view.Y(at));group.append(s("path",{d:`M0 ${y}H${view.width}`}));
+if(y>26&&y<view.height-24)group.append(s("text",{x:6,y:y-4},text))}group.append(s("text",{x:6,y:14},`y${unit2}`),s("text",{x:view.width-6,y:view.height-6,"text-\
+anchor":"end"},`x${unit2}`));return group}paths(){const{view,linkage,places}=this,group=s("g",{class:"bm-paths"});linkage.ways.forEach((way,k)=>{const same=way.
+circuit===linkage.ways[this.way]?.circuit;const kind=k===this.way?"bm-beyond":same?"bm-same":"bm-other";const whole=placesOf(this.data,linkage,way,{low:0,high:way.
+x.length-1});const d2=polyline(whole.map(({x,y})=>[x,y]),view);group.append(s("path",{class:`bm-curve ${kind}`,d:d2}))});for(const{side,points}of this.pivotPaths()){
+group.append(s("path",{class:`bm-pivot-path bm-side${side}`,d:polyline(points,view)}))}const d=polyline(places.map(({x,y})=>[x,y]),view);group.append(s("path",{
+class:"bm-curve bm-here",d}));return group}pivotPaths(){const{places,linkage}=this;if(linkage.traced)return[...linkage.traced].map(joint=>({side:"-inner",points:places.
+map(place=>place.joints[joint])}));const drawn=[...linkage.led.entries()].filter(([,dyad])=>dyad.moving_pivot&&dyad.kind!=="PR");return drawn.map(([side,dyad])=>({
+side,points:places.map(place=>act(place,dyad.moving_pivot))}))}ground(labels){const group=s("g",{class:"bm-grounds"});this.keepCranksFree(labels);this.linkage.led.
+forEach((dyad,k)=>{const side=Math.min(k,1);if(dyad.kind==="PR")this.rail(group,labels,dyad,side);else if(dyad.fixed_pivot)this.fixedPivot(group,labels,dyad,side)});
+return group}keepCranksFree(labels){const{view,places,linkage}=this,every=Math.ceil(places.length/9);const arms=(linkage.drawn??[]).flatMap(({joints})=>[...joints].
+filter(joint=>joint in linkage.ground).flatMap(pivot=>[...joints].map(end=>[pivot,end])));for(const{joints}of places.filter((_,k)=>k%every===0)){for(const[pivot,
+end]of arms){const[[x,y],[u,v]]=[joints[pivot],joints[end]].map(at=>[view.X(at[0]),view.Y(at[1])]),size2=Math.hypot(u-x,v-y);if(size2)for(const along2 of BESIDE_PIVOT)
+labels.block(x+along2*(u-x)/size2,y+along2*(v-y)/size2,12,12)}}}rail(group,labels,dyad,side){if(!this.places.length)return;const{x,y,drawn,turned,paths}=railOf(
+dyad,this.places,this.view),[nx,ny]=normalOf(dyad);group.append(s("g",{class:`bm-rail bm-side${side}`,"data-dyad":dyad.id,transform:transform(x,y,turned)},s("pa\
+th",{class:"bm-ground",d:paths[0]}),s("path",{class:"bm-ground bm-thin",d:paths[1]})));for(let k=-drawn;k<=drawn;k+=14)labels.block(x-k*ny,y-k*nx,22,22);this.names.
+append(labels.put(x,y,dyad.id,26,{class:`bm-name bm-side${side}`}))}fixedPivot(group,labels,dyad,side){const x=this.view.X(dyad.fixed_pivot[0]),y=this.view.Y(dyad.
+fixed_pivot[1]);labels.block(x,y+10,32,34);if(!side)labels.block(x,y,40,40);const at=foot();at.setAttribute("transform",`translate(${px(x)} ${px(y)})`);group.append(
+at);this.names.append(labels.put(x,y+4,dyad.name??dyad.id,27,{class:`bm-name bm-side${side}`}))}farPivots(labels){const{data,view}=this,digits=decimalsOf(data);
+this.linkage.led.forEach((dyad,side)=>{const at=standing2(dyad,this.places);const edge=at&&edgeTowards(view,at);if(!edge)return;const text=`${dyad.name??dyad.id}\
+: ${dyad.fixed_pivot?"fixed pivot":"rail"} at (${at.map(each=>fixed(each,digits)).join(", ")})`;labels.block(edge.x,edge.y,20,20);this.names.append(s("g",{class:"\
+bm-to-far",onclick:()=>this.reveal?.()},s("path",{class:`bm-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(edge.x,edge.y,edge.angle)}),labels.
+put(edge.x,edge.y,text,14,{class:`bm-name bm-far-name bm-side${side}`})))})}wantedPath(){const{data,view}=this;if(!data.path)return null;const points=data.poses.
+map(({x,y})=>[x,y]);return s("path",{class:"bm-wanted-path",d:`${polyline(points,view)}${data.path.closed?"Z":""}`})}poses(linkage,factor,labels){const{data,view}=this,
+group=s("g",{class:"bm-poses"});const small=data.poses.length>24?.6:1;const arrows=this.errors(linkage,factor,labels);const names=s("g",{class:"bm-pose-names"});
+data.poses.forEach((pose,k)=>{const x=view.X(pose.x),y=view.Y(pose.y);group.append(s("g",{class:"bm-wanted",transform:transform(x,y,isPoint(pose)?0:radians(pose.
+angle_deg)),"data-pose":k+1},isPoint(pose)?null:s("path",{d:axes(AXIS*small)}),s("circle",{r:4.5*small})));if(data.poses.length<=60&&isNamed(data,k))names.append(
+labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row.x===null)return;const elsewhere=row.way===this.way?"":" bm-elsewhere";group.append(
+s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg))},isPoint(pose)?null:s("path",{d:axes(.72*AXIS*small)}),
+s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){const{data,view}=this,arrows=s("g",{class:"bm-errors"});if(!linkage||
+!factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.x),y=view.Y(pose.y);const dx=factor*view.
+scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2;
+const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;arrows.append(s("path",{d:`M${px(x)} ${px(
+y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});if(arrows.children.length)this.names.append(
+scaleOfErrors(view,factor));return arrows}show(place,drive){this.moving?.show(place,drive)}};var scaleOfErrors=({width},factor)=>s("text",{class:"bm-error-scale",
+x:width-8,y:16,"text-anchor":"end"},factor===1?"errors to scale":`errors × ${factor.toLocaleString("en").replaceAll(","," ")}`);var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
@@ -914,41 +914,45 @@ m-curve bm-here"});this.pivotPaths=[0,1].map(side=>s("path",{class:`bm-pivot-pat
 others,this.beyond,...this.pivotPaths,this.here);this.feet=[0,1].map(side=>{const at=foot();at.classList.add(`bm-side${side}`);return at});this.rails=[0,1].map(
 side=>s("g",{class:`bm-rail bm-side${side}`},s("path",{class:"bm-ground"}),s("path",{class:"bm-ground bm-thin"})));this.achieved=s("g",{class:"bs-achieved"});this.
 arrows=s("path",{});this.names=[0,1].map(side=>s("text",{class:`bm-name bm-side${side}`,"text-anchor":"middle"}));this.mechanism=null;this.holder=s("g",{class:"\
-bs-mechanism"},...this.rails,...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);scene.layer(
-"paths").append(this.paths);scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels);scene.hold?.(()=>this.points());playing.on("s\
-hape",()=>this.shape());playing.on("place",({place,drive})=>this.mechanism?.show(place,drive));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());
-this.redraw()}points(){const{linkage}=this.playing,{data}=this.answers;if(!linkage)return[];const[pose]=data.poses,near2=([x,y])=>pose&&Math.hypot(x-pose.x,y-pose.
-y)<3*data.scene;const pins=linkage.led.flatMap(dyad=>dyad.fixed_pivot?[dyad.fixed_pivot]:[]);const moving=linkage.pose_errors.filter(row=>row.x!==null).flatMap(
-row=>linkage.led.filter(dyad=>dyad.moving_pivot).map(dyad=>act({x:row.x,y:row.y,a:radians(row.angle_deg)},dyad.moving_pivot)));return[...pins,...moving,...markPoints(
-data,[])].filter(near2)}obstacles(){const{playing:{linkage},scene:{view}}=this,pins=linkage&&!linkage.gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.
-map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,{data}=this.answers;const seen2=linkage?.pose_errors.length&&
-!(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.factor=this.answers.isOld&&this.factor&&fits?Math.min(this.
-factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)this.mechanism?.show(this.playing.here.place,this.playing.here.drive)}shape(){const{
-playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;const there2=Boolean(linkage)&&!linkage.gone;for(const part of[this.paths,this.holder,this.
-labels])put(part,"visibility",there2?"visible":"hidden");if(!there2)return;const places=path2?framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,
-view);this.ground(linkage,places,view);this.atPoses(linkage,view);if(!path2){this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(
-linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(linkage);this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,
-view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.
-Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(
-path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(
-element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.
-answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)
-list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;
-linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,
-"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.
-id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"transform",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.
-children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`\
-translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.id,-Math.PI/2,OFF))})}atPoses(linkage,view){const{achieved,answers:{
-data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>24?.6:1;while(achieved.children.length>count)achieved.lastChild.
-remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("path",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){
-const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(
-group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,"display","inline");put(group.children[0],"display",data.poses[k]?.
-angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.
-at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(
-way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){
-const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW2))
-return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*
-(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+bs-mechanism"},...this.rails,...this.feet,this.achieved,s("g",{class:"bm-errors"},this.arrows));this.labels=s("g",{class:"bs-dyad-names"},this.names);this.edges=
+s("g",{class:"bs-edges"});scene.layer("paths").append(this.paths);scene.layer("mechanism").append(this.holder);scene.layer("labels").append(this.labels,this.edges);
+scene.hold?.(()=>this.points());scene.on("closer",()=>this.closer());answers.on("shown",()=>scene.isFitted&&scene.fit(scene.isWhole));playing.on("shape",()=>this.
+shape());playing.on("place",({place,drive})=>this.mechanism?.show(place,drive));scene.on("view",()=>this.redraw());scene.names?.avoid(()=>this.obstacles());this.
+redraw()}points(close=false){const{linkage}=this.playing,{data}=this.answers;return nearPoints(data,linkage,linkage?placesAtPoses(data,linkage):[],{close})}closer(){
+const{selection,document:{poses}}=this.answers.store,k=selection?.kind==="pose"?selection.index:null;const near2=k===null?[]:poses.slice(Math.max(0,k-1),k+2).map(
+pose=>[pose.x??0,pose.y??0]);this.scene.closeUp(near2.length>1?near2:this.points(true))}obstacles(){const{playing:{linkage},scene:{view}}=this,pins=linkage&&!linkage.
+gone?linkage.led.filter(dyad=>dyad.fixed_pivot):[];return pins.map(({fixed_pivot:[x,y]})=>[view.X(x),view.Y(y)+FOOT,34,36])}enlarge(){const{linkage}=this.playing,
+{data}=this.answers;const seen2=linkage?.pose_errors.length&&!(linkage.followed&&linkage.worst<UNSEEN*data.scene);const fits=seen2?factorFor(data,linkage):0;this.
+factor=this.answers.isOld&&this.factor&&fits?Math.min(this.factor,fits):fits}redraw(){this.shape();if(this.playing.here&&this.playing.path)this.mechanism?.show(
+this.playing.here.place,this.playing.here.drive)}shape(){const{playing,answers,scene}=this,{linkage,path:path2}=playing,{view}=scene;const there2=Boolean(linkage)&&
+!linkage.gone;for(const part of[this.paths,this.holder,this.labels,this.edges])put(part,"visibility",there2?"visible":"hidden");if(!there2)return;const places=path2?
+framesOf(path2):[];this.enlarge();this.curves(linkage,path2,places,view);this.ground(linkage,places,view);this.outside(linkage,view);this.atPoses(linkage,view);
+if(!path2){this.mechanism?.group.remove();this.mechanism=null;return}if(!this.mechanism?.fits(linkage)){this.mechanism?.group.remove();this.mechanism=new Mechanism(
+linkage);this.holder.append(this.mechanism.group)}this.mechanism.shape(answers.data,linkage,view,places)}curves(linkage,path2,places,view){const set=(element,list2,closed2)=>put(
+element,"d",smoothPath(list2.map(([x])=>view.X(x)),list2.map(([,y])=>view.Y(y)),closed2));const others=linkage.ways.filter(way=>way!==path2);put(this.others,"d",
+others.map(way=>pathOf2(way,view)).join(""));put(this.beyond,"d",path2?pathOf2(path2,view):"");this.pivotPaths.forEach((element,side)=>{const dyad=linkage.led[side];
+if(!path2||!dyad.moving_pivot||dyad.kind==="PR")put(element,"d","");else set(element,places.map(place=>act(place,dyad.moving_pivot)),path2.round)});if(!path2){put(
+this.here,"d","");return}const{low,high}=this.playing.player.stretch,{length}=this.answers.data.chart,list=[];const end=u=>(place=>[place.x,place.y])(placeAt(linkage,
+path2,u,length));list.push(end(low));for(let k=Math.floor(low)+1;k<high;k+=1)list.push([path2.x[k],path2.y[k]]);list.push(end(high));set(this.here,list,path2.round&&
+high-low>path2.x.length-1-1e-6)}ground(linkage,places,view){const{scene}=this;linkage.led.forEach((dyad,side)=>{const[rail,at,name]=[this.rails[side],this.feet[side],
+this.names[side]];const slides=dyad.kind==="PR"&&places.length>0;put(rail,"display",slides?"inline":"none");put(at,"display",dyad.fixed_pivot?"inline":"none");put(
+name,"display",slides||dyad.fixed_pivot?"inline":"none");say(name,dyad.id);let x,y;if(slides){const drawn=railOf(dyad,places,view);({x,y}=drawn);put(rail,"trans\
+form",transform(x,y,drawn.turned));drawn.paths.forEach((d,k)=>put(rail.children[k],"d",d));put(rail,"data-dyad",dyad.id)}else if(dyad.fixed_pivot){[x,y]=[view.X(
+dyad.fixed_pivot[0]),view.Y(dyad.fixed_pivot[1])];put(at,"transform",`translate(${px(x)} ${px(y)})`)}else{return}scene.names.put(name,x,y+FOOT,dyad.id,around(dyad.
+id,-Math.PI/2,OFF))})}outside(linkage,view){const marks=linkage.led.flatMap((dyad,side)=>{const edge=dyad.fixed_pivot&&edgeTowards(view,dyad.fixed_pivot),end=edge&&
+edge.x>view.width/2;return edge?[s("g",{class:`bm-to-far bm-side${side}`,"data-dyad":dyad.id,onclick:()=>this.scene.reveal(dyad.fixed_pivot)},s("path",{class:`b\
+m-far-mark bm-side${side}`,d:"M-9 -6L3 0L-9 6",transform:transform(edge.x,edge.y,edge.angle)}),s("text",{class:`bm-name bm-side${side}`,x:px(edge.x+(end?-12:12)),
+y:px(clamp(edge.y+4,14,view.height-24)),"text-anchor":end?"end":"start"},`${dyad.id} is outside`))]:[]});this.edges.replaceChildren(...marks,...this.factor?[scaleOfErrors(
+view,this.factor)]:[])}atPoses(linkage,view){const{achieved,answers:{data}}=this,rows=linkage.pose_errors;const count=Math.min(rows.length,MOST_ACHIEVED),small=count>
+24?.6:1;while(achieved.children.length>count)achieved.lastChild.remove();while(achieved.children.length<count)achieved.append(s("g",{class:"bm-achieved"},s("pat\
+h",{}),s("circle",{})));let arrows="";for(let k=0;k<count;k+=1){const row=rows[k],group=achieved.children[k];if(group.dataset.size!==String(small)){group.dataset.
+size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1],"r",2.2*small)}if(row.x===null){put(group,"display","none");continue}put(group,
+"display","inline");put(group.children[0],"display",data.poses[k]?.angle_deg===null?"none":"inline");put(group,"transform",transform(view.X(row.x),view.Y(row.y),
+radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.
+factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.
+x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.
+x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW2))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)}\
+ ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
 led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
 point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
 [null,point2&&point2[key]]:[point2?.[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
@@ -989,27 +993,27 @@ te ${k}`:of.id)," ",h("span",{class:"bm-type"},linkage.type)),h("span",{class:"b
 res"},facts.map(([name,value])=>[h("dt",{},name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){
 const{store,of,known}=this;if(k)store.takeCognate(known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.
 show();this.cards.children[k]?.querySelector("button").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var ONLY=150;var GAP=28;var MANY_POSES=40;var HEADROOM=1.32;var NO_ERROR=1e-7;var TITLE="Errors a\
-nd transmission angle";var INSET=8;var LONGEST_NAME5=16;var NAME_WIDTH=11;var Plots=class{top=TOP;count;marks;way;width;X;stretch;across;constructor(data,parent,scrub){
+nd transmission angle";var INSET2=8;var LONGEST_NAME5=16;var NAME_WIDTH=11;var Plots=class{top=TOP;count;marks;way;width;X;stretch;across;constructor(data,parent,scrub){
 this.data=data;this.parent=parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":TITLE});parent.append(this.svg);const go=event=>{if(!this.way)return;
-const box=this.svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET)/(this.width-LEFT-RIGHT-2*INSET);const drive=this.driveAt(this.low+clamp(
+const box=this.svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET2)/(this.width-LEFT-RIGHT-2*INSET2);const drive=this.driveAt(this.low+clamp(
 at,0,1)*(this.high-this.low));if(drive!==null)scrub(frameAt(this.way.drive,drive))};this.svg.addEventListener("pointerdown",event=>{this.svg.setPointerCapture(event.
 pointerId);go(event)});this.svg.addEventListener("pointermove",event=>event.buttons&1&&go(event))}build(linkage,index,stretch){const{data,svg}=this,way=linkage.
 ways[index];this.linkage=linkage;this.way=way;svg.replaceChildren();this.cursor=null;if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: ${TITLE.toLowerCase()}\
  along the driver`);const poses=linkage.pose_errors.map((row,k)=>({...row,pose:data.poses[k]})).filter(row=>row.way===index&&row.pose);const upright=poses.some(
-({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName2(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+
+({pose})=>pose.label!==pose.name);const longest=Math.max(0,...poses.map(({pose})=>shortened(poseName(pose),LONGEST_NAME5).length));this.top=TOP+(upright?6.2*longest+
 6:0);const count=linkage.panels?linkage.panels.length+1:way.loops?1:nounOf(data)==="point"?2:3;const[driver]=linkage.led,slides=driver.kind==="PR";this.stretch=
 stretch;const rows=poses.map(row=>({...row,drive:linear(way.drive,row.frame)}));const unit2=data.unit??"unit of the poses";const title=way.told?`${way.told[0].name}\
  (°)`:slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;const ends=[stretch.low,stretch.high].map(u=>linear(way.drive,u)),[low,
 high]=stretch.sense<0?ends.reverse():ends;this.frame(count,low,high,!slides,title,()=>{this.panels(rows,unit2);if(upright)this.uprightNames(rows)})}frame(count,low,high,turns,title,draw){
 const{svg}=this,width=this.width=Math.max(260,this.parent.clientWidth);this.count=count;this.low=low;this.high=high;const base=this.top+(count>1?count*PANEL+(count-
-1)*GAP:ONLY),height=base+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);this.X=at=>LEFT+INSET+(at-low)/(high-low)*
-(width-LEFT-RIGHT-2*INSET);const ends=[Math.min(low,high),Math.max(low,high)],marks=turns?angleTicks(ends[0],ends[1],Math.max(3,width/70)):ticks(ends[0],ends[1],
+1)*GAP:ONLY),height=base+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);this.X=at=>LEFT+INSET2+(at-low)/(high-low)*
+(width-LEFT-RIGHT-2*INSET2);const ends=[Math.min(low,high),Math.max(low,high)],marks=turns?angleTicks(ends[0],ends[1],Math.max(3,width/70)):ticks(ends[0],ends[1],
 width/90);this.across=low>high?marks.reverse():marks;this.marks=[];draw();svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/2,y:height-6,"text-anchor":"\
 middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.cursor.append(...this.marks.map(({mark})=>mark));svg.append(
 this.cursor)}heights(k){const y0=this.top+k*(PANEL+GAP);return[y0,y0+(this.count>1?PANEL:ONLY)]}placeOf(drive){return drive}driveAt(place){return place}panels(rows,unit2){
 this.linkage.panels?.forEach((each,k)=>this.values(k,each));if(this.linkage.panels||this.count===1){this.transmission(this.count-1,rows);return}this.errors(0,`p\
 osition error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);if(nounOf(this.data)==="point"){this.transmission(1,rows);return}this.errors(1,"angle er\
-ror (°)",rows.filter(({pose})=>!isPoint2(pose)),row=>row.turned_deg,1e-9);this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,[y0,base]=this.
+ror (°)",rows.filter(({pose})=>!isPoint(pose)),row=>row.turned_deg,1e-9);this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,[y0,base]=this.
 heights(k);const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*greatest:1;const Y=v=>base-
 v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, up to rounding":`no ${nounOf(
 this.data)} is on this assembly`))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT-6,y:base+
@@ -1034,9 +1038,9 @@ bm-dot",cx:px(this.X(a)),cy:px(Y(b)),r:3.5},s("title",{},`${figure(b)}°`)));thi
 stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const value=linear(values,
 u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen="L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){
 let last=-99;for(const row of[...rows].sort((a,b)=>this.X(a.drive)-this.X(b.drive))){const x=this.X(row.drive),y=this.top-20;if(x-last<NAME_WIDTH)continue;last=
-x;const text=s("text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});text.append(shortened(poseName2(row.pose),LONGEST_NAME5));
-this.svg.append(s("g",{},s("title",{},poseName2(row.pose)),text))}}panel(title,y0,base,labelled3=false){const{svg,width}=this;svg.append(s("rect",{class:"bm-pan\
-el",x:LEFT,y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));let last=-99;for(const{at,text}of this.across){const x=px(
+x;const text=s("text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});text.append(shortened(poseName(row.pose),LONGEST_NAME5));
+this.svg.append(s("g",{},s("title",{},poseName(row.pose)),text))}}panel(title,y0,base,labelled3=false){const{svg,width}=this;svg.append(s("rect",{class:"bm-pane\
+l",x:LEFT,y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));let last=-99;for(const{at,text}of this.across){const x=px(
 this.X(at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled3&&x-last>34){svg.append(s("text",{class:"bm-tick",x,y:base+15,"text-anch\
 or":"middle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-
 6,y:px(y)+4,"text-anchor":"end"},text))}show(drive){if(!this.cursor)return;const at=this.placeOf(drive);put(this.cursor,"visibility",at===null?"hidden":"visible");
@@ -1130,14 +1134,14 @@ join(", ")}) of the body`;put(point2.handle,"aria-label",`${name}. Drag it, or u
 button",class:"bs-small","aria-label":`Remove point ${k+1}`,onclick:()=>this.remove(point2)},"Remove"))}))}};function wayStory(way,poses){const noun=nounOf({poses}),names=poses.map(pose=>pose.label);const all=way.poses.length===names.length;const here=all?`all ${noun}s`:
 way.poses.length?`${noun}${way.poses.length>1?"s":""} ${runs(way.poses,names)}`:`no ${noun}`;const dead=way.dead.filter(Boolean).length;const ends=way.round?"tu\
 rns round":dead===2?"between two dead points":dead?"up to a dead point":"open";return`${here}; ${ends}`}var factsOf=({said})=>h("dl",{class:"bm-facts"},said.facts.
-map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))));function spaceStory(data,linkage){const some2=data.poses.some(isPoint2),every=nounOf(data)===
-"point";const taken=some2&&linkage?`the places that ${linkage.id} takes at ${every?"the":"its"} points`:"";const marked=[every?"":"the poses",taken].filter(Boolean).
+map(([name,value])=>h("div",{},h("dt",{},name),h("dd",{},value))));function spaceStory(data,linkage){const some2=data.poses.some(isPoint),every=nounOf(data)==="\
+point";const taken=some2&&linkage?`the places that ${linkage.id} takes at ${every?"the":"its"} points`:"";const marked=[every?"":"the poses",taken].filter(Boolean).
 join(" and ");const plain=`Every place of the body is one point of this space${marked?`; numbered points are ${marked}`:""}.`;if(!linkage)return[plain];const surface=side=>h(
 "b",{class:`bm-side${side}`},linkage.led[side].id);return[plain," The surfaces are all places that dyad ",surface(0)," (driver) and dyad ",surface(1)," (followe\
 r) allow; where they meet, the line, the coupler moves."]}function table2(caption,heads,rows){return h("div",{class:"bm-scroll",tabindex:0,role:"region","aria-label":caption},h("table",{},h("caption",{},caption),h("the\
 ad",{},h("tr",{},heads.map(head=>h("th",{scope:"col"},head)))),h("tbody",{},rows.map(row=>h("tr",{},row.map((text,k)=>k?h("td",{},text):h("th",{scope:"row"},text)))))))}
 var point=(at,digits)=>`(${at.map(value=>fixed(value,digits)).join(", ")})`;function poseFacts(linkage,data,points){const digits=decimalsOf(data);return linkage.
-pose_errors.map((row,k)=>{const name=data.poses[k]?poseName2(data.poses[k]):String(k+1);if(row.x===null)return[name,"–",...points.map(()=>"–")];const place=placeOf(
+pose_errors.map((row,k)=>{const name=data.poses[k]?poseName(data.poses[k]):String(k+1);if(row.x===null)return[name,"–",...points.map(()=>"–")];const place=placeOf(
 row),centre=instantCentre(linkage.led,place);return[name,centre?point(centre,digits):"at infinity",...points.map(each=>point(act(place,each.at),digits))]})}var FactsTable=class{constructor(store,answers,playing,curves){
 this.store=store;this.answers=answers;this.playing=playing;this.curves=curves;this.element=h("div",{class:"bs-facts"});this.pace=new Pace(()=>this.build(),()=>isSeen(
 this.element));playing.on("shape",()=>this.pace.ask());answers.on("answers poses placed",()=>this.pace.ask());watch(this.element,()=>this.pace.ask());this.element.
@@ -1268,7 +1272,7 @@ new FamilyCurves(store,answers,playing,scene);this.map=new PivotMapPanel(answers
 bs-tool"},this.curves.label),this.curves.legend,this.map.element,this.readout,h("div",{class:"bs-tool"},this.letGo));answers.on("answers",()=>this.renew());answers.
 on("poses",()=>{this.explain();if(this.pivots)store.place(this.pivots)});answers.on("placed",()=>this.tell());playing.on("shape",()=>this.show());playing.on("pl\
 ace",()=>this.move());scene.on("view",()=>this.show());store.on("state document",()=>this.element.classList.toggle("bs-stale",answers.isOld));this.renew()}get dyads(){
-if(this.store.document.poses.some(isPoint))return[];const placed=this.store.placed?.dyads;if(this.pivots&&placed?.length)return placed;return this.answers.shown?.
+if(this.store.document.poses.some(isPoint2))return[];const placed=this.store.placed?.dyads;if(this.pivots&&placed?.length)return placed;return this.answers.shown?.
 led??[]}pivot(k,plane){const dyad=this.dyads[k];if(!dyad)return null;const wanted=this.pivots?.[k];const at=wanted?.plane===plane?wanted.at:plane==="F"?dyad.fixed_pivot:
 dyad.moving_pivot;return at?{plane,at,id:dyad.id}:null}handle(k,plane){const name=plane==="F"?"fixed":"moving";const element=s("g",{class:`bs-pivot bs-pivot-${name}\
  bm-side${k}`,"data-plane":plane,tabindex:0,role:"button"},s("circle",{class:"bs-hold",r:13}),s("circle",{class:"bs-pivot-ring",r:8}));let before;this.scene.drag?.(
@@ -1333,7 +1337,7 @@ give(this.realLabel,"hidden",!this.timed);say(this.boxName,path2?.round?"Whole t
 high)}playWhole(on){this.whole=on;this.draw.rebuild()}drawStops(){const{stops,path:path2}=this,{low,high}=this.stretch;stops.replaceChildren();if(!path2)return;
 const width=Math.max(60,this.slider.clientWidth),inset=9;const X=u=>inset+(this.turned(u)-low)/(high-low)*(width-2*inset);const known=this.stopsOnWay.filter(row=>this.
 data.poses[row.k]);const rows=known.sort((a,b)=>X(a.frame)-X(b.frame)).map(row=>({...row,x:X(row.frame),pose:this.data.poses[row.k]}));const named=laidOut(rows.
-map(({x,pose})=>({x,text:shortened(poseName2(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({
+map(({x,pose})=>({x,text:shortened(poseName(pose),LONGEST_TICK)})),width,NAME_ROWS);const texts=named.every(({at})=>at>=0)?named:laidOut(rows.map(({x,pose})=>({
 x,text:pose.label})),width,rows.length>MANY_POSES2?1:NUMBER_ROWS);const deepest=Math.max(0,...texts.map(({at})=>at));const one=(k,pose,...parts)=>s("g",{"data-p\
 ose":k+1},s("title",{},calledOf(pose)),...parts);rows.forEach(({k,x,pose},i)=>stops.append(one(k,pose,s("path",{d:`M${px(x)} 0V${4+ROW*Math.max(0,texts[i].at)}`}))));
 rows.forEach(({k,pose},i)=>{const{at,middle:middle2,text}=texts[i];if(at>=0)stops.append(one(k,pose,s("text",{x:px(middle2),y:14+ROW*at,"text-anchor":"middle"},
@@ -1697,7 +1701,7 @@ addEventListener(end,()=>{if(grip)this.redraw(false);grip=null})}box.addEventLis
 redraw(false)})}redraw(turning){this.turn.above=clamp(this.turn.above,-1.5,1.5);this.turn.zoom=clamp(this.turn.zoom,.6,4);cancelAnimationFrame(this.waiting);this.
 waiting=requestAnimationFrame(()=>this.draw(turning))}point(place){const{chart}=this.data,{centre,half}=this.space;const x=(place.x-chart.origin[0])/chart.length,
 y=(place.y-chart.origin[1])/chart.length;const t=Math.tan((place.a-chart.angle)/2);return[(x*t-y)/2,(x+y*t)/2,t].map((value,k)=>(value-centre[k])/half[k])}build(linkage,index,quick=false){
-this.linkage=linkage;this.space=linkage?.space??this.data.space;this.poses=this.data.poses.map((pose,k)=>{const at=isPoint2(pose)?linkage?.pose_errors[k]:pose;return at&&
+this.linkage=linkage;this.space=linkage?.space??this.data.space;this.poses=this.data.poses.map((pose,k)=>{const at=isPoint(pose)?linkage?.pose_errors[k]:pose;return at&&
 at.x!==null?this.point({x:at.x,y:at.y,a:radians(at.angle_deg)}):null});this.curves=(linkage?.ways??[]).map((way,k)=>({here:k===index,points:Array.from(way.x,(x,i)=>this.
 point({x,y:way.y[i],a:way.angle[i]}))}));const{centre,half}=this.space;const angleOf=q=>degrees(2*Math.atan(centre[2]+half[2]*q)+this.data.chart.angle);this.marks=
 angleTicks(angleOf(-1),angleOf(1),7);const width=Math.max(240,this.parent.clientWidth);this.width=width;this.height=Math.round(clamp(.8*width,240,520));this.svg.
@@ -1757,9 +1761,9 @@ store,answers);const compare=new Compare(store,answers,playing),facts=new FactsT
 bs-player-tools"},centrodes.element,curves.element));results.append(cards.element);const ofAngles=[panel("pivots","Put a pivot somewhere",true,surface.element),
 panel("space","Image space",true,space.element)];const loads=new LoadCharts(answers,playing),ofLoads=panel("loads","Loads along the motion",true,loads.element);
 const ofCurve=panel("cognates","The same curve by three linkages",true,cognates.element);const fold=()=>{const{document:document2}=store;for(const each of ofAngles)
-give(each,"hidden",document2.poses.some(isPoint));give(ofCurve,"hidden",!isOfPoints(document2));give(ofLoads,"hidden",!LOADS.some(key=>document2[key]))};store.on(
-"document",fold);fold();panels.append(ofCurve,...ofAngles,panel("charts","Errors and transmission",true,charts.element),ofLoads,panel("compare","Compare two lin\
-kages",false,compare.element),panel("facts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(
+give(each,"hidden",document2.poses.some(isPoint2));give(ofCurve,"hidden",!isOfPoints(document2));give(ofLoads,"hidden",!LOADS.some(key=>document2[key]))};store.
+on("document",fold);fold();panels.append(ofCurve,...ofAngles,panel("charts","Errors and transmission",true,charts.element),ofLoads,panel("compare","Compare two \
+linkages",false,compare.element),panel("facts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(
 new Event("resize")));unfoldForPrint(panels,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(\
 prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,cards,charts,loads,space,
 cognates,compare,facts}}var FEW2=40;var PointFields=class{constructor({name,options,step,set}){this.name=name;this.options=options;this.step=step;this.set=set;this.fields=[];this.shape=
@@ -1874,7 +1878,7 @@ store,scene);return{scene,banners,files,body,regions,panel:panel2,handles,table:
 text,()=>scene.use(scene.tool?.name===name?null:make()),{"data-do":data,"aria-pressed":"false"});const point2=toggle("Add points","point",()=>new PointTool(store,
 scene),"add-points");const path2=toggle("Draw a path","path",()=>new PathTool(store,scene,drawn),"draw-path");const stop=button("Stop solving",()=>store.cancel(),
 {"data-do":"cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.length?isPath(store.document)?
-CURVE:store.document.poses.some(isPoint)?POINTS2:FIRST:EMPTY));for(const[each,name]of[[pose,"pose"],[point2,"point"],[path2,"path"]])put(each,"aria-pressed",scene.
+CURVE:store.document.poses.some(isPoint2)?POINTS2:FIRST:EMPTY));for(const[each,name]of[[pose,"pose"],[point2,"point"],[path2,"path"]])put(each,"aria-pressed",scene.
 tool?.name===name)};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(
 ()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"bs-bar"},h("div",{class:"bs-row"},pose,point2,path2,button("Fit",
 ()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),button("+",()=>scene.zoom(1.25,scene.size.width/

@@ -218,6 +218,54 @@ function wayName(way, linkage) {
   return parts.join(", ");
 }
 
+// src/burmester/web/widget/drawing.mjs
+var AXIS = 26;
+var BLOCK = [22, 14];
+var transform = (x, y, angle) => `translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;
+function foot() {
+  let hatch = "";
+  for (let k = -2; k <= 2; k += 1) hatch += `M${5.5 * k + 3} 16l-6 7`;
+  return s(
+    "g",
+    { class: "bm-foot" },
+    s("path", { class: "bm-solid", d: "M0 0L-10 16H10Z" }),
+    s("path", { class: "bm-ground", d: `M-16 16H16${hatch}` })
+  );
+}
+function axes(length) {
+  const l = length, head = Math.max(4, 0.22 * length);
+  return `M0 0H${l}m${-head} ${-head / 2}l${head} ${head / 2}l${-head} ${head / 2}M0 0V${-0.6 * l}`;
+}
+function polyline(points, view) {
+  let path = "", pen = "M";
+  for (const [x, y] of points) {
+    if (!Number.isFinite(x) || !Number.isFinite(y)) {
+      pen = "M";
+      continue;
+    }
+    path += `${pen}${px(view.X(x))} ${px(view.Y(y))}`;
+    pen = "L";
+  }
+  return path;
+}
+function hull(points) {
+  const sorted = [...points].sort((p, q) => p[0] - q[0] || p[1] - q[1]);
+  const half = (list) => {
+    const kept = [];
+    for (const point of list) {
+      while (kept.length > 1) {
+        const [a, b] = kept.slice(-2);
+        if ((b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]) > 0) break;
+        kept.pop();
+      }
+      kept.push(point);
+    }
+    return kept.slice(0, -1);
+  };
+  const corners = [...half(sorted), ...half(sorted.reverse())];
+  return corners.length ? corners : sorted.slice(0, 1);
+}
+
 // src/burmester/web/widget/kinematics.mjs
 function act(place, [x, y]) {
   const c = Math.cos(place.a), d = Math.sin(place.a);
@@ -451,149 +499,6 @@ var LoadMarks = class {
     return at.some((each) => each === null) ? null : this.seen(at);
   }
 };
-
-// src/burmester/web/widget/travel.mjs
-var LONGEST_STEP = 0.015;
-var MOST_BETWEEN = 40;
-var LEAST_STRETCH = 1e-6;
-function stretchOf(linkage, index, whole = false) {
-  const last = (linkage?.ways[index]?.x.length ?? 2) - 1, frames = linkage.pose_errors.filter((row) => row.way === index).map((row) => row.frame);
-  const low = frames.reduce((a, b) => Math.min(a, b), last), high = frames.reduce((a, b) => Math.max(a, b), 0);
-  const isApart = high - low > LEAST_STRETCH, sense = frames[frames.length - 1] < frames[0] ? -1 : 1;
-  return { ...isApart && !whole ? { low, high } : { low: 0, high: last }, sense, isApart };
-}
-var placesOf = (data, linkage, way, stretch) => placesAlong(data, stretch, (u) => Number.isInteger(u) && !way.joints ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
-function placesAlong(data, { low, high }, at) {
-  const places = [at(low)];
-  let before = low;
-  const goTo = (u) => {
-    const next = at(u), last = places[places.length - 1];
-    const count = Math.min(MOST_BETWEEN, Math.floor(Math.hypot(next.x - last.x, next.y - last.y) / (LONGEST_STEP * data.scene)));
-    for (let k = 1; k <= count; k += 1) places.push(at(before + k / (count + 1) * (u - before)));
-    places.push(next);
-    before = u;
-  };
-  for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
-  goTo(high);
-  return places;
-}
-function driveAtTime({ time: { x, y } }, time) {
-  return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, time) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, time);
-}
-function alongLine(dyad, place) {
-  const [nx, ny] = normalOf(dyad);
-  const [x, y] = dyad.kind === "PR" ? act(place, dyad.moving_pivot) : back(place, dyad.fixed_pivot);
-  return nx * y - ny * x;
-}
-function travelOf(dyad, places) {
-  const along = places.map((place) => alongLine(dyad, place));
-  return [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
-}
-function pointOnLine(dyad, along) {
-  const [nx, ny] = normalOf(dyad), { offset } = dyad.line;
-  return [offset * nx - along * ny, offset * ny + along * nx];
-}
-
-// src/burmester/web/widget/drawing.mjs
-var AXIS = 26;
-var BLOCK = [22, 14];
-var WIDEST = 4;
-function farFrom(data) {
-  const [x, y] = ["x", "y"].map((k) => {
-    const [low, high] = data.poses.reduce(([a, b], pose) => [Math.min(a, pose[k]), Math.max(b, pose[k])], [Infinity, -Infinity]);
-    return (low + high) / 2;
-  });
-  return (point) => !(Math.hypot(point[0] - x, point[1] - y) < WIDEST * data.scene);
-}
-function pivotsAt(linkage, places) {
-  const found = [];
-  for (const dyad of linkage.led) {
-    if (dyad.fixed_pivot) found.push({ dyad, fixed: true, at: dyad.fixed_pivot });
-    const own = dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
-    for (const point of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point) });
-  }
-  for (const { joints } of places) for (const at of Object.values(joints ?? {})) found.push({ fixed: false, at });
-  return found;
-}
-function boundsOf(data, linkage, places, far) {
-  const isFar = farFrom(data), box = [Infinity, Infinity, -Infinity, -Infinity];
-  const include = ([x, y]) => {
-    if (!Number.isFinite(x + y) || !far && isFar([x, y])) return;
-    box[0] = Math.min(box[0], x);
-    box[1] = Math.min(box[1], y);
-    box[2] = Math.max(box[2], x);
-    box[3] = Math.max(box[3], y);
-  };
-  for (const pose of data.poses) include([pose.x, pose.y]);
-  if (linkage) {
-    for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
-    for (const place of places) include([place.x, place.y]);
-    for (const { at } of pivotsAt(linkage, places)) include(at);
-    for (const at of markPoints(data, places)) include(at);
-  }
-  const least = 0.25 * data.scene;
-  for (const k of [0, 1]) {
-    const lack = least - (box[k + 2] - box[k]);
-    if (lack > 0) {
-      box[k] -= lack / 2;
-      box[k + 2] += lack / 2;
-    }
-  }
-  return box;
-}
-function viewOf(box, width, height, margin) {
-  const scale = Math.min(
-    (width - 2 * margin) / (box[2] - box[0]),
-    (height - 2 * margin) / (box[3] - box[1])
-  );
-  const left = width / 2 - scale * (box[0] + box[2]) / 2;
-  const top = height / 2 + scale * (box[1] + box[3]) / 2;
-  return { scale, left, top, width, height, X: (x) => left + scale * x, Y: (y) => top - scale * y };
-}
-var transform = (x, y, angle) => `translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;
-function foot() {
-  let hatch = "";
-  for (let k = -2; k <= 2; k += 1) hatch += `M${5.5 * k + 3} 16l-6 7`;
-  return s(
-    "g",
-    { class: "bm-foot" },
-    s("path", { class: "bm-solid", d: "M0 0L-10 16H10Z" }),
-    s("path", { class: "bm-ground", d: `M-16 16H16${hatch}` })
-  );
-}
-function axes(length) {
-  const l = length, head = Math.max(4, 0.22 * length);
-  return `M0 0H${l}m${-head} ${-head / 2}l${head} ${head / 2}l${-head} ${head / 2}M0 0V${-0.6 * l}`;
-}
-function polyline(points, view) {
-  let path = "", pen = "M";
-  for (const [x, y] of points) {
-    if (!Number.isFinite(x) || !Number.isFinite(y)) {
-      pen = "M";
-      continue;
-    }
-    path += `${pen}${px(view.X(x))} ${px(view.Y(y))}`;
-    pen = "L";
-  }
-  return path;
-}
-function hull(points) {
-  const sorted = [...points].sort((p, q) => p[0] - q[0] || p[1] - q[1]);
-  const half = (list) => {
-    const kept = [];
-    for (const point of list) {
-      while (kept.length > 1) {
-        const [a, b] = kept.slice(-2);
-        if ((b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]) > 0) break;
-        kept.pop();
-      }
-      kept.push(point);
-    }
-    return kept.slice(0, -1);
-  };
-  const corners = [...half(sorted), ...half(sorted.reverse())];
-  return corners.length ? corners : sorted.slice(0, 1);
-}
 
 // src/burmester/web/widget/words.mjs
 function wayStory(way, poses) {
@@ -2005,6 +1910,48 @@ var Plots = class {
   }
 };
 
+// src/burmester/web/widget/travel.mjs
+var LONGEST_STEP = 0.015;
+var MOST_BETWEEN = 40;
+var LEAST_STRETCH = 1e-6;
+function stretchOf(linkage, index, whole = false) {
+  const last = (linkage?.ways[index]?.x.length ?? 2) - 1, frames = linkage.pose_errors.filter((row) => row.way === index).map((row) => row.frame);
+  const low = frames.reduce((a, b) => Math.min(a, b), last), high = frames.reduce((a, b) => Math.max(a, b), 0);
+  const isApart = high - low > LEAST_STRETCH, sense = frames[frames.length - 1] < frames[0] ? -1 : 1;
+  return { ...isApart && !whole ? { low, high } : { low: 0, high: last }, sense, isApart };
+}
+var placesOf = (data, linkage, way, stretch) => placesAlong(data, stretch, (u) => Number.isInteger(u) && !way.joints ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
+function placesAlong(data, { low, high }, at) {
+  const places = [at(low)];
+  let before = low;
+  const goTo = (u) => {
+    const next = at(u), last = places[places.length - 1];
+    const count = Math.min(MOST_BETWEEN, Math.floor(Math.hypot(next.x - last.x, next.y - last.y) / (LONGEST_STEP * data.scene)));
+    for (let k = 1; k <= count; k += 1) places.push(at(before + k / (count + 1) * (u - before)));
+    places.push(next);
+    before = u;
+  };
+  for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
+  goTo(high);
+  return places;
+}
+function driveAtTime({ time: { x, y } }, time) {
+  return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, time) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, time);
+}
+function alongLine(dyad, place) {
+  const [nx, ny] = normalOf(dyad);
+  const [x, y] = dyad.kind === "PR" ? act(place, dyad.moving_pivot) : back(place, dyad.fixed_pivot);
+  return nx * y - ny * x;
+}
+function travelOf(dyad, places) {
+  const along = places.map((place) => alongLine(dyad, place));
+  return [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
+}
+function pointOnLine(dyad, along) {
+  const [nx, ny] = normalOf(dyad), { offset } = dyad.line;
+  return [offset * nx - along * ny, offset * ny + along * nx];
+}
+
 // src/burmester/web/widget/load_plots.mjs
 var TITLE2 = "Loads";
 var fieldsets = 0;
@@ -2281,27 +2228,81 @@ var PivotMap = class {
   }
 };
 
+// src/burmester/web/widget/framing.mjs
+var WIDEST = 4;
+var ROOM = 2.5;
+var SPARE = 0.75;
+var LEAST = 0.25;
+var MOST_PLACES = 400;
+var INSET2 = 12;
+var bounds = (points) => points.reduce(([x, y, u, v], [a, b]) => Number.isFinite(a + b) ? [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)] : [x, y, u, v], [Infinity, Infinity, -Infinity, -Infinity]);
+var placesAtPoses = (data, linkage) => data.poses.flatMap((pose, k) => {
+  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
+  return at.angle_deg === null ? [] : [{ x: at.x, y: at.y, a: radians(at.angle_deg), k }];
+});
+function farFrom(data) {
+  const [x, y, u, v] = bounds(data.poses.map((pose) => [pose.x, pose.y])), reach = (data.body ?? []).reduce((most, [a, b]) => Math.max(most, Math.hypot(a, b)), 0);
+  return (point) => !(Math.hypot(point[0] - (x + u) / 2, point[1] - (y + v) / 2) < Math.max(WIDEST * data.scene, reach));
+}
+function pivotsAt(linkage, places) {
+  const fixed2 = linkage.led.flatMap((dyad) => dyad.fixed_pivot ? [dyad.fixed_pivot] : []);
+  const own = linkage.led.flatMap((dyad) => dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : []);
+  return [...fixed2, ...places.flatMap((place) => [...own.map((point) => act(place, point)), ...Object.values(place.joints ?? {})])];
+}
+function nearPoints(data, linkage, places, { far = false, close = false } = {}) {
+  const isFar = farFrom(data), seen = (point) => far || !isFar(point);
+  const reached = linkage ? [...linkage.pose_errors.filter((row) => row.x !== null), ...places] : [];
+  const points = [...[...data.poses, ...reached].map(({ x, y }) => [x, y]), ...linkage ? [...pivotsAt(linkage, places), ...markPoints(data, places)] : []];
+  const some = places.filter((place, k) => k % Math.ceil(places.length / MOST_PLACES) === 0 && seen([place.x, place.y]));
+  const corners = data.body && !close ? [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner))) : [];
+  return [...points.filter(seen), ...corners];
+}
+function fitted(near, others, whole) {
+  const all = bounds([...near, ...others]);
+  const [x, y, u, v] = bounds(near), size = Math.max(u - x, v - y) || 1, reach = SPARE * size;
+  if (whole || !near.length || Math.max(all[2] - all[0], all[3] - all[1]) <= ROOM * size) return all;
+  return [Math.max(all[0], x - reach), Math.max(all[1], y - reach), Math.min(all[2], u + reach), Math.min(all[3], v + reach)];
+}
+function boxOf(data, linkage, places, { whole = false, close = false } = {}) {
+  const near = nearPoints(data, linkage, places, { far: whole, close }), regions = close ? [] : data.keep_out.flatMap((region) => region.outline);
+  const box = fitted(near, regions, whole || !linkage), least = LEAST * data.scene;
+  for (const k of [0, 1]) {
+    const lack = Math.max(0, least - (box[k + 2] - box[k]));
+    box[k] -= lack / 2;
+    box[k + 2] += lack / 2;
+  }
+  return box;
+}
+function viewOf(box, width, height, margin) {
+  const scale = Math.min((width - 2 * margin) / (box[2] - box[0]), (height - 2 * margin) / (box[3] - box[1]));
+  const left = width / 2 - scale * (box[0] + box[2]) / 2, top = height / 2 + scale * (box[1] + box[3]) / 2;
+  return { scale, left, top, width, height, X: (x) => left + scale * x, Y: (y) => top - scale * y };
+}
+function edgeTowards({ X, Y, width, height }, at) {
+  const x = X(at[0]), y = Y(at[1]), cx = width / 2, cy = height / 2;
+  if (x >= 0 && y >= 0 && x <= width && y <= height) return null;
+  const size = Math.hypot(x - cx, y - cy), u = (x - cx) / size, v = (y - cy) / size;
+  const reach = Math.min((cx - INSET2) / Math.abs(u), (cy - INSET2) / Math.abs(v));
+  return { x: cx + reach * u, y: cy + reach * v, angle: Math.atan2(-v, u) };
+}
+
 // src/burmester/web/widget/outlines.mjs
 var HATCH = 9;
 var PALEST = 0.45;
 var LONGEST_NAME2 = 28;
-var LEAST_LINKAGE = 110;
-var MOST_PLACES = 400;
+var MANY_GHOSTS = 6;
 var patterns = 0;
 var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
 var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
-var placesAtPoses = (data, linkage) => data.poses.flatMap((pose, k) => {
-  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
-  return isPoint(at) ? [] : [{ x: at.x, y: at.y, a: radians(at.angle_deg), k }];
-});
+var hasGhost = (k, count) => count <= MANY_GHOSTS || k === 0 || k === count - 1;
 function ghosts(data, linkage, view) {
   const group = s("g", { class: "bm-ghosts" });
   if (!data.body) {
-    for (const row of linkage?.drawn ? linkage.pose_errors : []) group.append(plate(placeAt(linkage, linkage.ways[row.way], row.frame, data.chart.length), linkage, view));
+    for (const row of linkage?.drawn ? linkage.pose_errors.filter((_, k) => hasGhost(k, linkage.pose_errors.length)) : []) group.append(plate(placeAt(linkage, linkage.ways[row.way], row.frame, data.chart.length), linkage, view));
     return group;
   }
   const last = Math.max(1, data.poses.length - 1);
-  for (const { x, y, a, k } of placesAtPoses(data, linkage)) {
+  for (const { x, y, a, k } of placesAtPoses(data, linkage).filter((place) => !linkage || hasGhost(place.k, data.poses.length))) {
     const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
     group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
   }
@@ -2336,28 +2337,13 @@ function keepOutNames(data, view, labels) {
     return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
   });
 }
-function bodyCorners(data, linkage, places) {
-  if (!data.body) return [];
-  const some = places.filter((_, k) => k % Math.ceil(places.length / MOST_PLACES) === 0);
-  return [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner)));
-}
-var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
-var including = (box, points) => points.reduce(([x, y, u, v], [a, b]) => [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)], box);
-function widened(box, data, linkage, places, width, all) {
-  const withBody = including(box, bodyCorners(data, linkage, places));
-  const whole = including(withBody, data.keep_out.flatMap((region) => region.outline));
-  const most = Math.max(2, width / LEAST_LINKAGE) * sizeOf(box);
-  if (all || !linkage || sizeOf(whole) <= most) return whole;
-  const inner = sizeOf(withBody) <= most ? withBody : box, reach = (most - sizeOf(inner)) / 2;
-  return whole.map((each, k) => k < 2 ? Math.max(each, inner[k] - reach) : Math.min(each, inner[k] + reach));
-}
 
 // src/burmester/web/widget/mechanism.mjs
 var BODY_AXIS = AXIS + 10;
 var LETTER = 14;
 var TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
 var BLOCK_IN_SLOT = [18, 10];
-var SPARE = 5;
+var SPARE2 = 5;
 var NAME = 15;
 var ARROW = 24;
 function mechanism(data, linkage, view, places) {
@@ -2497,7 +2483,7 @@ var Slot = class {
   shape(dyad, view, places) {
     this.dyad = dyad;
     this.view = view;
-    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE) / view.scale;
+    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE2) / view.scale;
     const seen = (along) => inBody(pointOnLine(dyad, along), view);
     const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
     for (const stroke of this.strokes) put(stroke, "d", d);
@@ -2575,6 +2561,7 @@ function railOf(dyad, places, view) {
 }
 
 // src/burmester/web/widget/plane.mjs
+var CLOSER = 0.4;
 var BESIDE_PIVOT = [16, 28, 40];
 var FACTORS = [0, 1, 10, 100, 1e3, 1e4, 1e5];
 function factorFor(data, linkage) {
@@ -2583,10 +2570,11 @@ function factorFor(data, linkage) {
   const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
   return fits.length ? fits[fits.length - 1] : 1;
 }
+var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
 var standing = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
 function hasFarPivots(data, linkage, places) {
   const isFar = farFrom(data);
-  return pivotsAt(linkage, places).some(({ at }) => isFar(at));
+  return pivotsAt(linkage, places).some(isFar);
 }
 var Plane = class {
   /** @type {any} */
@@ -2595,6 +2583,8 @@ var Plane = class {
   places;
   /** @type {any} */
   linkage;
+  /** @type {(() => void) | undefined} */
+  reveal;
   constructor(data, parent) {
     this.data = data;
     this.svg = s("svg", { class: "bm-plane", role: "img", tabindex: "0" });
@@ -2604,17 +2594,18 @@ var Plane = class {
   /** Draw what stands still.
    *
    * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
-   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
+   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses;
+   * close: whether it holds poses and linkage alone.
    */
-  build(linkage, way, stretch, { factor, fill, far }) {
+  build(linkage, way, stretch, { factor, fill, far, close = false }) {
     const { data, svg } = this, path = linkage?.ways[way];
     this.linkage = linkage;
     this.way = way;
     this.places = path ? placesOf(data, linkage, path, stretch) : [];
-    const bare = boundsOf(data, linkage, this.places, far);
     const width = Math.max(260, this.parent.clientWidth);
-    const box = widened(bare, data, linkage, this.places, width, far);
-    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
+    const box = boxOf(data, linkage, this.places, { whole: far, close }), different = (other) => other.some((each, k) => each !== box[k]);
+    this.cut = !far && different(boxOf(data, linkage, this.places, { whole: true }));
+    this.isLarge = close || Boolean(linkage) && sizeOf(boxOf(data, linkage, this.places, { close: true })) < CLOSER * sizeOf(box);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
     const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
@@ -2644,7 +2635,7 @@ var Plane = class {
     svg.append(this.poses(linkage, factor, labels));
     this.moving = path ? mechanism(data, linkage, view, this.places) : null;
     if (this.moving) svg.append(this.moving.group);
-    if (linkage && !far) this.farPivots(labels);
+    if (linkage) this.farPivots(labels);
     svg.append(this.names);
   }
   grid() {
@@ -2740,22 +2731,22 @@ var Plane = class {
     group.append(at);
     this.names.append(labels.put(x, y + 4, dyad.name ?? dyad.id, 27, { class: `bm-name bm-side${side}` }));
   }
-  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
+  /** At the edge of the picture, in their direction, the names of what stands outside; a press on one calls `reveal`. */
   farPivots(labels) {
-    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
+    const { data, view } = this, digits = decimalsOf(data);
     this.linkage.led.forEach((dyad, side) => {
       const at = standing(dyad, this.places);
-      if (!at || !isFar(at)) return;
-      const [x, y] = [view.X(at[0]), view.Y(at[1])];
-      const cx = view.width / 2, cy = view.height / 2, size = Math.hypot(x - cx, y - cy);
-      const u = (x - cx) / size, v = (y - cy) / size;
-      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
-      const ex = cx + reach * u, ey = cy + reach * v;
+      const edge = at && edgeTowards(view, at);
+      if (!edge) return;
       const text = `${dyad.name ?? dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
-      labels.block(ex, ey, 20, 20);
+      labels.block(edge.x, edge.y, 20, 20);
       this.names.append(
-        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
-        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
+        s(
+          "g",
+          { class: "bm-to-far", onclick: () => this.reveal?.() },
+          s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(edge.x, edge.y, edge.angle) }),
+          labels.put(edge.x, edge.y, text, 14, { class: `bm-name bm-far-name bm-side${side}` })
+        )
       );
     });
   }
@@ -2816,12 +2807,14 @@ var Plane = class {
       arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
       for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
     });
+    if (arrows.children.length) this.names.append(scaleOfErrors(view, factor));
     return arrows;
   }
   show(place, drive) {
     this.moving?.show(place, drive);
   }
 };
+var scaleOfErrors = ({ width }, factor) => s("text", { class: "bm-error-scale", x: width - 8, y: 16, "text-anchor": "end" }, factor === 1 ? "errors to scale" : `errors × ${factor.toLocaleString("en").replaceAll(",", " ")}`);
 
 // src/burmester/web/widget/player.mjs
 var TURN_SECONDS = 7;
@@ -3232,6 +3225,10 @@ var Report = class {
   /** @type {any} */
   farLabel;
   /** @type {any} */
+  closer;
+  /** @type {any} */
+  closeLabel;
+  /** @type {any} */
   numbers;
   /** @type {any} */
   cards;
@@ -3309,6 +3306,10 @@ var Report = class {
     const { data, player } = this;
     const drawing = h("div", { class: "bm-drawing" });
     this.plane = new Plane(data, drawing);
+    this.plane.reveal = () => {
+      this.far.checked = true;
+      this.draw();
+    };
     this.title = h("h2", { class: "bm-stage-title" }, "The poses");
     this.story = h("p", { class: "bm-story" });
     return h(
@@ -3326,13 +3327,16 @@ var Report = class {
     this.far = h("input", { type: "checkbox", checked: Boolean(this.data.whole), onchange: () => this.draw() });
     this.farName = h("span", {});
     this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " ", this.farName);
-    return this.farLabel;
+    this.closer = h("input", { type: "checkbox", onchange: () => this.draw() });
+    this.closeLabel = h("label", { class: "bm-factor bm-close-up", hidden: true }, this.closer, " The linkage alone");
+    return [this.closeLabel, this.farLabel];
   }
   offerAll(linkage) {
     if (!this.farLabel) return;
     const pivots = hasFarPivots(this.data, linkage, this.plane.places);
     this.farLabel.hidden = !pivots && !this.plane.cut && (this.data.whole || !this.far.checked);
-    this.farName.textContent = pivots ? "Whole linkage, with far pivots" : "All of the body and its surroundings";
+    this.farName.textContent = pivots ? "Whole linkage, with far pivots" : "All of the surroundings";
+    this.closeLabel.hidden = !this.plane.isLarge;
   }
   magnification() {
     this.factor = h(
@@ -3429,8 +3433,8 @@ var Report = class {
     const { linkage, player } = this, way = player?.way ?? 0, stretch = player?.stretch;
     this.plots?.build(linkage, way, stretch);
     this.loads?.build(linkage, way);
-    const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked);
-    this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
+    const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked), close = Boolean(this.closer?.checked);
+    this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far, close });
     this.offerAll(linkage);
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
     this.space?.build(linkage, way);

@@ -2,16 +2,14 @@
 
 import { put, s } from "../widget/dom.mjs";
 import { transform } from "../widget/drawing.mjs";
-import { act } from "../widget/kinematics.mjs";
+import { hasGhost } from "../widget/outlines.mjs";
 import { px, radians } from "../widget/numbers.mjs";
 import { bodyOf, setBody, standing } from "./document.mjs";
 import { isOther } from "./pacing.mjs";
-import { drawnPoses } from "./pose_handles.mjs";
 import { Kept } from "./scene.mjs";
 import { ShapeHandles } from "./shape_handles.mjs";
 import { ShapeTool } from "./shape_tool.mjs";
 
-const MOST_GHOSTS = 60;
 const PALEST = 0.4; // how strong the first ghost is, of the last one
 
 /** The pose at which frame M is drawn on: the selected one, or the first. */
@@ -45,21 +43,13 @@ export class BodyEditor {
     });
     store.on("document selection", () => this.draw());
     scene.on("view", () => this.draw());
-    scene.hold(() => this.corners(), true);
     this.draw();
   }
 
-  corners() {
-    const body = bodyOf(this.store.document);
-    return this.indices().flatMap((k) => {
-      const { x, y, angle } = standing(this.store.document, k);
-      return body.map((corner) => act({ x, y, a: radians(angle) }, corner));
-    });
-  }
-
+  /** Of many poses the first, the last and the selected one have a ghost; the body itself moves with the linkage. */
   indices() {
-    const drawn = drawnPoses(this.store, this.scene.view.scale), stride = Math.ceil(drawn.length / MOST_GHOSTS);
-    return drawn.filter((_, i) => i % stride === 0 || i === drawn.length - 1);
+    const { document: { poses }, selection } = this.store, chosen = selection?.kind === "pose" ? selection.index : null;
+    return poses.map((_, k) => k).filter((k) => hasGhost(k, poses.length) || k === chosen);
   }
 
   draw() {

@@ -3,11 +3,11 @@
 
 import { put, s, say } from "../widget/dom.mjs";
 import { AXIS, axes, foot, transform } from "../widget/drawing.mjs";
+import { edgeTowards, nearPoints, placesAtPoses } from "../widget/framing.mjs";
 import { act, placeAt } from "../widget/kinematics.mjs";
-import { markPoints } from "../widget/load_marks.mjs";
 import { Mechanism } from "../widget/mechanism.mjs";
-import { px, radians } from "../widget/numbers.mjs";
-import { factorFor } from "../widget/plane.mjs";
+import { clamp, px, radians } from "../widget/numbers.mjs";
+import { factorFor, scaleOfErrors } from "../widget/plane.mjs";
 import { railOf } from "../widget/rail.mjs";
 import { smoothPath } from "../widget/smooth_path.mjs";
 import { UNSEEN } from "./answers.mjs";
@@ -41,10 +41,13 @@ export class LiveLinkage {
     this.mechanism = null;
     this.holder = s("g", { class: "bs-mechanism" }, ...this.rails, ...this.feet, this.achieved, s("g", { class: "bm-errors" }, this.arrows));
     this.labels = s("g", { class: "bs-dyad-names" }, this.names);
+    this.edges = s("g", { class: "bs-edges" });
     scene.layer("paths").append(this.paths);
     scene.layer("mechanism").append(this.holder);
-    scene.layer("labels").append(this.labels);
+    scene.layer("labels").append(this.labels, this.edges);
     scene.hold?.(() => this.points());
+    scene.on("closer", () => this.closer());
+    answers.on("shown", () => scene.isFitted && scene.fit(scene.isWhole));
     playing.on("shape", () => this.shape());
     playing.on("place", ({ place, drive }) => this.mechanism?.show(place, drive));
     scene.on("view", () => this.redraw());
@@ -52,14 +55,17 @@ export class LiveLinkage {
     this.redraw();
   }
 
-  /** Points that a fit has to hold: the places at the poses and near pivots. */
-  points() {
+  /** Points that a fit has to hold: poses, body and linkage at the poses; close: without the body. */
+  points(close = false) {
     const { linkage } = this.playing, { data } = this.answers;
-    if (!linkage) return [];
-    const [pose] = data.poses, near = ([x, y]) => pose && Math.hypot(x - pose.x, y - pose.y) < 3 * data.scene;
-    const pins = linkage.led.flatMap((dyad) => (dyad.fixed_pivot ? [dyad.fixed_pivot] : []));
-    const moving = linkage.pose_errors.filter((row) => row.x !== null).flatMap((row) => linkage.led.filter((dyad) => dyad.moving_pivot).map((dyad) => act({ x: row.x, y: row.y, a: radians(row.angle_deg) }, dyad.moving_pivot)));
-    return [...pins, ...moving, ...markPoints(data, [])].filter(near);
+    return nearPoints(data, linkage, linkage ? placesAtPoses(data, linkage) : [], { close });
+  }
+
+  /** The selected pose with its neighbours, or else the linkage without its body, as large as they fit. */
+  closer() {
+    const { selection, document: { poses } } = this.answers.store, k = selection?.kind === "pose" ? selection.index : null;
+    const near = k === null ? [] : poses.slice(Math.max(0, k - 1), k + 2).map((pose) => [pose.x ?? 0, pose.y ?? 0]);
+    this.scene.closeUp(near.length > 1 ? near : this.points(true));
   }
 
   /** What names keep off: the feet of fixed pivots. */
@@ -85,12 +91,13 @@ export class LiveLinkage {
   shape() {
     const { playing, answers, scene } = this, { linkage, path } = playing, { view } = scene;
     const there = Boolean(linkage) && !linkage.gone;
-    for (const part of [this.paths, this.holder, this.labels]) put(part, "visibility", there ? "visible" : "hidden");
+    for (const part of [this.paths, this.holder, this.labels, this.edges]) put(part, "visibility", there ? "visible" : "hidden");
     if (!there) return;
     const places = path ? framesOf(path) : [];
     this.enlarge();
     this.curves(linkage, path, places, view);
     this.ground(linkage, places, view);
+    this.outside(linkage, view);
     this.atPoses(linkage, view);
     if (!path) {
       this.mechanism?.group.remove();
@@ -152,6 +159,17 @@ export class LiveLinkage {
       }
       scene.names.put(name, x, y + FOOT, dyad.id, around(dyad.id, -Math.PI / 2, OFF));
     });
+  }
+
+  /** At the edge, arrows that lead to pivots outside the picture; and how much larger error arrows are. */
+  outside(linkage, view) {
+    const marks = linkage.led.flatMap((dyad, side) => {
+      const edge = dyad.fixed_pivot && edgeTowards(view, dyad.fixed_pivot), end = edge && edge.x > view.width / 2;
+      return edge ? [s("g", { class: `bm-to-far bm-side${side}`, "data-dyad": dyad.id, onclick: () => this.scene.reveal(dyad.fixed_pivot) },
+        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(edge.x, edge.y, edge.angle) }),
+        s("text", { class: `bm-name bm-side${side}`, x: px(edge.x + (end ? -12 : 12)), y: px(clamp(edge.y + 4, 14, view.height - 24)), "text-anchor": end ? "end" : "start" }, `${dyad.id} is outside`))] : [];
+    });
+    this.edges.replaceChildren(...marks, ...(this.factor ? [scaleOfErrors(view, this.factor)] : []));
   }
 
   /** Where the linkage takes the body instead of the poses, and the errors between them, enlarged. */

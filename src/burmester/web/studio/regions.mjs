@@ -8,7 +8,8 @@ import { currentLinkage, limitsMissed, missedSentence, regionsTouched } from "./
 import { addRegion, bodyOf, limitRegions, limitsOf, regionsOf, removeRegion, setLimit, setRegion, setRequirement, shapeOf } from "./document.mjs";
 import { along } from "./name_places.mjs";
 import { outlineOf } from "./region_geometry.mjs";
-import { Kept, bounds } from "./scene.mjs";
+import { bounds } from "../widget/framing.mjs";
+import { Kept } from "./scene.mjs";
 import { GROUND, ShapeHandles } from "./shape_handles.mjs";
 import { ShapeTool } from "./shape_tool.mjs";
 

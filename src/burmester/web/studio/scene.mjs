@@ -1,6 +1,7 @@
 // The plane with its layers: panned, zoomed and fitted, with a grid, and gestures on what is drawn in it.
 
 import { h, put, s } from "../widget/dom.mjs";
+import { bounds, fitted, viewOf } from "../widget/framing.mjs";
 import { clamp, px, ticks } from "../widget/numbers.mjs";
 import { NamePlaces } from "./name_places.mjs";
 
@@ -10,7 +11,6 @@ const ZOOM = 1.0018; // a pixel of the wheel
 const WIDEST = 1e6; // times the fitted scale, either way
 const CLICK = 4; // pixels: a pointer that moves no farther clicks
 const RAW = 8; // milliseconds: so often a hand is followed between two pictures, where the browser tells
-const SPARE = 0.5; // of the size of what is near: so far a picture reaches for what is far
 
 /** What stands in the middle of the page: `layer(name)` is a group to draw in, in pixels; `view` goes to pixels and back.
  *
@@ -22,7 +22,7 @@ export class Scene {
   constructor(store, { zoomKey = false } = {}) {
     this.store = store;
     this.zoomKey = zoomKey;
-    this.listeners = { view: [], click: [], tool: [], dropped: [] };
+    this.listeners = { view: [], click: [], tool: [], dropped: [], closer: [] };
     this.tool = null;
     this.dragged = null;
     this.layers = new Map(LAYERS.map((name) => [name, s("g", { class: `bs-layer bs-layer-${name}` })]));
@@ -46,7 +46,8 @@ export class Scene {
     return this.layers.get(name);
   }
 
-  /** "view": after it changes; "click": on the empty plane, with a point and the event; "tool": another tool, or none; "dropped": a hand let go. */
+  /** "view": after it changes; "click": on the empty plane, with a point and the event; "tool": another tool, or none; "dropped": a hand let go;
+   * "closer": what is selected is to be seen closer. */
   on(name, fn) {
     this.listeners[name].push(fn);
   }
@@ -55,7 +56,7 @@ export class Scene {
     return this.listeners[name].map((fn) => fn(...values)).some(Boolean);
   }
 
-  /** `fn` returns points of F that a fit has to hold; far: as far as they leave room for handles. */
+  /** `fn` returns points of F that a fit has to hold, or in a close-up; far: as far as they leave room for handles. */
   hold(fn, far = false) {
     this.boxes.push({ fn, far });
   }
@@ -99,28 +100,38 @@ export class Scene {
     this.update();
   }
 
-  /** Show what is held; what is far as well where all of it is wanted. */
+  /** Show what is held; whole: what is far as well. */
   fit(whole = false) {
     const pointsOf = (isFar) => this.boxes.filter(({ far }) => far === isFar).flatMap(({ fn }) => fn());
-    const near = pointsOf(false), far = pointsOf(true), all = bounds([...near, ...far]);
-    let [x, y, u, v] = near.length && !whole ? bounds(near) : Number.isFinite(all[0]) ? all : [-50, -50, 50, 50];
-    const size = Math.max(u - x, v - y) || Math.max(1, Math.abs(u), Math.abs(v));
-    if (near.length && far.length && !whole) {
-      const reach = SPARE * size;
-      [x, y, u, v] = [Math.max(all[0], x - reach), Math.max(all[1], y - reach), Math.min(all[2], u + reach), Math.min(all[3], v + reach)];
-    }
     this.isWhole = whole;
-    const { width, height } = this.size, margin = Math.min(MARGIN, width / 8);
-    const scale = Math.min((width - 2 * margin) / Math.max(u - x, 0.1 * size), (height - 2 * margin) / Math.max(v - y, 0.1 * size));
-    this.fittedScale = scale;
-    this.origin = { scale, left: width / 2 - (scale * (x + u)) / 2, top: height / 2 + (scale * (y + v)) / 2 };
     this.isFitted = true;
+    this.fitBox(fitted(pointsOf(false), pointsOf(true), whole));
+  }
+
+  /** Show a box of F. */
+  fitBox(box) {
+    const [x, y, u, v] = Number.isFinite(box[0]) ? box : [-50, -50, 50, 50], size = 0.1 * (Math.max(u - x, v - y) || Math.max(1, Math.abs(u), Math.abs(v)));
+    const { width, height } = this.size, wide = Math.max(0, size - u + x) / 2, high = Math.max(0, size - v + y) / 2;
+    const { scale, left, top } = viewOf([x - wide, y - high, u + wide, v + high], width, height, Math.min(MARGIN, width / 8));
+    this.fittedScale = scale;
+    this.origin = { scale, left, top };
     this.update();
   }
 
   /** Fit; and where that is done already, all or not all. */
   fitAgain() {
     this.fit(this.isFitted && !this.isWhole);
+  }
+
+  /** Show a few points alone, or what is seen and one more. */
+  closeUp(points) {
+    this.isFitted = false;
+    this.fitBox(bounds(points));
+  }
+
+  reveal(point) {
+    const { view } = this, margin = Math.min(MARGIN, view.width / 8);
+    this.closeUp([point, [view.x(margin), view.y(margin)], [view.x(view.width - margin), view.y(view.height - margin)]]);
   }
 
   grid() {
@@ -296,14 +307,11 @@ export class Scene {
     else if (event.key === "+" || event.key === "=") this.zoom(1.25, width / 2, height / 2);
     else if (event.key === "-") this.zoom(0.8, width / 2, height / 2);
     else if (event.key === "0") this.fitAgain();
+    else if (event.key === "z") this.emit("closer");
     else return;
     event.preventDefault();
   }
 }
-
-/** The box of points: [x low, y low, x high, y high]. */
-export const bounds = (points) =>
-  points.reduce(([x, y, u, v], [a, b]) => (Number.isFinite(a + b) ? [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)] : [x, y, u, v]), [Infinity, Infinity, -Infinity, -Infinity]);
 
 /** Elements of a layer that stay the same from one drawing to the next, by their keys, so that focus and gestures survive.
  *

@@ -1,79 +1,10 @@
-// The plane as a picture: what it has to hold, its scale in pixels, and the signs of kinematics.
+// The signs of kinematics, in pixels.
 
 import { s } from "./dom.mjs";
-import { act } from "./kinematics.mjs";
-import { markPoints } from "./load_marks.mjs";
 import { degrees, px } from "./numbers.mjs";
-import { pointOnLine, travelOf } from "./travel.mjs";
 
 export const AXIS = 26; // pixels: the x axis of a pose
 export const BLOCK = [22, 14]; // pixels: a slider's length and height
-const WIDEST = 4; // sizes of the scene: a point farther from its middle is far, and does not widen the picture
-
-/** Tells of a point whether it is too far from the poses to widen the picture unasked. */
-export function farFrom(data) {
-  const [x, y] = ["x", "y"].map((k) => {
-    const [low, high] = data.poses.reduce(([a, b], pose) => [Math.min(a, pose[k]), Math.max(b, pose[k])], [Infinity, -Infinity]);
-    return (low + high) / 2;
-  });
-  return (point) => !(Math.hypot(point[0] - x, point[1] - y) < WIDEST * data.scene);
-}
-
-/** The pivots of a linkage at some places: { dyad, fixed, at } each; a slot of the body by its ends. */
-export function pivotsAt(linkage, places) {
-  const found = [];
-  for (const dyad of linkage.led) {
-    if (dyad.fixed_pivot) found.push({ dyad, fixed: true, at: dyad.fixed_pivot });
-    const own = dyad.moving_pivot
-      ? [dyad.moving_pivot]
-      : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : [];
-    for (const point of own) for (const place of places) found.push({ dyad, fixed: false, at: act(place, point) });
-  }
-  for (const { joints } of places) for (const at of Object.values(joints ?? {})) found.push({ fixed: false, at });
-  return found;
-}
-
-/** The box of everything that the picture has to hold: [x low, y low, x high, y high].
- *
- * places: those that the linkage takes; far: whether far pivots widen it, too.
- */
-export function boundsOf(data, linkage, places, far) {
-  const isFar = farFrom(data), box = [Infinity, Infinity, -Infinity, -Infinity];
-  const include = ([x, y]) => {
-    if (!Number.isFinite(x + y) || (!far && isFar([x, y]))) return;
-    box[0] = Math.min(box[0], x);
-    box[1] = Math.min(box[1], y);
-    box[2] = Math.max(box[2], x);
-    box[3] = Math.max(box[3], y);
-  };
-  for (const pose of data.poses) include([pose.x, pose.y]);
-  if (linkage) {
-    for (const row of linkage.pose_errors) if (row.x !== null) include([row.x, row.y]);
-    for (const place of places) include([place.x, place.y]);
-    for (const { at } of pivotsAt(linkage, places)) include(at);
-    for (const at of markPoints(data, places)) include(at);
-  }
-  const least = 0.25 * data.scene;
-  for (const k of [0, 1]) {
-    const lack = least - (box[k + 2] - box[k]);
-    if (lack > 0) {
-      box[k] -= lack / 2;
-      box[k + 2] += lack / 2;
-    }
-  }
-  return box;
-}
-
-/** From the plane to pixels, as large as it fits: the scale, and X and Y of a point. */
-export function viewOf(box, width, height, margin) {
-  const scale = Math.min(
-    (width - 2 * margin) / (box[2] - box[0]),
-    (height - 2 * margin) / (box[3] - box[1]),
-  );
-  const left = width / 2 - (scale * (box[0] + box[2])) / 2;
-  const top = height / 2 + (scale * (box[1] + box[3])) / 2;
-  return { scale, left, top, width, height, X: (x) => left + scale * x, Y: (y) => top - scale * y };
-}
 
 /** Where a part stands, in pixels, and its angle in radians. */
 export const transform = (x, y, angle) => `translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;

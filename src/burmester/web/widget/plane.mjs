@@ -1,16 +1,18 @@
 // The linkage in its plane: grid, paths, ground, wanted and achieved poses, and the moving parts.
 
 import { s } from "./dom.mjs";
-import { AXIS, axes, boundsOf, farFrom, foot, pivotsAt, polyline, transform, viewOf } from "./drawing.mjs";
+import { AXIS, axes, foot, polyline, transform } from "./drawing.mjs";
+import { boxOf, edgeTowards, farFrom, pivotsAt, viewOf } from "./framing.mjs";
 import { act, normalOf } from "./kinematics.mjs";
 import { Labels } from "./labels.mjs";
 import { mechanism } from "./mechanism.mjs";
 import { clamp, fixed, px, radians, ticks } from "./numbers.mjs";
-import { ghosts, keepOut, keepOutNames, widened } from "./outlines.mjs";
+import { ghosts, keepOut, keepOutNames } from "./outlines.mjs";
 import { decimalsOf, isNamed, isPoint } from "./tables.mjs";
 import { railOf } from "./rail.mjs";
 import { placesOf, pointOnLine, travelOf } from "./travel.mjs";
 
+const CLOSER = 0.4; // of the picture: where the linkage takes less, it may be looked at alone
 const BESIDE_PIVOT = [16, 28, 40]; // pixels from a pivot, along its crank
 
 /** Magnifications of the error arrows; 0 draws none. */
@@ -24,6 +26,8 @@ export function factorFor(data, linkage) {
   return fits.length ? fits[fits.length - 1] : 1;
 }
 
+const sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+
 /** Where a dyad stands on the ground: its fixed pivot, or the middle of its rail. */
 const standing = (dyad, places) =>
   dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
@@ -31,7 +35,7 @@ const standing = (dyad, places) =>
 /** Whether a linkage has pivots too far from the poses for the picture to hold them unasked. */
 export function hasFarPivots(data, linkage, places) {
   const isFar = farFrom(data);
-  return pivotsAt(linkage, places).some(({ at }) => isFar(at));
+  return pivotsAt(linkage, places).some(isFar);
 }
 
 /** An SVG element in `parent`: `build` draws a linkage on one of its ways, `show` moves it. */
@@ -39,6 +43,7 @@ export class Plane {
   /** @type {any} */ view;
   /** @type {any} */ places;
   /** @type {any} */ linkage;
+  /** @type {(() => void) | undefined} */ reveal;
 
   constructor(data, parent) {
     this.data = data;
@@ -50,17 +55,18 @@ export class Plane {
   /** Draw what stands still.
    *
    * stretch: the part of the way that is shown; factor: of the error arrows; fill: the height to
-   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses.
+   * fill, 0 for the picture's own; far: whether the picture is to hold pivots far from the poses;
+   * close: whether it holds poses and linkage alone.
    */
-  build(linkage, way, stretch, { factor, fill, far }) {
+  build(linkage, way, stretch, { factor, fill, far, close = false }) {
     const { data, svg } = this, path = linkage?.ways[way];
     this.linkage = linkage;
     this.way = way;
     this.places = path ? placesOf(data, linkage, path, stretch) : [];
-    const bare = boundsOf(data, linkage, this.places, far);
     const width = Math.max(260, this.parent.clientWidth);
-    const box = widened(bare, data, linkage, this.places, width, far);
-    this.cut = !far && widened(bare, data, linkage, this.places, width, true).some((each, k) => each !== box[k]);
+    const box = boxOf(data, linkage, this.places, { whole: far, close }), different = (other) => other.some((each, k) => each !== box[k]);
+    this.cut = !far && different(boxOf(data, linkage, this.places, { whole: true }));
+    this.isLarge = close || (Boolean(linkage) && sizeOf(boxOf(data, linkage, this.places, { close: true })) < CLOSER * sizeOf(box));
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
     const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
@@ -90,7 +96,7 @@ export class Plane {
     svg.append(this.poses(linkage, factor, labels));
     this.moving = path ? mechanism(data, linkage, view, this.places) : null;
     if (this.moving) svg.append(this.moving.group);
-    if (linkage && !far) this.farPivots(labels);
+    if (linkage) this.farPivots(labels);
     svg.append(this.names);
   }
 
@@ -194,22 +200,19 @@ export class Plane {
     this.names.append(labels.put(x, y + 4, dyad.name ?? dyad.id, 27, { class: `bm-name bm-side${side}` }));
   }
 
-  /** At the edge of the picture, in their direction, the names of what stands too far away for it. */
+  /** At the edge of the picture, in their direction, the names of what stands outside; a press on one calls `reveal`. */
   farPivots(labels) {
-    const { data, view } = this, isFar = farFrom(data), digits = decimalsOf(data);
+    const { data, view } = this, digits = decimalsOf(data);
     this.linkage.led.forEach((dyad, side) => {
       const at = standing(dyad, this.places);
-      if (!at || !isFar(at)) return;
-      const [x, y] = [view.X(at[0]), view.Y(at[1])];
-      const cx = view.width / 2, cy = view.height / 2, size = Math.hypot(x - cx, y - cy);
-      const u = (x - cx) / size, v = (y - cy) / size;
-      const reach = Math.min((cx - 12) / Math.abs(u), (cy - 12) / Math.abs(v));
-      const ex = cx + reach * u, ey = cy + reach * v;
+      const edge = at && edgeTowards(view, at);
+      if (!edge) return;
       const text = `${dyad.name ?? dyad.id}: ${dyad.fixed_pivot ? "fixed pivot" : "rail"} at (${at.map((each) => fixed(each, digits)).join(", ")})`;
-      labels.block(ex, ey, 20, 20);
+      labels.block(edge.x, edge.y, 20, 20);
       this.names.append(
-        s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(ex, ey, Math.atan2(-v, u)) }),
-        labels.put(ex, ey, text, 14, { class: `bm-name bm-far-name bm-side${side}` }),
+        s("g", { class: "bm-to-far", onclick: () => this.reveal?.() },
+          s("path", { class: `bm-far-mark bm-side${side}`, d: "M-9 -6L3 0L-9 6", transform: transform(edge.x, edge.y, edge.angle) }),
+          labels.put(edge.x, edge.y, text, 14, { class: `bm-name bm-far-name bm-side${side}` })),
       );
     });
   }
@@ -274,6 +277,7 @@ export class Plane {
       arrows.append(s("path", { d: `M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}` }));
       for (let share = 0; share <= 1; share += 0.2) labels.block(x + share * dx, y + share * dy, 8, 8);
     });
+    if (arrows.children.length) this.names.append(scaleOfErrors(view, factor));
     return arrows;
   }
 
@@ -281,3 +285,7 @@ export class Plane {
     this.moving?.show(place, drive);
   }
 }
+
+/** How much larger than the picture's scale its error arrows are. */
+export const scaleOfErrors = ({ width }, factor) =>
+  s("text", { class: "bm-error-scale", x: width - 8, y: 16, "text-anchor": "end" }, factor === 1 ? "errors to scale" : `errors × ${factor.toLocaleString("en").replaceAll(",", " ")}`);

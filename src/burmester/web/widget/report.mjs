@@ -41,6 +41,8 @@ export class Report {
   /** @type {any} */ far;
   /** @type {any} */ farName;
   /** @type {any} */ farLabel;
+  /** @type {any} */ closer;
+  /** @type {any} */ closeLabel;
   /** @type {any} */ numbers;
   /** @type {any} */ cards;
   /** @type {any} */ poses;
@@ -107,6 +109,10 @@ export class Report {
     const { data, player } = this;
     const drawing = h("div", { class: "bm-drawing" });
     this.plane = new Plane(data, drawing);
+    this.plane.reveal = () => {
+      this.far.checked = true;
+      this.draw();
+    };
     this.title = h("h2", { class: "bm-stage-title" }, "The poses");
     this.story = h("p", { class: "bm-story" });
     return h(
@@ -125,14 +131,17 @@ export class Report {
     this.far = h("input", { type: "checkbox", checked: Boolean(this.data.whole), onchange: () => this.draw() });
     this.farName = h("span", {});
     this.farLabel = h("label", { class: "bm-factor bm-far-pivots", hidden: true }, this.far, " ", this.farName);
-    return this.farLabel;
+    this.closer = h("input", { type: "checkbox", onchange: () => this.draw() });
+    this.closeLabel = h("label", { class: "bm-factor bm-close-up", hidden: true }, this.closer, " The linkage alone");
+    return [this.closeLabel, this.farLabel];
   }
 
   offerAll(linkage) {
     if (!this.farLabel) return;
     const pivots = hasFarPivots(this.data, linkage, this.plane.places);
     this.farLabel.hidden = !pivots && !this.plane.cut && (this.data.whole || !this.far.checked);
-    this.farName.textContent = pivots ? "Whole linkage, with far pivots" : "All of the body and its surroundings";
+    this.farName.textContent = pivots ? "Whole linkage, with far pivots" : "All of the surroundings";
+    this.closeLabel.hidden = !this.plane.isLarge;
   }
 
   magnification() {
@@ -241,8 +250,8 @@ export class Report {
     const { linkage, player } = this, way = player?.way ?? 0, stretch = player?.stretch;
     this.plots?.build(linkage, way, stretch);
     this.loads?.build(linkage, way);
-    const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked);
-    this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far });
+    const factor = Number(this.factor?.value ?? 0), far = Boolean(this.far?.checked), close = Boolean(this.closer?.checked);
+    this.plane.build(linkage, way, stretch, { factor, fill: this.room(), far, close });
     this.offerAll(linkage);
     this.plane.svg.setAttribute("aria-label", linkage ? `${linkage.id}, a ${linkage.type}, at the poses. Space plays, arrow keys move the driver.` : "The poses");
     this.space?.build(linkage, way);
