@@ -104,6 +104,19 @@ def view(page):
     return {name: float(data[name]) for name in ("scale", "left", "top")}
 
 
+def choose(page, menu, what):
+    """Choose something in a menu of the head."""
+    page.locator(f"[data-menu={menu}] > summary").click()
+    page.locator(f"[data-menu={menu}] [{what}]").click()
+
+
+def open_tab(page, name):
+    """Open a tab of the drawer, if it is not open."""
+    if page.locator(f"[data-tab={name}]").get_attribute("aria-selected") != "true":
+        page.locator(f"[data-tab={name}]").click()
+    return page.locator(f"[data-panel={name}]")
+
+
 def see(page, what):
     """Fit the picture until it shows this: "near" the poses and the pivots, or "all"."""
     while page.locator(".bs-scene").get_attribute("data-fit") != what:

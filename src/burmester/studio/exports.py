@@ -28,6 +28,16 @@ _TYPES: Final = {  # of the options of an export, as JSON has them
 }
 
 
+# What a file is for: how the page groups the formats.
+_USES: Final = {
+    **dict.fromkeys(("dxf", "svg"), "cut"),
+    **dict.fromkeys(("pdf", "stl"), "print"),
+    **dict.fromkeys(("step", "openscad"), "cad"),
+    **dict.fromkeys(("mjcf", "urdf", "sdf", "pylinkage"), "simulate"),
+    **dict.fromkeys(("gif", "mp4"), "film"),
+}
+
+
 def dyads_of(given: Any) -> Linkage:
     """The linkage of two links: [{"fixed_pivot": [x, y], "moving_pivot": [x, y], "radius": r}] x 2.
 
@@ -50,7 +60,12 @@ def dyads_of(given: Any) -> Linkage:
 def formats() -> list[dict[str, Any]]:
     """The formats whose libraries are installed, as the page offers them."""
     return [
-        {"format": name, "title": each.what, "suffix": each.suffix}
+        {
+            "format": name,
+            "title": each.what,
+            "suffix": each.suffix,
+            "use": _USES.get(name, "share"),
+        }
         for name, each in FORMATS.items()
         if name != "flat" and all(find_spec(library) for library in each.libraries)
     ]

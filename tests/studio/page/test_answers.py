@@ -19,6 +19,7 @@ from tests.oracles.studio_page import (
     drag,
     middle,
     on_screen,
+    open_tab,
     place_of,
     solved,
     studio_page,
@@ -161,7 +162,7 @@ def test_steps_from_pose_to_pose_go_where_the_linkage_takes_the_body(shared, res
 @pytest.mark.parametrize("driver", [0, 1])
 def test_either_dyad_drives_and_the_readout_is_its_input(shared, result, driver):
     card(shared, "L1").locator("button").first.click()
-    choices = shared.locator(".bs-drivers input")
+    choices = open_tab(shared, "motion").locator(".bs-drivers input")
     choices.nth(driver).check()
     name = choices.nth(driver).get_attribute("data-driver")
     dyad = led(result["linkages"][0])[name]
@@ -207,7 +208,7 @@ def test_playing_moves_and_is_not_read_aloud(shared):
 
 def test_the_instant_centre_is_where_the_body_turns(shared, task):
     card(shared, "L1").locator("button").first.click()
-    shared.locator("[data-tool=centrodes]").check()
+    open_tab(shared, "motion").locator("[data-tool=centrodes]").check()
     shared.locator(".bm-next").click()
     x, y, angle = body(shared)
     found = synthesize(read_task(str(task))).linkages[0]
@@ -240,8 +241,7 @@ def test_the_instant_centre_is_where_the_body_turns(shared, task):
 def test_a_picked_point_draws_its_curve_and_goes_along(shared, result):
     card(shared, "L1").locator("button").first.click()
     shared.locator(".bm-next").click()
-    shared.locator("[data-tool=coupler-point]").click()
-    shared.evaluate("scrollTo(0, 0)")
+    open_tab(shared, "motion").locator("[data-tool=coupler-point]").click()
     x, y, angle = body(shared)
     at = (x + 30, y + 60)
     shared.mouse.click(*on_screen(shared, *at))
@@ -269,7 +269,6 @@ def test_a_picked_point_draws_its_curve_and_goes_along(shared, result):
 def test_two_linkages_are_compared_at_the_same_pose(shared, result):
     card(shared, "L1").locator("button").first.click()
     card(shared, "L2").get_by_text("Compare").click()
-    shared.locator("[data-panel=compare]").scroll_into_view_if_needed()
     shared.wait_for_selector(".bs-compare .bm-coupler")
     idle(shared, 100)
     places = shared.evaluate(
@@ -291,7 +290,6 @@ def test_two_linkages_are_compared_at_the_same_pose(shared, result):
         assert float(text.split()[0]) == pytest.approx(each["position_error"]["max"], rel=0.051)
     shared.get_by_text("End the comparison").click()
     assert shared.locator(".bs-compare .bm-plane").first.is_hidden()
-    shared.evaluate("scrollTo(0, 0)")
 
 
 def test_cards_are_sorted_filtered_and_pinned(shared, result):
@@ -434,7 +432,8 @@ POINTS = """() => [...document.querySelectorAll("[data-panel=space] .bm-image-po
 
 
 def test_image_space_goes_along_with_a_pose_and_turns(browser, visitor):
-    with studio_page(browser, visitor, height=2600) as page:
+    with studio_page(browser, visitor) as page:
+        open_tab(page, "space")
         page.wait_for_function("() => document.querySelectorAll('.bm-image-point').length === 8")
         start = np.array(page.evaluate(POINTS))
         x, y = middle(page, '.bs-origin[data-pose="8"]')
@@ -471,8 +470,7 @@ def test_image_space_goes_along_with_a_pose_and_turns(browser, visitor):
 
 def test_every_drawn_number_is_in_a_table(shared, result):
     card(shared, "L1").locator("button").first.click()
-    shared.locator("[data-panel=facts] summary").first.click()
-    shared.locator("[data-panel=facts]").scroll_into_view_if_needed()
+    open_tab(shared, "facts")
     shared.wait_for_selector(".bs-facts table")
     idle(shared, 100)
     text = shared.locator(".bs-facts").inner_text()
@@ -484,5 +482,3 @@ def test_every_drawn_number_is_in_a_table(shared, result):
     for each in result["linkages"]:
         assert each["id"] in text
     assert shared.locator(".bs-facts caption").count() >= 5
-    shared.locator("[data-panel=facts] summary").first.click()
-    shared.evaluate("scrollTo(0, 0)")

@@ -6,7 +6,7 @@ import re
 import pytest
 
 from burmester.cli import main
-from tests.oracles.studio_page import drag, drop, field, has_poses, paste, pose, solved
+from tests.oracles.studio_page import choose, drag, drop, field, has_poses, paste, pose, solved
 
 
 def rows(page):
@@ -35,9 +35,8 @@ def test_what_was_dragged_is_what_the_command_finds_in_the_saved_task(page, tmp_
     linkages = found["linkages"]
     usable = sum(each["usable"] for each in linkages)
     assert page.inner_text(".bs-status") == f"{len(linkages)} linkages, {usable} usable"
-    page.locator("[data-menu=export] > summary").click()
     with page.expect_download() as exported:
-        page.locator("[data-export=result]").click()
+        choose(page, "export", "data-export=result")
     result = json.loads(exported.value.path().read_text(encoding="utf-8"))
     assert result["linkages"] == linkages
     assert result["dyads"] == found["dyads"]
@@ -45,8 +44,7 @@ def test_what_was_dragged_is_what_the_command_finds_in_the_saved_task(page, tmp_
 
 def test_a_template_is_opened_and_undone(page):
     before = pose(page, 8)
-    page.locator("[data-menu=templates] > summary").click()
-    page.locator("[data-template=gripper]").click()
+    choose(page, "task", "data-template=gripper")
     has_poses(page, 7)
     assert page.locator(".bs-task-name").input_value() == "gripper"
     assert pose(page, 3) == (-3.45, -27.3, -15)
@@ -100,7 +98,7 @@ def test_an_outline_is_dropped(page):
 
 
 def test_the_same_is_told_as_a_command(page):
-    page.locator("[data-do=command]").click()
+    choose(page, "task", "data-do=command")
     dialog = page.locator("dialog[open]")
     dialog.wait_for()
     assert "burmester synthesize lid-hinge.toml" in dialog.inner_text()
@@ -117,6 +115,7 @@ def typed(page, name, text):
 
 def test_what_is_exported_with_settings_is_what_the_command_exports_with_them(page, tmp_path):
     """Each setting is in the command that the page shows; that command writes the same bytes."""
+    page.locator("[data-menu=export] > summary").click()
     page.locator("[data-section=export] > summary").click()
     for name, text in (("hole", "5"), ("width", "1,8 cm"), ("pose", "3"), ("gap", "0.2"),
                        ("thickness", "4 mm"), ("pin", "4.9")):  # fmt: skip
@@ -125,7 +124,7 @@ def test_what_is_exported_with_settings_is_what_the_command_exports_with_them(pa
     typed(page, "density", "heavy")  # is no number, and stays out
     assert "not a number" in page.locator("[data-section=export] .bs-fault:visible").inner_text()
     typed(page, "density", "7850")
-    page.locator("[data-do=command]").click()
+    choose(page, "task", "data-do=command")
     page.locator("dialog[open]").wait_for()
     shown = page.locator("dialog[open] pre").all_inner_texts()
     page.locator("dialog[open] [data-do=close]").click()
@@ -133,13 +132,11 @@ def test_what_is_exported_with_settings_is_what_the_command_exports_with_them(pa
     words = command.split()
     assert {"--hole=5", "--width=18", "--pose=3", "--gap=0.2", "--thickness=4", "--pin=4.9",
             "--density=7850", "--no-dimensions"} <= set(words)  # fmt: skip
-    page.locator("[data-menu=export] > summary").click()
     with page.expect_download() as result:
-        page.locator("[data-export=result]").click()
+        choose(page, "export", "data-export=result")
     result.value.save_as(tmp_path / "lid-hinge.json")
-    page.locator("[data-menu=export] > summary").click()
     with page.expect_download() as exported:
-        page.locator("[data-export=dxf]").click()
+        choose(page, "export", "data-export=dxf")
     assert exported.value.suggested_filename == words[-1]
     words[2] = str(tmp_path / words[2])
     words[-1] = str(tmp_path / words[-1])
@@ -173,7 +170,7 @@ def test_how_well_the_poses_are_known_is_part_of_the_task(page, tmp_path, capsys
 
 
 def test_an_empty_task_is_filled_by_hand(page):
-    page.locator("[data-do=new]").click()
+    choose(page, "task", "data-do=new")
     assert rows(page) == 0
     assert "add poses or points here" in page.locator(".bs-line").inner_text()
     page.locator("[data-do=add-poses]").click()

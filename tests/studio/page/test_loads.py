@@ -1,6 +1,6 @@
 """Loads in the studio: their panel, springs in the picture, and both while a hand drags."""
 
-from tests.oracles.studio_page import drag, drop, has_poses, solved
+from tests.oracles.studio_page import choose, drag, drop, has_poses, open_tab, solved
 
 LID = """length_unit = "mm"
 angle_unit = "deg"
@@ -36,7 +36,7 @@ def test_the_panel_is_there_for_tasks_with_loads_only(page):
     drop(page, "lid.toml", LID)
     has_poses(page, 3)
     solved(page)
-    panel.scroll_into_view_if_needed()
+    open_tab(page, "loads")
     panel.locator(".bm-cursor").wait_for()
     assert panel.locator(".bm-panel").count() == 4
     arrows = page.locator(".bs-scene .bm-pin-force")
@@ -48,7 +48,7 @@ def test_the_panel_is_there_for_tasks_with_loads_only(page):
     # The other driver bears something else, which nobody has computed.
     page.locator("[data-driver]").last.check()
     page.wait_for_function("() => !document.querySelector('[data-panel=loads] .bm-panel')")
-    page.get_by_role("button", name="New", exact=True).click()
+    choose(page, "task", "data-do=new")
     has_poses(page, 0)
     assert panel.is_hidden()
 

@@ -12,6 +12,7 @@ from burmester.io import templates
 from tests.oracles.browser import idle
 from tests.oracles.studio import killed, served
 from tests.oracles.studio_page import (
+    choose,
     drag,
     drawn,
     drop,
@@ -322,6 +323,8 @@ def test_no_width_needs_scrolling_sideways_and_every_control_has_a_name(
     browser, visitor, width, scheme
 ):
     with studio_page(browser, visitor, width=width, color_scheme=scheme) as page:
+        if width < 760:
+            page.locator("[data-sheet-of=task]").click()
         page.locator('[data-row="2"] .bs-index').click()
         page.locator("details").evaluate_all("all => all.forEach((each) => (each.open = true))")
         assert page.evaluate("document.documentElement.scrollWidth") <= width
@@ -331,8 +334,7 @@ def test_no_width_needs_scrolling_sideways_and_every_control_has_a_name(
 
 
 def test_an_empty_task_shows_nothing_of_the_one_before(page):
-    new = page.get_by_role("button", name="New", exact=True)
-    new.click()  # without the limits of the task that the studio opens on
+    choose(page, "task", "data-do=new")  # without the limits of the task that the studio opens on
     has_poses(page, 0)
     rows = ["x\ty\tangle", "0\t0\t0", "30\t20\t30", "60\t25\t60", "90\t10\t100"]
     paste(page, "\n".join(rows) + "\n")
@@ -343,7 +345,7 @@ def test_an_empty_task_shows_nothing_of_the_one_before(page):
     assert curves.get_attribute("visibility") == "visible"
     count = page.locator("[data-linkage]").count()
     assert count > 0
-    new.click()
+    choose(page, "task", "data-do=new")
     has_poses(page, 0)
     page.wait_for_function("() => !document.querySelector('[data-linkage]')")
     assert curves.get_attribute("visibility") == "hidden"

@@ -13,12 +13,14 @@ from burmester import read_task
 from burmester.io import templates
 from tests.oracles.page_modules import value
 from tests.oracles.studio_page import (
+    choose,
     drag,
     drop,
     field,
     has_poses,
     kept,
     on_screen,
+    open_tab,
     paste,
     place_of,
     solved,
@@ -50,7 +52,7 @@ def oval(a, b, whole=1.0, count=60):
 
 def test_a_path_is_drawn_by_hand_closed_and_open(same_page):
     page = same_page
-    page.locator("[data-do=new]").click()
+    choose(page, "task", "data-do=new")
     page.locator("[data-do=draw-path]").click()
     ring = oval(30, 20)
     stroke(page, ring)
@@ -94,8 +96,8 @@ def test_a_path_is_solved_and_its_cognates_are_chosen_and_exported(page, visitor
     (tmp_path / "leg.toml").write_bytes(visitor.http.post("/task", json=given).content)
     assert read_task(tmp_path / "leg.toml").path.closed
     # Panels that tell of angles are away; the cognates are those of the result, with its error.
-    assert not page.locator("[data-panel=pivots]").is_visible()
-    page.locator("[data-panel=cognates]").scroll_into_view_if_needed()
+    assert not page.locator("[data-tab=pivots]").is_visible()
+    open_tab(page, "cognates")
     page.wait_for_selector('[data-cognate="2"]')
     told = linkage["cognates"]
     for number, cognate in enumerate(told, start=1):
@@ -110,12 +112,10 @@ def test_a_path_is_solved_and_its_cognates_are_chosen_and_exported(page, visitor
     chosen.wait_for()
     assert "Cognate of L1" in chosen.inner_text()
     assert chosen.locator("[data-figure=worst]").inner_text() == error
-    page.evaluate("scrollTo(0, 0)")
-    page.locator("[data-menu=export] summary").click()
     with page.expect_download() as download:
-        page.locator('[data-export="dxf"]').click()
+        choose(page, "export", "data-export=dxf")
     ours = download.value.path().read_bytes()
-    page.locator("[data-do=command]").click()
+    choose(page, "task", "data-do=command")
     page.wait_for_selector(".bs-command")
     commands = page.locator(".bs-command pre").all_inner_texts()
     page.locator("[data-do=close]").click()

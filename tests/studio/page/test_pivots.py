@@ -9,7 +9,7 @@ import pytest
 from burmester.dyads.pivot_map import fixed_pivot_map, moving_pivot_map
 from burmester.geometry.displacement import Displacement
 from tests.oracles.browser import at_rest
-from tests.oracles.studio_page import answered, drag, place_of, solved, view
+from tests.oracles.studio_page import answered, drag, open_tab, place_of, solved, view
 
 FIXED = '.bs-pivot[data-pivot="{}"][data-plane="F"]'
 MOVING = '.bs-pivot[data-pivot="{}"][data-plane="M"]'
@@ -84,8 +84,7 @@ def test_keys_move_a_pivot_of_the_body(page):
 
 
 def test_a_press_on_the_map_puts_the_nearest_pivot_there(page):
-    panel = page.locator("[data-panel=pivots] .bm-map svg")
-    panel.scroll_into_view_if_needed()
+    panel = open_tab(page, "pivots").locator(".bm-map svg")
     page.wait_for_selector(".bs-map-pivot")
     box = at_rest(panel)
     page.mouse.move(box["x"] + 0.7 * box["width"], box["y"] + 0.35 * box["height"])

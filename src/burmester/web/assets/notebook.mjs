@@ -10,14 +10,22 @@ body.bs { margin: 0; min-height: 100vh; }
 .bs [hidden] { display: none !important; }
 .bs input, .bs select { font: inherit; font-size: 0.88rem; color: inherit; }
 
-.bs-head { display: flex; flex-wrap: wrap; gap: 8px 14px; align-items: center; padding: 10px 16px; max-width: 1760px; margin: 0 auto; }
-.bm .bs-head h1 { font-size: 1.05rem; }
-.bs-head .bs-task-name { width: 11rem; font-weight: 600; }
+/* The window: a head, and beside the plane a panel on either side.  Nothing scrolls but panels. */
+body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
+.bs #studio { height: 100%; display: grid; grid-template: auto minmax(0, 1fr) / minmax(0, 1fr); }
+.bs-skip { position: absolute; z-index: 60; left: 8px; top: -60px; background: var(--bm-panel); color: var(--bm-ink); padding: 8px 12px; border-radius: 6px; }
+.bs-skip:focus { top: 8px; }
+.bs-head { display: flex; gap: 8px; align-items: center; padding: 5px 10px; border-bottom: 1px solid var(--bm-line); background: var(--bm-panel); min-width: 0; \
+}
+.bm .bs-head h1 { font-size: 0.92rem; white-space: nowrap; padding-right: 4px; }
+.bs-head .bs-task-name { width: 11rem; font-weight: 600; flex: 0 1 auto; }
+.bs-head .bs-row { flex-wrap: nowrap; gap: 4px; }
+.bs .bs-head .bm-button { white-space: nowrap; }
+.bs [data-menu="export"] > summary { background: var(--bm-accent); border-color: var(--bm-accent); color: var(--bm-panel); font-weight: 600; }
+.bs [data-menu="export"] > summary::after { color: inherit; }
 .bs-unseen { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; white-space: nowrap; }
-.bs-files { display: flex; flex-wrap: wrap; gap: 6px; align-items: center; }
-/* What stands above the plane keeps its height: nothing moves under the hand. */
-.bm .bs-status { flex: 1 1 12rem; min-width: 0; text-align: right; color: var(--bm-muted); font-size: 0.88rem; min-height: 1.5em; white-space: nowrap; overflow:\
- hidden; text-overflow: ellipsis; }
+.bm .bs-status { flex: 1 1 6rem; min-width: 0; text-align: right; color: var(--bm-muted); font-size: 0.88rem; min-height: 1.5em; white-space: nowrap; overflow: \
+hidden; text-overflow: ellipsis; }
 .bs-row, .bs-tools { display: flex; flex-wrap: wrap; gap: 6px 10px; align-items: center; }
 .bs .bm-button { min-height: 32px; padding: 3px 10px; font-size: 0.86rem; }
 .bs .bm-button[aria-pressed="true"] { border-color: var(--bm-accent); background: var(--bm-wash); box-shadow: inset 0 -3px 0 var(--bm-accent); }
@@ -29,13 +37,19 @@ body.bs { margin: 0; min-height: 100vh; }
 .bs-menu > summary::after { content: "▾"; color: var(--bm-muted); }
 .bs-menu-list { position: absolute; z-index: 20; top: calc(100% + 4px); left: 0; min-width: 260px; max-width: min(440px, 86vw); max-height: 70vh; overflow: auto\
 ; display: grid; background: var(--bm-panel); border: 1px solid var(--bm-line); border-radius: 10px; padding: 5px; box-shadow: 0 8px 28px rgb(0 0 0 / 0.18); }
+.bs-menu-list { overscroll-behavior: contain; }
+.bm .bs-menu-heading { color: var(--bm-muted); font-size: 0.78rem; font-weight: 650; padding: 6px 10px 2px; }
+.bs-menu .bs-exports { left: auto; right: 0; width: min(640px, calc(100vw - 16px)); max-width: none; max-height: calc(100dvh - 70px); gap: 8px; }
+.bs-uses { display: grid; grid-template-columns: repeat(auto-fill, minmax(190px, 1fr)); gap: 2px 8px; align-items: start; }
+.bs-uses > div { display: grid; }
+.bs-exports .bs-section { padding: 4px 10px; border: 0; border-top: 1px solid var(--bm-line); }
 .bs-menu-item { font: inherit; font-size: 0.88rem; color: inherit; background: none; border: 0; border-radius: 6px; padding: 6px 10px; text-align: left; cursor:\
  pointer; display: grid; }
 .bs-menu-item:hover, .bs-menu-item:focus-visible { background: var(--bm-wash); }
 .bs-menu-item b { font-weight: 600; }
 .bs-menu-item span { color: var(--bm-muted); font-size: 0.8rem; }
 
-.bs-banners { position: fixed; z-index: 30; left: 10px; bottom: 10px; width: min(358px, calc(100vw - 20px)); max-height: 46vh; overflow: auto; display: grid; ga\
+.bs-banners { position: fixed; z-index: 30; left: 10px; bottom: 10px; width: min(272px, calc(100vw - 20px)); max-height: 46vh; overflow: auto; display: grid; ga\
 p: 8px; }
 .bs-banner { position: relative; box-shadow: 0 6px 24px rgb(0 0 0 / 0.16); background: var(--bm-panel); border: 1px solid var(--bm-line); border-left: 4px solid\
  var(--bm-accent); border-radius: 8px; padding: 8px 46px 8px 14px; display: grid; gap: 6px; overflow-wrap: anywhere; }
@@ -48,15 +62,56 @@ p: 8px; }
 px; cursor: pointer; border-radius: 6px; }
 .bs .bs-banner .bs-close:hover { background: var(--bm-faint); }
 
-.bs-main { display: grid; gap: 14px; padding: 12px 16px 28px; max-width: 1760px; margin: 0 auto; grid-template-columns: minmax(0, 1fr); align-items: start; }
-.bs-left { display: grid; gap: 14px; min-width: 0; grid-template-columns: minmax(0, 1fr); }
+.bs-main { display: grid; min-height: 0; grid-template: minmax(0, 1fr) auto / auto minmax(0, 1fr) auto; grid-template-areas: "left stage right" "left drawer rig\
+ht"; }
+.bs-side { position: relative; min-width: 0; min-height: 0; overflow: auto; overscroll-behavior: contain; scrollbar-width: thin; padding: 8px 12px 24px; backgro\
+und: var(--bm-bg); scroll-padding-bottom: 24px; }
+/* Messages stand under the panel. */
+.bs-side-left { margin-bottom: var(--bs-banners, 0); grid-area: left; width: clamp(292px, 18vw, 460px); border-right: 1px solid var(--bm-line); }
+.bs-side-right { grid-area: right; width: clamp(288px, 19vw, 620px); border-left: 1px solid var(--bm-line); }
+.bs .bs-fold { position: absolute; top: 6px; right: 6px; z-index: 2; border: 0; background: none; color: var(--bm-muted); font: inherit; font-size: 0.82rem; min\
+-width: 26px; min-height: 26px; border-radius: 6px; cursor: pointer; padding: 2px 4px; }
+.bs-fold:hover { background: var(--bm-faint); }
+.bs-fold-name { display: none; }
+.bs-side.bs-folded { width: 34px; padding: 6px 3px; overflow: hidden; }
+.bs-folded > :not(.bs-fold) { display: none; }
+.bs .bs-folded > .bs-fold { position: static; display: grid; gap: 8px; justify-items: center; width: 100%; }
+.bs-folded .bs-fold-name { display: block; writing-mode: vertical-rl; }
+.bs-left { display: grid; gap: 6px; min-width: 0; grid-template-columns: minmax(0, 1fr); }
 .bs .bm-card { padding: 12px 14px; }
-.bs-stage { min-width: 0; display: grid; gap: 8px; grid-template-columns: minmax(0, 1fr); }
-.bs-bar { display: flex; flex-wrap: wrap; gap: 4px 16px; align-items: center; justify-content: space-between; }
-.bm .bs-line { color: var(--bm-muted); font-size: 0.9rem; width: 100%; min-height: 1.5em; }
-#bs-results, #bs-panels, #bs-player { min-width: 0; }
-.bs-plane { height: clamp(300px, 58vh, 720px); border: 1px solid var(--bm-line); border-radius: 8px; overflow: hidden; background: var(--bm-panel); min-width: 0\
-; }
+.bs-stage { grid-area: stage; min-width: 0; min-height: 0; display: grid; grid-template: auto minmax(0, 1fr) auto / minmax(0, 1fr); background: var(--bm-panel);\
+ }
+.bs-bar { display: flex; gap: 4px; align-items: center; padding: 4px 8px; overflow-x: auto; scrollbar-width: none; border-bottom: 1px solid var(--bm-faint); }
+.bs .bs-bar .bm-button { min-height: 28px; padding: 1px 9px; white-space: nowrap; flex: none; border-color: transparent; background: none; }
+.bs .bs-bar .bm-button:hover { background: var(--bm-faint); }
+.bs .bs-bar .bm-button[aria-pressed="true"] { border-color: var(--bm-accent); background: var(--bm-wash); }
+.bs-gap { flex: 1; }
+.bs-canvas { position: relative; min-height: 0; min-width: 0; }
+/* One line over the plane: nothing moves where it changes, and nothing is caught by it. */
+.bm .bs-line { position: absolute; left: 34px; right: 34px; top: 5px; text-align: center; pointer-events: none; color: var(--bm-muted); font-size: 0.82rem; line\
+-height: 1.35; text-shadow: 0 0 3px var(--bm-panel), 0 0 3px var(--bm-panel), 0 0 3px var(--bm-panel); }
+#bs-player { min-width: 0; padding: 5px 10px 3px; border-top: 1px solid var(--bm-faint); }
+.bs-sheets { display: none; }
+.bs-drawer { grid-area: drawer; position: relative; min-width: 0; min-height: 0; display: grid; grid-template: auto minmax(0, 1fr) / minmax(0, 1fr); height: min\
+(var(--bs-height), 62vh); border-top: 1px solid var(--bm-line); background: var(--bm-bg); }
+.bs-drawer.bs-closed { height: auto; }
+.bs-grip { position: absolute; left: 0; right: 0; top: -5px; height: 10px; cursor: ns-resize; touch-action: none; z-index: 3; }
+.bs-grip::after { content: ""; position: absolute; left: 50%; top: 3px; width: 44px; height: 4px; margin-left: -22px; border-radius: 2px; background: var(--bm-l\
+ine); }
+.bs-grip:hover::after, .bs-grip:focus-visible::after { background: var(--bm-accent); }
+.bs-tabs { display: flex; gap: 2px; overflow-x: auto; scrollbar-width: none; padding: 3px 8px; }
+.bs-tab, .bs-sheet { font: inherit; font-size: 0.84rem; color: var(--bm-muted); background: none; border: 0; border-radius: 6px; min-height: 28px; padding: 2px \
+10px; white-space: nowrap; cursor: pointer; flex: none; }
+.bs-tab:hover, .bs-sheet:hover { background: var(--bm-faint); }
+.bs-tab[aria-selected="true"], .bs .bs-sheet[aria-pressed="true"] { color: var(--bm-ink); font-weight: 650; box-shadow: inset 0 -2px 0 var(--bm-accent); border-\
+radius: 6px 6px 0 0; }
+.bs-drawer-panels { min-height: 0; overflow: auto; overscroll-behavior: contain; scrollbar-width: thin; }
+.bs-closed .bs-drawer-panels { display: none; }
+.bs-panel { padding: 6px 12px 12px; }
+.bs .bs-panel > h2 { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }
+.bs-panel.bs-unwanted { display: none; }
+#bs-results, #bs-player { min-width: 0; }
+.bs-plane { height: 100%; overflow: hidden; background: var(--bm-panel); min-width: 0; }
 .bs-scene { width: 100%; height: 100%; touch-action: none; user-select: none; -webkit-user-select: none; cursor: grab; }
 .bs-scene.bs-grasped { cursor: grabbing; }
 .bs-scene.bs-drawing { cursor: crosshair; }
@@ -203,34 +258,41 @@ F Mono", Menlo, Consolas, monospace; white-space: pre-wrap; overflow-wrap: anywh
   .bs-corner { r: 9px; }
   .bs-middle { r: 8px; }
 }
+@media (max-width: 1179px) {
+  .bs-main { grid-template: minmax(0, 1fr) auto / minmax(0, 1fr) auto; grid-template-areas: "stage side" "drawer side"; }
+  .bs-sheets { display: flex; grid-area: side; align-self: start; gap: 2px; padding: 4px 8px; background: var(--bm-bg); border-left: 1px solid var(--bm-line); z\
+-index: 4; }
+  .bs-sheets [data-sheet-of="drawer"], .bs-side .bs-fold { display: none; }
+  .bs-side, .bs-side.bs-folded { grid-area: side; width: 318px; padding: 40px 12px 24px; border: 0; border-left: 1px solid var(--bm-line); overflow: auto; }
+  .bs-folded > :not(.bs-fold) { display: grid; }
+  .bs-side.bs-below { display: none; }
+  .bs-banners { left: auto; right: 10px; width: min(298px, calc(100vw - 20px)); }
+  .bs-side { margin-bottom: var(--bs-banners, 0); }
+}
 @media (max-width: 759px) {
-  .bs-head, .bs-main { padding-left: 10px; padding-right: 10px; }
-  .bm .bs-status { flex-basis: 100%; text-align: left; }
-  .bm .bs-line { min-height: 3em; }
-  .bm .bs-head h1 { font-size: 0.95rem; }
-  .bs-head { gap: 8px; }
-  .bs-head .bs-task-name { width: 7.4rem; }
-  .bs-stage { order: -3; }
-  #bs-results { order: -2; }
-  .bs-plane { height: min(62vh, 420px); }
-}
-@media (min-width: 760px) {
-  .bs-main { grid-template-columns: minmax(310px, 350px) minmax(0, 1fr); }
-  #bs-results, #bs-panels { grid-column: 1 / -1; }
-}
-@media (min-width: 1180px) {
-  .bs-main { grid-template-columns: 352px minmax(0, 1fr) 320px; }
-  #bs-results { grid-column: 3; }
-  .bs-left, #bs-results { max-height: calc(100vh - 96px); overflow: auto; scrollbar-width: thin; position: sticky; top: 8px; }
-  .bs-plane { height: clamp(340px, calc(100vh - 330px), 760px); }
-  body:has(.bs-banner) .bs-left { padding-bottom: 180px; } /* what a banner covers can be scrolled out from under it */
+  .bm .bs-head h1 { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }
+  .bs-head { padding: 4px 6px; gap: 5px; }
+  .bs-head .bs-task-name { flex: 1 1 5rem; width: 5rem; }
+  .bm .bs-status { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; }
+  .bs-main { grid-template: minmax(0, 1fr) auto min(var(--bs-sheet, 36vh), 60vh) / minmax(0, 1fr); grid-template-areas: "stage" "sheets" "side"; }
+  .bs-sheets { grid-area: sheets; border: 0; border-top: 1px solid var(--bm-line); }
+  .bs-sheets [data-sheet-of="drawer"] { display: block; }
+  .bs-side, .bs-side.bs-folded { width: auto; border: 0; padding: 8px 12px 24px; }
+  .bs-drawer, .bs-drawer.bs-closed { grid-area: side; height: auto; border: 0; }
+  .bs-drawer.bs-below, .bs-grip { display: none; }
+  .bm .bs-line { left: 8px; right: 8px; top: 3px; font-size: 0.74rem; }
+  .bs-bar { padding: 2px 4px; }
 }
 @media print {
-  .bs-head .bs-files, .bs-head .bs-row, .bs-banners, .bs-bar, .bs-tools, .bs-details, .bs .bm-button, .bs-section:not([open]) { display: none !important; }
-  .bs-main { display: block; padding: 0; }
-  .bs-left, #bs-results { max-height: none; overflow: visible; position: static; }
+  body.bs { height: auto; overflow: visible; }
+  .bs-skip, .bs-head > :not(h1, .bs-task-name), .bs-banners, .bs-bar, .bs-line, .bs-tools, .bs-tabs, .bs-sheets, .bs-grip, .bs-fold, .bs-details, .bs .bm-button\
+, .bs-section:not([open]) { display: none !important; }
+  .bs #studio, .bs-main, .bs-stage, .bs-drawer, .bs-drawer-panels { display: block !important; height: auto !important; overflow: visible; }
+  .bs .bs-side { display: block; width: auto; overflow: visible; border: 0; padding: 0; }
+  .bs-folded > :not(.bs-fold) { display: grid; }
   .bs-main > *, .bs .bm-card { margin-bottom: 8mm; }
   .bs-stage, .bs-card, .bs-panel:not(.bs-panel-facts) { break-inside: avoid; }
+  .bs-panel > h2 { position: static !important; clip-path: none !important; width: auto !important; height: auto !important; }
   .bs-plane { height: 110mm; }
   .bs-hold, .bs-corner, .bs-middle { display: none; }
 }
@@ -273,7 +335,13 @@ order-radius: 10px; min-width: 0; }
 .bs-card.bs-gone { border-style: dashed; }
 .bs-card.bs-gone .bs-figures { opacity: 0.45; }
 
-.bs-player { display: grid; gap: 6px; }
+#bs-player .bm-controls { grid-template: auto auto / auto minmax(0, 1fr); gap: 0 12px; margin: 0; align-items: start; }
+#bs-player .bm-row { grid-area: 1 / 1; gap: 5px; flex-wrap: nowrap; }
+#bs-player .bm-track { grid-area: 1 / 2; padding-top: 4px; }
+#bs-player .bm-now { grid-column: 1 / -1; font-size: 0.82rem; color: var(--bm-muted); white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
+.bs #bs-player .bm-button { min-height: 30px; padding: 1px 9px; font-size: 0.84rem; white-space: nowrap; }
+.bs #bs-player .bm-play { min-width: 76px; background: var(--bm-panel); color: var(--bm-accent); border-color: var(--bm-accent); }
+#bs-player .bm-whole { font-size: 0.82rem; min-height: 30px; }
 .bs-player.bs-empty .bm-controls { display: none; }
 .bs-player-ways { display: flex; flex-wrap: wrap; gap: 2px 22px; }
 .bm .bs-player-ways .bm-ways { margin-bottom: 2px; }
@@ -311,10 +379,6 @@ ood); }
 .bs-placed-readout { display: block; font-size: 0.86rem; margin-top: 4px; overflow-wrap: anywhere; }
 .bs-placed-readout:empty { display: none; }
 
-#bs-panels { display: grid; gap: 14px; grid-template-columns: repeat(auto-fit, minmax(min(100%, 400px), 1fr)); align-items: start; }
-.bs-panel > summary { cursor: pointer; }
-.bs-panel > summary h2 { display: inline; }
-.bs-panel-compare[open], .bs-panel-facts[open] { grid-column: 1 / -1; }
 .bs-panel .bs-surface .bm-map svg { touch-action: none; }
 .bs-beside { display: grid; gap: 12px; grid-template-columns: repeat(auto-fit, minmax(min(100%, 280px), 1fr)); }
 .bm .bs-compared { table-layout: fixed; }
@@ -323,21 +387,15 @@ ood); }
 .bs-facts { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); }
 .bs-facts caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; color: var(--bm-muted); padding: 2px 0; }
 @media (max-width: 759px) {
-  .bs-cards { display: flex; overflow-x: auto; scroll-snap-type: x proximity; padding-bottom: 6px; scrollbar-width: thin; }
-  .bs-card.bm-choice { flex: 0 0 min(270px, 82vw); }
-}
-@media (min-width: 1180px) {
-  /* Poses and cards stand beside the panels, too. */
-  .bs .bs-left { grid-row: 1 / span 2; }
-  .bs #bs-results { grid-row: 1 / span 2; }
-  .bs #bs-panels { grid-column: 2; grid-row: 2; }
+  #bs-player .bm-controls { grid-template: auto auto auto / minmax(0, 1fr); }
+  #bs-player .bm-track { grid-area: 2 / 1; }
+  #bs-player .bm-now { white-space: normal; max-height: 2.8em; font-size: 0.76rem; line-height: 1.35; }
+  .bs-cards { grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 1fr)); }
 }
 @media (pointer: coarse) { .bs-small { min-height: 38px; padding: 3px 12px; } }
 @media print {
   .bs-card-tools, .bs-choices, .bs-tool, .bs-results-status, .bs-pivots, .bs-player .bm-row, .bs-player .bm-track { display: none !important; }
-  #bs-panels { display: block; }
   .bs-panel { break-inside: avoid; margin-bottom: 6mm; }
-  .bs-panel > summary { list-style: none; }
   .bs-panel-compare:has(.bs-compare > div[hidden]) { display: none; } /* nothing is compared */
   .bs-compare .bm-plane { height: auto; }
   .bs-panel .bm-map { width: 120mm; } /* and the image space fits below it */
@@ -347,7 +405,7 @@ ood); }
 /* What changes under a hand is laid out by itself. */
 @media screen {
   .bs-plane { contain: strict; }
-  .bs-left > .bm-card, .bs-card, .bs-panel, #bs-player, #bs-results { contain: layout style; }
+  .bs-left > .bs-section, .bs-card, .bs-panel, #bs-player, #bs-results { contain: layout style; }
 }
 `;var widget_default='.bm {\n  --bm-bg: #f6f6f3; --bm-panel: #ffffff; --bm-ink: #1a1e25; --bm-muted: #5c6470; --bm-line: #dfe1dd; --bm-faint: #eeefec;\n  --bm-drive\
 r: #1b5cb8; --bm-follower: #a84a12; --bm-coupler: #4a5869; --bm-plate: #d5dce4;\n  --bm-driver-solid: #5b93dd; --bm-follower-solid: #e09b62;\n  --bm-wanted: #6c75\

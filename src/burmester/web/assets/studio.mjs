@@ -5,14 +5,19 @@ void 0||value===false)continue;if(name.startsWith("on"))node.addEventListener(na
 children);var s=(tag,attributes,...children)=>furnish(document.createElementNS(SVG,tag),attributes,children);function put(node,name,value){const text=String(value);
 if(node.getAttribute(name)!==text)node.setAttribute(name,text)}function give(node,name,value){const next=typeof node[name]==="boolean"?Boolean(value):String(value);
 if(node[name]!==next)node[name]=next}function say(node,text){const next=String(text);if(node.textContent!==next)node.textContent=next}function rgb(text){const hex=text.
-trim().replace("#","");return[0,2,4].map(k=>parseInt(hex.slice(k,k+2),16))}var KEY="burmester.studio";var TAB="burmester.studio.tab";var SOON=400;var Autosave=class{constructor(store){this.store=store;store.on("document",()=>this.soon());
-store.connection.on("open",()=>this.isOpen&&this.soon());addEventListener("pagehide",()=>this.keep());document.addEventListener("visibilitychange",()=>document.
-visibilityState==="hidden"&&this.keep())}soon(){clearTimeout(this.timer);this.isOpen=true;put(document.documentElement,"data-kept",false);this.timer=setTimeout(
-()=>this.keep(),SOON)}keep(){if(!this.isOpen)return;this.isOpen=false;clearTimeout(this.timer);const{document:task,options,name,settings,connection}=this.store,
-text={document:task,options,name,settings};document.documentElement.dataset.kept="true";try{sessionStorage.setItem(KEY,JSON.stringify(text))}catch{}connection.post(
-"/autosave",{...text,tab:tabName()},"PUT").catch(()=>this.isOpen=true)}};function tabName(){try{const name=sessionStorage.getItem(TAB)??crypto.randomUUID();sessionStorage.
-setItem(TAB,name);return name}catch{return"tab"}}function keptHere(){try{const kept=JSON.parse(sessionStorage.getItem(KEY)??"null");return Array.isArray(kept?.document?.
-poses)?kept:null}catch{return null}}var LENGTHS={µm:1e-6,um:1e-6,mm:.001,cm:.01,m:1,in:.0254,inch:.0254,'"':.0254,"″":.0254,ft:.3048,"'":.3048,"′":.3048};var ANGLES={"°":1,deg:1,degree:1,degrees:1,
+trim().replace("#","");return[0,2,4].map(k=>parseInt(hex.slice(k,k+2),16))}var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
+value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
+toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
+0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e").map(Number);if(power>=
+-4&&power<2)return String(Number(rounded));if(power>0)return`${digits}e${power}`;return`${digits}e-${String(-power).padStart(2,"0")}`}var spans=extent=>`${figure(
+extent)} span${figure(extent)==="1"?"":"s"}`;function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));
+const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999)??10*power;const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.
+ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function angleTicks(low,high,about){const step=[
+5,10,15,30,45,60,90,180].find(each=>(high-low)/each<=about)??360;const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+1e-6;k+=1){marks.push({at:k*step,
+text:`${fixed(k*step,0)}°`})}return marks.length>1?marks:ticks(low,high,about).map(t=>({...t,text:`${t.text}°`}))}function listed(words){if(words.length<2)return words.
+join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){const parts=[];for(let k=0;k<numbers.length;){let end=k;
+while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=
+end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}var LENGTHS={µm:1e-6,um:1e-6,mm:.001,cm:.01,m:1,in:.0254,inch:.0254,'"':.0254,"″":.0254,ft:.3048,"'":.3048,"′":.3048};var ANGLES={"°":1,deg:1,degree:1,degrees:1,
 rad:180/Math.PI,mrad:.18/Math.PI};var WRITTEN=/^([+-]?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;var DIGITS=12;var GREATEST=1e300;var tidy=value=>Number(
 value.toPrecision(DIGITS));var written=value=>value===void 0||value===null?"":String(value).replace("-","−").replace("e−","e-");function quantity(text,{kind="\
 number",unit:unit2="",optional=false,least:least2=-Infinity,above=-Infinity,below=Infinity,whole=false}={}){const plain=text.normalize("NFKC").replace(/[−–]/g,
@@ -45,50 +50,77 @@ return h("input",{class:"bs-text",type:"text",autocomplete:"off",spellcheck:"fal
 function tick(text,commit,attributes={}){const box=h("input",{type:"checkbox",...attributes,onchange:event=>commit(event.target.checked)});return{box,element:h(
 "label",{class:"bs-tick"},box," ",text)}}function choice(label,pairs,commit,attributes={}){return h("select",{class:"bs-choice","aria-label":label,...attributes,
 onchange:event=>commit(event.target.value)},pairs.map(([value,text])=>h("option",{value},text)))}var button=(text,onclick,attributes={})=>h("button",{type:"butt\
-on",class:"bm-button",onclick,...attributes},text);var ROLES={refused:"alert",offline:"alert",limit:"alert",ended:"alert",expired:"alert"};var LONGEST_HELP=240;var NO_FILE="task.json";function sentenceOf({code,message,
+on",class:"bm-button",onclick,...attributes},text);var KEY="burmester.studio.arrangement";var LEAST=120;var LEFT=160;var STEP=24;var kept=(()=>{try{return Object(JSON.parse(localStorage.getItem(KEY)??"{}"))}catch{
+return{}}})();function remember(name,value){kept[name]=value;try{localStorage.setItem(KEY,JSON.stringify(kept))}catch{}}var resized=()=>dispatchEvent(new Event(
+"resize"));function walkByArrows(group,which){const all=()=>[...group.querySelectorAll(which)].filter(each=>each.checkVisibility());const stop=one=>{for(const each of group.
+querySelectorAll(which))put(each,"tabindex",each===one?0:-1)};group.addEventListener("focusin",({target})=>target instanceof Element&&target.matches(which)&&stop(
+target));group.addEventListener("keydown",event=>{const there2=all(),at=there2.indexOf(event.target),last=there2.length-1;const to={ArrowRight:at+1,ArrowDown:at+
+1,ArrowLeft:at-1,ArrowUp:at-1,Home:0,End:last}[event.key];if(at<0||to===void 0||event.ctrlKey||event.metaKey||event.altKey)return;event.preventDefault();there2[(to+
+there2.length)%there2.length].focus()});return{stop,first:()=>stop(group.querySelector(`${which}[aria-selected=true]`)??all()[0]??group.querySelector(which))}}function sidePanel(name,title,element,attributes={}){
+const fold=button("",()=>show(!panel.classList.contains("bs-folded"),true),{class:"bs-fold","data-fold":name});const panel=h("section",{class:`bs-side bs-side-${name}`,
+"aria-label":title,...attributes},fold,element);const show=(folded,said=false)=>{panel.classList.toggle("bs-folded",folded);put(fold,"aria-expanded",!folded);put(
+fold,"aria-label",`${folded?"Show":"Hide"}: ${title}`);give(fold,"title",fold.getAttribute("aria-label"));fold.replaceChildren(h("span",{"aria-hidden":"true"},name===
+"left"===folded?"»":"«"),h("span",{class:"bs-fold-name","aria-hidden":"true"},title));if(!said)return;remember(`${name} folded`,folded);resized()};show(kept[`${name}\
+ folded`]===true);return panel}var Drawer=class{constructor(){this.tabs=new Map;this.list=h("div",{class:"bs-tabs",role:"tablist","aria-label":"Charts, maps and\
+ tables"});this.grip=h("div",{class:"bs-grip",role:"separator",tabindex:0,"aria-orientation":"horizontal","aria-label":"Height of the drawer",title:"Drag to cha\
+nge the height"});this.panels=h("div",{class:"bs-drawer-panels",id:"bs-panels"});this.element=h("section",{class:"bs-drawer","aria-label":"Charts, maps and tabl\
+es"},this.grip,this.list,this.panels);this.walk=walkByArrows(this.list,"[role=tab]");this.listen();this.setHeight(kept.height);this.open(null);addEventListener(
+"beforeprint",()=>this.showAll(true));addEventListener("afterprint",()=>this.showAll(false))}add(name,title,element,isWanted=()=>true){const tab=h("button",{type:"\
+button",role:"tab",class:"bs-tab",id:`bs-tab-${name}`,"data-tab":name,"aria-controls":`bs-panel-${name}`,onclick:()=>this.open(this.shown===name?null:name,true)},
+title);const panel=h("section",{class:`bs-panel bs-panel-${name}`,id:`bs-panel-${name}`,role:"tabpanel",tabindex:0,"data-panel":name,"aria-labelledby":tab.id},h(
+"h2",{},title),element);this.tabs.set(name,{tab,panel,isWanted});this.list.append(tab);this.panels.append(panel);this.open(this.shown??(kept.tab===name?name:null))}update(){
+for(const{tab,panel,isWanted}of this.tabs.values()){give(tab,"hidden",!isWanted());panel.classList.toggle("bs-unwanted",tab.hidden)}if(this.tabs.get(this.shown)?.
+tab.hidden)this.open(null);this.walk.first()}open(name,said=false){this.shown=name;for(const[each,{tab,panel}]of this.tabs){put(tab,"aria-selected",each===name);
+give(panel,"hidden",each!==name)}this.element.classList.toggle("bs-closed",name===null);give(this.grip,"hidden",name===null);this.walk.first();if(said)remember(
+"tab",name);resized()}showAll(on){this.element.classList.toggle("bs-on-paper",on);for(const[each,{panel,tab}]of this.tabs)give(panel,"hidden",on?tab.hidden:each!==
+this.shown)}setHeight(height){const most=Math.max(LEAST,innerHeight-LEFT);this.height=clamp(Number.isFinite(height)?height:.34*innerHeight,LEAST,most);this.element.
+style.setProperty("--bs-height",`${Math.round(this.height)}px`);for(const[name,value]of[["min",LEAST],["max",most],["now",this.height]])put(this.grip,`aria-valu\
+e${name}`,Math.round(value))}listen(){const{grip}=this;const take=height=>{this.setHeight(height);remember("height",this.height);resized()};let from=null;grip.addEventListener(
+"pointerdown",event=>{event.preventDefault();grip.setPointerCapture(event.pointerId);from={y:event.clientY,height:this.height}});grip.addEventListener("pointerm\
+ove",event=>from&&take(from.height+from.y-event.clientY));for(const name of["pointerup","pointercancel"])grip.addEventListener(name,()=>from=null);grip.addEventListener(
+"keydown",event=>{const by={ArrowUp:STEP,ArrowDown:-STEP}[event.key];if(!by)return;event.preventDefault();take(this.height+by)})}};function sheets(root,all){const buttons=all.
+map(([name,title])=>button(title,()=>show(name,true),{class:"bs-sheet","data-sheet-of":name}));const show=(name,said=false)=>{all.forEach(([each,,element],k)=>{
+element.classList.toggle("bs-below",each!==name);put(buttons[k],"aria-pressed",each===name)});if(!said)return;remember("sheet",name);resized()};show(all.some(([
+name])=>name===kept.sheet)?kept.sheet:all[1][0]);return h("div",{class:"bs-sheets",role:"group","aria-label":"Beside the plane"},buttons)}var KEY2="burmester.studio";var TAB="burmester.studio.tab";var SOON=400;var Autosave=class{constructor(store){this.store=store;store.on("document",()=>this.soon());
+store.connection.on("open",()=>this.isOpen&&this.soon());addEventListener("pagehide",()=>this.keep());document.addEventListener("visibilitychange",()=>document.
+visibilityState==="hidden"&&this.keep())}soon(){clearTimeout(this.timer);this.isOpen=true;put(document.documentElement,"data-kept",false);this.timer=setTimeout(
+()=>this.keep(),SOON)}keep(){if(!this.isOpen)return;this.isOpen=false;clearTimeout(this.timer);const{document:task,options,name,settings,connection}=this.store,
+text={document:task,options,name,settings};document.documentElement.dataset.kept="true";try{sessionStorage.setItem(KEY2,JSON.stringify(text))}catch{}connection.
+post("/autosave",{...text,tab:tabName()},"PUT").catch(()=>this.isOpen=true)}};function tabName(){try{const name=sessionStorage.getItem(TAB)??crypto.randomUUID();
+sessionStorage.setItem(TAB,name);return name}catch{return"tab"}}function keptHere(){try{const kept2=JSON.parse(sessionStorage.getItem(KEY2)??"null");return Array.
+isArray(kept2?.document?.poses)?kept2:null}catch{return null}}var ROLES={refused:"alert",offline:"alert",limit:"alert",ended:"alert",expired:"alert"};var LONGEST_HELP=240;var NO_FILE="task.json";function sentenceOf({code,message,
 where,why,help}){return h("li",{},code?h("span",{class:"bm-code"},code):null," ",h("span",{},message),where&&!where.startsWith(NO_FILE)?h("pre",{class:"bs-where"},
 where):null,why?h("p",{class:"bs-why"},`Why: ${why}.`):null,help?helpOf(help):null)}function helpOf(help){if(help.length<=LONGEST_HELP)return h("p",{class:"bs-h\
 elp"},`What to do: ${help}.`);const end=help.slice(0,LONGEST_HELP).lastIndexOf("; "),cut=end>0?end:help.slice(0,LONGEST_HELP).lastIndexOf(" ");return h("div",{class:"\
 bs-help"},h("p",{},`What to do: ${help.slice(0,cut)}${end>0?".":" …"}`),h("details",{},h("summary",{},"More"),h("p",{},`${help.slice(cut).replace(/^[; ]+/,"")}\
 .`)))}var Banners=class{files;constructor(store){this.store=store;this.shown=new Map;this.element=h("div",{class:"bs-banners"});this.status=h("p",{class:"bs-sta\
-tus"});this.live=h("p",{class:"bs-unseen",role:"status"});store.on("messages",()=>this.messages());store.on("state solved messages",()=>this.state())}say(kind,title,messages=[],{
-undo=false,actions=[]}={}){const close=button("✕",()=>this.close(kind),{"aria-label":"Close",class:"bs-close"});const all=[...actions,...undo?[button("Undo",()=>(this.
-close(kind),this.store.undo()))]:[]];const banner=h("section",{class:`bs-banner bs-${kind}`,role:ROLES[kind]??"status","data-banner":kind},h("p",{class:"bs-bann\
-er-title"},title),messages.length?h("ul",{},messages.map(sentenceOf)):null,all.length?h("div",{class:"bs-row"},all):null,kind==="offline"?null:close);this.shown.
-get(kind)?.remove();this.shown.set(kind,banner);this.element.append(banner)}close(kind){this.shown.get(kind)?.remove();this.shown.delete(kind)}messages(){const{
-store}=this,{messages}=store,[first]=messages;this.close("limit");this.close("refused");if(!first||store.document.poses.length<2)return;const shown2=store.solved?.
-linkages.length?" What is shown was followed from the answer before.":"";if(first.tone==="cancelled")this.say("note",`Solving was stopped.${shown2}`,[],{actions:[
-this.again()]});else if(first.tone==="limit")this.say("limit",`Solving took too long and was stopped. Nothing of the task is lost.${shown2}`,messages,{actions:[
-this.again()]});else if(first.tone==="ended")this.say("ended","The process that computes for this page has ended. Nothing of the task is lost.",messages,{actions:[
-this.again()]});else this.say("refused","The task cannot be solved as it is.",messages)}again(){return button("Solve again",()=>{this.close("note");this.close("\
-limit");this.close("ended");this.store.solve()},{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="offline")
-this.offline();else this.close("offline");put(this.status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?"Not c\
-onnected":this.summary();say(this.status,solving?`Solving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){const{
-solved,solvedFor,document:document2,messages}=this.store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not solved";
-if(!solved||solvedFor!==document2)return"";const count=solved.linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count} lin\
-kage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothing is\
- lost: the task is in this page, and can still be changed and saved.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"\
-save-json"}),h("span",{class:"bs-hint"},"The page tries again by itself. If the server has ended, start burmester studio with that file, or drop the file on the\
- new page.")]})}expired(){this.close("offline");this.say("expired","The server was started anew. Nothing is lost: open the address that it printed in this tab, \
-and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer())]})}};var clamp=(value,low,high)=>Math.min(Math.max(value,low),high);var degrees=angle=>angle*180/Math.PI;var radians=angle=>angle*Math.PI/180;var px=value=>Math.abs(
-value)<1e7?+value.toFixed(5):Math.sign(value)*1e7;function fixed(value,digits){if(value===null||value===void 0||!Number.isFinite(value))return"–";const text=value.
-toFixed(digits);return Number(text)===0?text.replace("-",""):text}function figure(value){if(value===null||!Number.isFinite(value))return"–";if(value===0)return"\
-0";if(Math.abs(value)>=99.5&&Math.abs(value)<1e6)return value.toFixed(0);const rounded=value.toExponential(1),[digits,power]=rounded.split("e").map(Number);if(power>=
--4&&power<2)return String(Number(rounded));if(power>0)return`${digits}e${power}`;return`${digits}e-${String(-power).padStart(2,"0")}`}var spans=extent=>`${figure(
-extent)} span${figure(extent)==="1"?"":"s"}`;function ticks(low,high,about){const rough=(high-low)/Math.max(1,about);const power=10**Math.floor(Math.log10(rough));
-const step=[1,2,5,10].map(k=>k*power).find(each=>each>=rough*.999)??10*power;const digits=Math.max(0,-Math.floor(Math.log10(step*1.0001)));const marks=[];for(let k=Math.
-ceil(low/step-1e-9);k*step<=high+step*1e-9;k+=1){marks.push({at:k*step,text:fixed(k*step,digits)})}return marks}function angleTicks(low,high,about){const step=[
-5,10,15,30,45,60,90,180].find(each=>(high-low)/each<=about)??360;const marks=[];for(let k=Math.ceil(low/step-1e-9);k*step<=high+1e-6;k+=1){marks.push({at:k*step,
-text:`${fixed(k*step,0)}°`})}return marks.length>1?marks:ticks(low,high,about).map(t=>({...t,text:`${t.text}°`}))}function listed(words){if(words.length<2)return words.
-join("");return`${words.slice(0,-1).join(", ")} and ${words[words.length-1]}`}function runs(numbers,names){const parts=[];for(let k=0;k<numbers.length;){let end=k;
-while(end+1<numbers.length&&numbers[end+1]===numbers[end]+1)end+=1;if(end-k>=2)parts.push(`${names[numbers[k]-1]}–${names[numbers[end]-1]}`);else for(let i=k;i<=
-end;i+=1)parts.push(names[numbers[i]-1]);k=end+1}return listed(parts)}var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=
+tus"});this.live=h("p",{class:"bs-unseen",role:"status"});new ResizeObserver(()=>document.body.style.setProperty("--bs-banners",`${this.element.offsetHeight}px`)).
+observe(this.element);store.on("messages",()=>this.messages());store.on("state solved messages",()=>this.state())}say(kind,title,messages=[],{undo=false,actions=[]}={}){
+const close=button("✕",()=>this.close(kind),{"aria-label":"Close",class:"bs-close"});const all=[...actions,...undo?[button("Undo",()=>(this.close(kind),this.store.
+undo()))]:[]];const banner=h("section",{class:`bs-banner bs-${kind}`,role:ROLES[kind]??"status","data-banner":kind},h("p",{class:"bs-banner-title"},title),messages.
+length?h("ul",{},messages.map(sentenceOf)):null,all.length?h("div",{class:"bs-row"},all):null,kind==="offline"?null:close);this.shown.get(kind)?.remove();this.shown.
+set(kind,banner);this.element.append(banner)}close(kind){this.shown.get(kind)?.remove();this.shown.delete(kind)}messages(){const{store}=this,{messages}=store,[first]=messages;
+this.close("limit");this.close("refused");if(!first||store.document.poses.length<2)return;const shown2=store.solved?.linkages.length?" What is shown was followe\
+d from the answer before.":"";if(first.tone==="cancelled")this.say("note",`Solving was stopped.${shown2}`,[],{actions:[this.again()]});else if(first.tone==="lim\
+it")this.say("limit",`Solving took too long and was stopped. Nothing of the task is lost.${shown2}`,messages,{actions:[this.again()]});else if(first.tone==="end\
+ed")this.say("ended","The process that computes for this page has ended. Nothing of the task is lost.",messages,{actions:[this.again()]});else this.say("refused",
+"The task cannot be solved as it is.",messages)}again(){return button("Solve again",()=>{this.close("note");this.close("limit");this.close("ended");this.store.solve()},
+{"data-do":"solve-again"})}state(){const{store}=this,solving=store.state==="solving";if(store.state==="offline")this.offline();else this.close("offline");put(this.
+status,"data-state",store.state);if(store.state==="dragging")return;const said=store.state==="offline"?"Not connected":this.summary();say(this.status,solving?`S\
+olving${store.progress?`: ${store.progress}`:"…"}`:said);if(!solving&&said)say(this.live,said)}summary(){const{solved,solvedFor,document:document2,messages}=this.
+store;if(document2.poses.length<2)return"Two poses or more make a task";if(messages.length)return"Not solved";if(!solved||solvedFor!==document2)return"";const count=solved.
+linkages.length,usable=solved.linkages.filter(each=>each.usable).length;return count?`${count} linkage${count===1?"":"s"}, ${usable} usable`:"No linkage"}offline(){
+if(this.shown.has("offline"))return;this.say("offline","The server does not answer. Nothing is lost: the task is in this page, and can still be changed and save\
+d.",[],{actions:[button("Save the task (JSON)",()=>this.files.saveWithoutServer(),{"data-do":"save-json"}),h("span",{class:"bs-hint"},"The page tries again by i\
+tself. If the server has ended, start burmester studio with that file, or drop the file on the new page.")]})}expired(){this.close("offline");this.say("expired",
+"The server was started anew. Nothing is lost: open the address that it printed in this tab, and go on here.",[],{actions:[button("Save the task (JSON)",()=>this.
+files.saveWithoutServer())]})}};var AXIS=26;var BLOCK=[22,14];var transform=(x,y,angle)=>`translate(${px(x)} ${px(y)}) rotate(${px(degrees(-angle))})`;function foot(){let hatch="";for(let k=-2;k<=
 2;k+=1)hatch+=`M${5.5*k+3} 16l-6 7`;return s("g",{class:"bm-foot"},s("path",{class:"bm-solid",d:"M0 0L-10 16H10Z"}),s("path",{class:"bm-ground",d:`M-16 16H16${hatch}`}))}
-function axes(length){const l=length,head=Math.max(4,.22*length);return`M0 0H${l}m${-head} ${-head/2}l${head} ${head/2}l${-head} ${head/2}M0 0V${-.6*l}`}function polyline(points,view){
-let path2="",pen="M";for(const[x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(y)){pen="M";continue}path2+=`${pen}${px(view.X(x))} ${px(view.Y(y))}`;pen=
-"L"}return path2}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept=[];for(const point2 of list){while(kept.
-length>1){const[a,b]=kept.slice(-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*(point2[0]-a[0])>0)break;kept.pop()}kept.push(point2)}return kept.slice(0,-1)};const corners=[
-...half(sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
+function axes(length){const l=length,head2=Math.max(4,.22*length);return`M0 0H${l}m${-head2} ${-head2/2}l${head2} ${head2/2}l${-head2} ${head2/2}M0 0V${-.6*l}`}
+function polyline(points,view){let path2="",pen="M";for(const[x,y]of points){if(!Number.isFinite(x)||!Number.isFinite(y)){pen="M";continue}path2+=`${pen}${px(view.
+X(x))} ${px(view.Y(y))}`;pen="L"}return path2}function hull(points){const sorted=[...points].sort((p,q)=>p[0]-q[0]||p[1]-q[1]);const half=list=>{const kept2=[];
+for(const point2 of list){while(kept2.length>1){const[a,b]=kept2.slice(-2);if((b[0]-a[0])*(point2[1]-a[1])-(b[1]-a[1])*(point2[0]-a[0])>0)break;kept2.pop()}kept2.
+push(point2)}return kept2.slice(0,-1)};const corners=[...half(sorted),...half(sorted.reverse())];return corners.length?corners:sorted.slice(0,1)}function act(place,[x,y]){const c=Math.cos(place.a),d=Math.sin(place.a);return[place.x+c*x-d*y,place.y+d*x+c*y]}function back(place,[x,y]){const c=Math.cos(place.
 a),d=Math.sin(place.a);return[c*(x-place.x)+d*(y-place.y),-d*(x-place.x)+c*(y-place.y)]}var normalOf=dyad=>{const angle=radians(dyad.line.normal_deg);return[Math.
 cos(angle),Math.sin(angle)]};function constraint(dyad,place){if(dyad.kind==="PP"){const away=place.a-radians(dyad.angle_deg);return[away-2*Math.PI*Math.round(away/
 (2*Math.PI)),0,0,1]}if(dyad.kind==="RP"){const[nx2,ny2]=normalOf(dyad);const c=Math.cos(place.a),d=Math.sin(place.a);const tx=c*nx2-d*ny2,ty=d*nx2+c*ny2;const ax=dyad.
@@ -151,7 +183,7 @@ k/(count+1)*(u-before)));places.push(next);before=u};for(let k=Math.floor(low)+1
 return y[0]<=y[y.length-1]?valueAt({x:y,y:x},time):valueAt({x:[...y].reverse(),y:[...x].reverse()},time)}function alongLine(dyad,place){const[nx,ny]=normalOf(dyad);
 const[x,y]=dyad.kind==="PR"?act(place,dyad.moving_pivot):back(place,dyad.fixed_pivot);return nx*y-ny*x}function travelOf(dyad,places){const along2=places.map(place=>alongLine(
 dyad,place));return[along2.reduce((a,b)=>Math.min(a,b)),along2.reduce((a,b)=>Math.max(a,b))]}function pointOnLine(dyad,along2){const[nx,ny]=normalOf(dyad),{offset}=dyad.
-line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var WIDEST=4;var ROOM=2.5;var SPARE=.75;var LEAST=.25;var MOST_PLACES=400;var INSET=12;var bounds=points=>points.reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?
+line;return[offset*nx-along2*ny,offset*ny+along2*nx]}var WIDEST=4;var ROOM=2.5;var SPARE=.75;var LEAST2=.25;var MOST_PLACES=400;var INSET=12;var bounds=points=>points.reduce(([x,y,u,v],[a,b])=>Number.isFinite(a+b)?
 [Math.min(x,a),Math.min(y,b),Math.max(u,a),Math.max(v,b)]:[x,y,u,v],[Infinity,Infinity,-Infinity,-Infinity]);var placesAtPoses=(data,linkage)=>data.poses.flatMap(
 (pose,k)=>{const row=linkage?.pose_errors[k],at=row&&row.x!==null?row:pose;return at.angle_deg===null?[]:[{x:at.x,y:at.y,a:radians(at.angle_deg),k}]});function farFrom(data){
 const[x,y,u,v]=bounds(data.poses.map(pose=>[pose.x,pose.y])),reach=(data.body??[]).reduce((most,[a,b])=>Math.max(most,Math.hypot(a,b)),0);return point2=>!(Math.
@@ -165,13 +197,13 @@ place=>data.body.map(corner=>act(place,corner))):[];return[...points.filter(seen
 const[x,y,u,v]=bounds(near2),size2=Math.max(u-x,v-y)||1,reach=SPARE*size2;if(whole||!near2.length||Math.max(all[2]-all[0],all[3]-all[1])<=ROOM*size2)return all;
 return[Math.max(all[0],x-reach),Math.max(all[1],y-reach),Math.min(all[2],u+reach),Math.min(all[3],v+reach)]}function boxOf(data,linkage,places,{whole=false,close=false}={}){
 const near2=nearPoints(data,linkage,places,{far:whole,close}),regions=close?[]:data.keep_out.flatMap(region=>region.outline);const box=fitted(near2,regions,whole||
-!linkage),least2=LEAST*data.scene;for(const k of[0,1]){const lack=Math.max(0,least2-(box[k+2]-box[k]));box[k]-=lack/2;box[k+2]+=lack/2}return box}function viewOf(box,width,height,margin){
+!linkage),least2=LEAST2*data.scene;for(const k of[0,1]){const lack=Math.max(0,least2-(box[k+2]-box[k]));box[k]-=lack/2;box[k+2]+=lack/2}return box}function viewOf(box,width,height,margin){
 const scale=Math.min((width-2*margin)/(box[2]-box[0]),(height-2*margin)/(box[3]-box[1]));const left=width/2-scale*(box[0]+box[2])/2,top=height/2+scale*(box[1]+box[3])/
 2;return{scale,left,top,width,height,X:x=>left+scale*x,Y:y=>top-scale*y}}function edgeTowards({X,Y,width,height},at){const x=X(at[0]),y=Y(at[1]),cx=width/2,cy=height/
 2;if(x>=0&&y>=0&&x<=width&&y<=height)return null;const size2=Math.hypot(x-cx,y-cy),u=(x-cx)/size2,v=(y-cy)/size2;const reach=Math.min((cx-INSET)/Math.abs(u),(cy-
 INSET)/Math.abs(v));return{x:cx+reach*u,y:cy+reach*v,angle:Math.atan2(-v,u)}}var MOST_NAMES=24;var NAME_STEP=5;var MOST_ROWS=40;var NONE="–";function table(caption,heads,rows,attributes){return h("div",{class:"bm-scroll",tabindex:"0",role:"\
-region","aria-label":caption},h("table",attributes,h("caption",{},caption),h("thead",{},h("tr",{},heads.map(head=>h("th",{scope:"col",class:head.text?"bm-words":
-null},head.name??head)))),h("tbody",{},rows)))}function longTable(caption,heads,rows,attributes){const first=table(caption,heads,rows.slice(0,MOST_ROWS),attributes),
+region","aria-label":caption},h("table",attributes,h("caption",{},caption),h("thead",{},h("tr",{},heads.map(head2=>h("th",{scope:"col",class:head2.text?"bm-word\
+s":null},head2.name??head2)))),h("tbody",{},rows)))}function longTable(caption,heads,rows,attributes){const first=table(caption,heads,rows.slice(0,MOST_ROWS),attributes),
 others=rows.slice(MOST_ROWS);if(!others.length)return first;return h("div",{class:"bm-long"},first,h("details",{class:"bm-every"},h("summary",{},`${others.length}\
  more`),table(`${caption}, from ${MOST_ROWS+1}`,heads,others,attributes)))}var cells=(values,words=[],heads=[])=>values.map((value,k)=>k===0?h("th",{scope:"row"},
 value):h("td",{class:classes(words.includes(k)&&"bm-words",(value??NONE)===NONE&&"bm-none"),"data-head":heads[k]?.name??heads[k]},value??NONE));var classes=(...names)=>names.
@@ -192,8 +224,8 @@ dyad;const side=linkage.led.findIndex(dyad=>dyad.id===row.dyad);return h("tr",{}
 ords"},row.what),h("td",{},row.value),uncertain?h("td",{},row.give):null)})}function dimensionTable(data,linkage){return table(`Dimensions of ${linkage.id}${inUnit(
 data)}`,["",{name:"",text:true},"value",...linkage.said.dimensions.some(row=>row.give)?["± (95 %)"]:[]],dimensionRows(linkage),{class:"bm-dimensions"})}function poseTable(data,linkage){const digits=decimalsOf(data),unit2=unitOf(data),noun=nounOf(data),turned=noun!=="point";const ifTurned=value=>turned?[value]:[];
 const heads=[noun,`wanted x`,`y${unit2}`,...ifTurned("angle")];if(linkage)heads.push("body x",`y${unit2}`,"angle","off by",...ifTurned("turned by"),...linkage.columns?.
-map(([head])=>head)??["transm."],{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName(pose)+(pose.exact?" (exact)":""),fixed(pose.
-x,digits),fixed(pose.y,digits),...ifTurned(isPoint(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(
+map(([head2])=>head2)??["transm."],{name:"where",text:true});const rows=data.poses.map((pose,k)=>{const values=[poseName(pose)+(pose.exact?" (exact)":""),fixed(
+pose.x,digits),fixed(pose.y,digits),...ifTurned(isPoint(pose)?"free":`${fixed(pose.angle_deg,2)}°`)];if(linkage){const row=linkage.pose_errors[k];values.push(fixed(
 row.x,digits),fixed(row.y,digits),row.angle_deg===null?"–":`${fixed(row.angle_deg,2)}°`,row.said.position,...ifTurned(row.said.turned),...linkage.columns?.map(
 ([,texts])=>texts[k])??[row.said.transmission],row.way===null?"–":wayName(linkage.ways[row.way],linkage))}return h("tr",{"data-pose":k+1},cells(values,[heads.
 length-1]))});const what=turned?"Poses":"Points";return table(linkage?`${what}, and where ${linkage.id} takes the body`:what,heads,rows,{class:data.poses.some(pose=>pose.
@@ -243,7 +275,7 @@ document2),region]);var setRegion=(document2,index,changes)=>withList(document2,
 changes)));var removeRegion=(document2,index)=>withList(document2,"keep_out",without(regionsOf(document2),index));var setSurrounding=(document2,key,value)=>withKeys(
 document2,{surroundings:filled(withKeys(document2.surroundings??{},{[key]:value}))});var limitsOf=document2=>document2.limits===void 0?[]:[document2.limits].flat();
 function setLimit(document2,index,changes){const tables=limitsOf(document2),changed=withKeys(tables[index]??{},changes);const all=index<tables.length?replaced(tables,
-index,changed):[...tables,changed];const kept=all.length>1||filled(changed)?all:[];return withKeys(document2,{limits:kept.length>1?kept:kept[0]})}function splitLimits(document2,apart){
+index,changed):[...tables,changed];const kept2=all.length>1||filled(changed)?all:[];return withKeys(document2,{limits:kept2.length>1?kept2:kept2[0]})}function splitLimits(document2,apart){
 const tables=limitsOf(document2);if(!apart)return withKeys(document2,{limits:tables[0]&&filled(tables[0])});return tables.length>1?document2:withKeys(document2,
 {limits:[tables[0]??{},tables[0]??{}]})}var limitRegions=document2=>limitsOf(document2).flatMap((table3,index)=>["fixed_pivot","moving_pivot"].filter(key=>table3[key]).
 map(key=>{const[[shape,points]]=Object.entries(table3[key]);return{table:index,key,shape,points:shape==="point"?[points]:points}}));var shapeOf=(shape,points)=>({
@@ -253,9 +285,9 @@ pose=>Number.isFinite(pose[key]));const behind=poses.slice(index+1).findIndex(po
 index?poses[behind][key]:void 0];if(a===void 0||b===void 0)return a??b??0;return a+(index-before)/(behind-before)*(b-a)}function standing({poses},index){const{x,
 y,angle}=poses[index];if(Number.isFinite(x)&&Number.isFinite(y)&&Number.isFinite(angle))return{x,y,angle};return{x:component(poses,index,"x"),y:component(poses,
 index,"y"),angle:component(poses,index,"angle")}}var poseName2=({poses},index)=>poses[index]?.name??String(index+1);var statedOf=(pose,changes)=>Object.fromEntries(
-Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST2=250;var SHARE=8;var Pace=class{timer;constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){
+Object.entries(changes).filter(([key])=>Number.isFinite(pose[key])));var LEAST3=250;var SHARE=8;var Pace=class{timer;constructor(work,wanted=()=>true){this.work=work;this.wanted=wanted;this.free=0;this.timer=null;paces.add(this)}ask(){
 if(this.timer!==null||!this.wanted())return;this.timer=setTimeout(()=>this.now(),Math.max(0,this.free-performance.now()))}catchUp(){if(this.timer!==null)this.now()}now(){
-clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST2,SHARE*(end-start))}};
+clearTimeout(this.timer);this.timer=null;const start=performance.now();this.work();const end=performance.now();this.free=end+Math.max(LEAST3,SHARE*(end-start))}};
 var shown=new WeakMap;function isOther(element,facts){const before=shown.get(element);shown.set(element,facts);return before?.length!==facts.length||facts.some(
 (fact,k)=>!Object.is(fact,before[k]))}var sights=new WeakMap;var callers=new WeakMap;var observer=null;function watch(element,fn){observer??=new IntersectionObserver(
 entries=>{for(const{target,isIntersecting}of entries){sights.set(target,isIntersecting);if(isIntersecting)callers.get(target)?.()}});callers.set(element,fn);observer.
@@ -332,10 +364,10 @@ hover?.(null);else if(held.panned)this.tool?.release?.(point2,held);else if(held
 if(event.target!==this.svg||event.ctrlKey||event.metaKey||event.altKey)return;const by=event.shiftKey?160:40,{width,height}=this.size;const steps={ArrowLeft:[by,
 0],ArrowRight:[-by,0],ArrowUp:[0,by],ArrowDown:[0,-by]};if(steps[event.key])this.pan(...steps[event.key]);else if(event.key==="+"||event.key==="=")this.zoom(1.25,
 width/2,height/2);else if(event.key==="-")this.zoom(.8,width/2,height/2);else if(event.key==="0")this.fitAgain();else if(event.key==="z")this.emit("closer");else
-return;event.preventDefault()}};var Kept=class{constructor(group,make,show){this.group=group;this.make=make;this.show=show;this.elements=new Map}draw(items){const kept=new Map;
-for(const[key,item]of items){const element=this.elements.get(key)??this.make(key,item);kept.set(key,element);this.show(element,item)}for(const[key,element]of this.
-elements)if(!kept.has(key))element.remove();let before=null;for(const element of kept.values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==
-next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=element}this.elements=kept}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along2=minus(
+return;event.preventDefault()}};var Kept=class{constructor(group,make,show){this.group=group;this.make=make;this.show=show;this.elements=new Map}draw(items){const kept2=new Map;
+for(const[key,item]of items){const element=this.elements.get(key)??this.make(key,item);kept2.set(key,element);this.show(element,item)}for(const[key,element]of this.
+elements)if(!kept2.has(key))element.remove();let before=null;for(const element of kept2.values()){const next=before?before.nextSibling:this.group.firstChild;if(element!==
+next||element.parentNode!==this.group)this.group.insertBefore(element,next);before=element}this.elements=kept2}};var cross=([a,b],[c,d])=>a*d-b*c;var minus=([a,b],[c,d])=>[a-c,b-d];var size=([a,b])=>Math.hypot(a,b);function fromSegment(point2,start,end){const along2=minus(
 end,start),away=minus(point2,start),square=along2[0]**2+along2[1]**2;const share=square>0?Math.min(1,Math.max(0,(along2[0]*away[0]+along2[1]*away[1])/square)):0;
 return size(minus(away,[share*along2[0],share*along2[1]]))}var boxCorners=([[a,b],[c,d]])=>[[a,b],[c,b],[c,d],[a,d]];var outlineOf=(shape,points)=>shape==="box"?
 boxCorners(points):points;function isInside([x,y],corners){let inside2=false;corners.forEach(([a,b],k)=>{const[c,d]=corners[(k+1)%corners.length];if(b>y!==d>y&&
@@ -437,13 +469,13 @@ region);if(!corners)return"";const pose=body.length>2?some2.find(k=>overlap2(see
  touches it at pose ${poseName2(document2,pose)}.`;if(!places.length)return"";if(body.length>2&&places.some(place=>overlap2(seen(body,place),corners)))return"Th\
 e body touches it.";for(const dyad of linkage.led){if(dyad.kind!=="RR")continue;const near2=Math.min(...places.map(place=>segmentFromPolygon([dyad.fixed_pivot,act(
 place,dyad.moving_pivot)],corners)));if(near2===0||near2<width/2)return`The link of ${dyad.id} touches it.`;if(near2<width/2+margin)return`The link of ${dyad.id}\
- comes nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var KEY2="burmester.studio.key";var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){
+ comes nearer than the margin.`}return""})}var AGAIN=[250,500,1e3,2e3,4e3];var KEY3="burmester.studio.key";var UNFINISHED=new Set(["solving","progress","waiting"]);var Refused=class extends Error{constructor(status,messages){
 super(messages.map(each=>each.message).join(" ")||`the server answered ${status}`);this.status=status;this.messages=messages}};async function messagesOf(response){
 try{return(await response.json()).messages??[]}catch{return[]}}var Connection=class{socket;constructor(decode){this.decode=decode;this.listeners={message:[],open:[],
 closed:[]};this.asked=new Map;this.n=0;this.tries=0;this.socket=null}on(name,fn){this.listeners[name].push(fn)}emit(name,value){for(const fn of this.listeners[name])
-fn(value)}get isOpen(){return this.socket?.readyState===1}get key(){try{return localStorage.getItem(KEY2)??this.own}catch{return this.own}}async session(){const token=decodeURIComponent(
+fn(value)}get isOpen(){return this.socket?.readyState===1}get key(){try{return localStorage.getItem(KEY3)??this.own}catch{return this.own}}async session(){const token=decodeURIComponent(
 location.hash.slice(1)).replace(/^token=/,"");if(!token)return;history.replaceState(null,"",location.pathname);try{this.own=(await(await this.post("/session",{token})).
-json()).key}catch(error){if(!(error instanceof Refused)||!this.key)throw error;return}try{localStorage.setItem(KEY2,this.own)}catch{}}async get(path2){return(await this.
+json()).key}catch(error){if(!(error instanceof Refused)||!this.key)throw error;return}try{localStorage.setItem(KEY3,this.own)}catch{}}async get(path2){return(await this.
 request(path2,{})).json()}post(path2,body,method="POST"){return this.request(path2,{method,headers:{"Content-Type":"application/json"},body:JSON.stringify(body)})}async request(path2,options){
 const headers={...options.headers,Authorization:`Bearer ${this.key}`};const response=await fetch(path2,{credentials:"omit",...options,headers});if(!response.ok)
 throw new Refused(response.status,await messagesOf(response));return response}open(){clearTimeout(this.timer);this.socket?.close();const socket=new WebSocket(`${location.
@@ -453,77 +485,53 @@ if(socket!==this.socket)return;for(const{reject}of this.asked.values())reject(ne
 this.timer=setTimeout(()=>this.open(),AGAIN[Math.min(this.tries,AGAIN.length-1)]);this.tries+=1}}take(message){const waiting=this.asked.get(message.n);if(waiting&&
 !UNFINISHED.has(message.kind)){this.asked.delete(message.n);waiting.resolve(message)}this.emit("message",message)}send(message){if(!this.isOpen)return null;this.
 n+=1;this.socket.send(JSON.stringify({n:this.n,...message}));return this.n}ask(message){return new Promise((resolve,reject)=>{const n=this.send(message);if(n===
-null)reject(new Error("the connection is closed"));else this.asked.set(n,{resolve,reject})})}};var LENGTHS2=[["hole","holes"],["pin","pins"],["width","links are wide"],["thickness","plates are thick"],["gap","gap between plates"]];var NUMBERS=[["pose","dr\
-awn at pose","1",{least:1,whole:true}],["density","density, kg/m³","2700",{above:0}],["seconds","film, seconds","4",{above:0}],["frames_per_second","pictures a\
- second","25",{above:0}],["width_px","pixels wide","800",{least:1,whole:true}]];var AXES=["y","x","z","-x","-y","-z"];var UNITS=["mm","cm","m","in","ft"];var SIGMA=[
-["position","position","length"],["angle_deg","angle","angle"]];var section=(name,title,...content)=>h("details",{class:"bs-section","data-section":name},h("sum\
-mary",{},title),...content);var ExportSettings=class{sigma;constructor(store,scene){this.store=store;const set=name=>value=>store.setting(name,value);this.fields=
-new Map;const number=(name,placeholder,options)=>{const field=new NumberField({label:name.replace(/_/g," "),commit:set(name),options:()=>({optional:true,unit:store.
-document.length_unit,...options}),step:()=>options.kind?scene.step:1,attributes:{"data-setting":name,placeholder}});this.fields.set(name,field);return field.element};
-this.unit=choice("unit of what is exported",UNITS.map(unit2=>[unit2,unit2]),value=>set("unit")(value==="mm"?void 0:value),{"data-setting":"unit"});this.unitRow=
-labelled("unit of the lengths",this.unit);this.up=choice("up",AXES.map(axis=>[axis,axis]),value=>set("up")(value==="y"?void 0:value),{"data-setting":"up"});this.
-dimensions=tick("drawings have dimension lines",on=>set("dimensions")(on?void 0:false),{"data-setting":"dimensions"});this.assembled=tick("STL: the parts in the\
-ir places",on=>set("assembled")(on||void 0),{"data-setting":"assembled"});const rows=(all,placeholderOf,optionsOf)=>all.map(each=>labelled(each[1],number(each[0],
-placeholderOf(each),optionsOf(each))," "));this.element=h("div",{class:"bs-task"},section("export","What is exported",h("p",{class:"bs-hint"},"Left empty: sizes\
- that suit the linkage."),h("div",{class:"bs-grid"},this.unitRow,rows(LENGTHS2,()=>"–",()=>({kind:"length",above:0})),rows(NUMBERS,each=>each[2],each=>each[3]),
-labelled("up, in models",this.up)),this.dimensions.element,this.assembled.element),this.makeSigma(scene));store.on("document",()=>this.draw());this.draw()}makeSigma(scene){
-const{store}=this;this.wanted={};this.lack=h("p",{class:"bs-fault",hidden:true},"Give both: how far positions are off, and how far angles.");this.sigma=SIGMA.map(
-([key,name,kind])=>{const field=new NumberField({label:`standard deviation of the ${name}`,options:()=>({kind,unit:store.document.length_unit,optional:true,above:0}),
-step:()=>kind==="angle"?.1:scene.step/10,commit:value=>this.setSigma(key,value),attributes:{"data-key":`sigma-${key}`,placeholder:"–"}});return{key,name,field}});
-return section("sigma","How well the poses are known",h("p",{class:"bs-hint"},"Standard deviations of what was measured. Left empty: as well as their digits say\
-."),h("div",{class:"bs-grid"},this.sigma.map(({name,field})=>labelled(`${name} ±`,field.element,name==="angle"?"°":" "))),this.lack)}setSigma(key,value){this.
-wanted=withKeys({...this.store.document.pose_sigma,...this.wanted},{[key]:value});const given=Object.keys(this.wanted).length;give(this.lack,"hidden",given!==1);
-if(given===1)return;const pose_sigma=given?this.wanted:void 0;this.wanted={};this.store.edit(document2=>withKeys(document2,{pose_sigma}))}draw(){const{settings,
-document:document2}=this.store,{pose_sigma}=document2,isOther2=pose_sigma!==this.shown;for(const[name,field]of this.fields)field.show(settings[name]);give(this.
-unit,"value",settings.unit??"mm");give(this.unitRow,"hidden",Boolean(document2.length_unit)&&!settings.unit);give(this.up,"value",settings.up??"y");give(this.dimensions.
-box,"checked",settings.dimensions!==false);give(this.assembled.box,"checked",Boolean(settings.assembled));if(!isOther2)return;this.shown=pose_sigma;this.wanted=
-{};give(this.lack,"hidden",true);for(const{key,field}of this.sigma)field.show(pose_sigma?.[key])}};var DRAWINGS=/\.(svg|dxf)$/i;var TASKS=/\.(toml|json)$/i;var KINDS=".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";var BESIDE=["limits","requirements",
+null)reject(new Error("the connection is closed"));else this.asked.set(n,{resolve,reject})})}};var DRAWINGS=/\.(svg|dxf)$/i;var TASKS=/\.(toml|json)$/i;var KINDS=".toml,.json,.csv,.tsv,.txt,.xlsx,.parquet,.trc,.svg,.dxf";var BESIDE=["limits","requirements",
 "keep_out","surroundings","body"];var HEADERS={2:["x,y","Read them as x, y: points"],3:["x,y,angle_deg","Read them as x, y, angle in degrees"]};var LARGEST=14e5;
 async function base64Of(file){const bytes=new Uint8Array(await file.arrayBuffer());let text="";for(let k=0;k<bytes.length;k+=32768)text+=String.fromCharCode(...bytes.
 subarray(k,k+32768));return btoa(text)}var isTable=text=>/\d/.test(text)&&(/\t/.test(text)||/\n\s*\S/.test(text.trim()));function download(blob,name){const address=URL.
-createObjectURL(blob),link=h("a",{href:address,download:name});link.click();setTimeout(()=>URL.revokeObjectURL(address),1e4)}function menu(text,items,attributes={}){
-const list=h("div",{class:"bs-menu-list",role:"menu"});const summary=h("summary",{class:"bm-button"},text),element=h("details",{class:"bs-menu",...attributes},summary,
-list);const close=()=>{if(!element.open)return;element.open=false;summary.focus()};element.addEventListener("toggle",()=>{if(element.open)list.replaceChildren(...items().
-map(({title,note,act:act2,data})=>h("button",{type:"button",role:"menuitem",class:"bs-menu-item",...data,onclick:()=>(close(),act2())},h("b",{},title),note?h("s\
-pan",{},note):null)))});element.addEventListener("keydown",event=>{const all=[...list.children],at=all.indexOf(document.activeElement);if(event.key==="Escape")close();else if(event.
-key==="ArrowDown")all[(at+1)%all.length]?.focus();else if(event.key==="ArrowUp")all[(at+all.length-1)%all.length]?.focus();else return;event.preventDefault();event.
-stopPropagation()});document.addEventListener("pointerdown",event=>element.contains(event.target)||(element.open=false));return element}var Files=class{opened;constructor(store,start,banners){
-this.store=store;this.start=start;this.banners=banners;this.server=store.connection;this.chooser=h("input",{type:"file",hidden:true,accept:KINDS,"data-file":"op\
-en",onchange:()=>this.chosen(this.chooser)});this.outlines=h("input",{type:"file",hidden:true,accept:".svg,.dxf","data-file":"outline",onchange:()=>this.chosen(
-this.outlines)});this.dropping=h("div",{class:"bs-dropping",hidden:true,"aria-hidden":"true"},h("p",{},"Drop a task, a table of poses, or the outline of the bod\
-y"));this.dialog=h("dialog",{class:"bs-dialog","aria-label":"The same from the command line"});this.element=h("div",{class:"bs-files"},...this.buttons(),this.chooser,
-this.outlines,this.dropping,this.dialog);this.listen()}buttons(){const{start}=this;return[menu("Templates",()=>(start.templates??[]).map(({name,summary})=>({title:name,
-note:summary,act:()=>this.template(name),data:{"data-template":name}})),{"data-menu":"templates"}),button("New",()=>this.fresh(),{"data-do":"new",title:"An empt\
-y task"}),button("Open…",()=>this.chooser.click(),{"data-do":"open",title:"A task, or a table of poses (Ctrl+O)"}),button("Save task",()=>this.save(),{"data-d\
-o":"save",title:"The file that the command reads (Ctrl+S)"}),menu("Export",()=>[...(start.exports??[]).map(({format,title,suffix})=>({title,note:suffix,act:()=>this.
-export("/export",{format}),data:{"data-export":format}})),{title:"Report",note:".html",act:()=>this.export("/report"),data:{"data-export":"report"}},{title:"Res\
-ult",note:".json",act:()=>this.export("/result"),data:{"data-export":"result"}}],{"data-menu":"export"}),button("Copy as command",()=>this.commands(),{"data-do":"\
-command",title:"The same from the command line"})]}get task(){const{document:document2,options,name}=this.store;return{document:document2,options,name}}async trying(what,then,actions=[]){
-try{return await then()}catch(error){if(error instanceof Refused&&error.messages.length)this.banners.say("refused",`${what} was not done.`,error.messages,{actions});else
-this.banners.say("refused",`${what} was not done: ${error instanceof Refused?error.message:"the server does not answer"}.`);return null}}fresh(){this.store.replace(
-{document:{length_unit:"mm",angle_unit:"deg",poses:[]},options:{},name:"task"})}template(name){return this.trying(`Opening ${name}`,async()=>{const made2=await this.
-server.get(`/template/${encodeURIComponent(name)}`);this.store.replace({name,...made2});this.opened?.()})}async chosen(input){for(const file of input.files)await this.
-take(file,input===this.outlines);input.value=""}chooseOutline(){this.outlines.click()}take(file,asOutline=DRAWINGS.test(file.name)&&this.store.document.poses.length>
-0&&!isPath(this.store.document)){const isDrawing=DRAWINGS.test(file.name),{document:before}=this.store;const other=isDrawing?button(asOutline?"Take it as a path\
- to trace":"Take it as the outline of the body",()=>{for(const kind of["note","refused"])this.banners.close(kind);if(this.store.document!==before)this.store.undo();
-this.take(file,!asOutline)},{"data-do":asOutline?"as-path":"as-outline"}):null;return this.trying(`Reading ${file.name}`,async()=>{if(file.size>LARGEST)throw new Refused(
-413,[{message:`${file.name} has ${Math.round(file.size/1e3)} kB, and the page takes ${LARGEST/1e3}.`,help:"give it to the command: burmester studio FILE"}]);const body={
-name:file.name,base64:await base64Of(file),length_unit:this.store.document.length_unit};if(asOutline)return this.outline(await(await this.server.post("/outline",
-body)).json(),file.name,other);const{document:document2,options={},notes=[]}=await(await this.server.post("/read",body)).json();const name=file.name.replace(/\.[^.]*$/,
-"");const whole=TASKS.test(file.name);this.store.replace(whole?{document:document2,options,name}:{document:document2,options:this.store.options,name});this.opened?.();
-return this.banners.say("note",`${file.name} is open.`,notes,{undo:true,actions:other?[other]:[]})},other?[other]:[])}outline({outline:corners,notes=[]},name,other){
-this.store.edit(document2=>setBody(document2,corners));this.store.select({kind:"body",index:0});this.banners.say("note",`The outline of the body is that in ${name}\
-: ${corners.length} corners.`,notes,{undo:true,actions:other?[other]:[]})}paste(text,columns){const[first]=text.trim().split("\n"),header=HEADERS[first.trim().split(
-/\t/.test(first)?/\t/:/[,;\s]+/).length];const again=!columns&&header&&!/[^\d\s.,;+\-eE\u2212]/.test(first)?[button(header[1],()=>(this.banners.close("refused"),
-this.paste(text,header[0])),{"data-do":"read-columns"})]:[];return this.trying("Pasting",async()=>{const old=this.store.document;const{document:document2,notes=[]}=await(await this.
-server.post("/read",{name:"pasted",text,columns,length_unit:old.length_unit,angle_unit:"deg"})).json();const beside=Object.fromEntries(BESIDE.filter(key=>old[key]!==
-void 0&&document2[key]===void 0).map(key=>[key,old[key]]));this.store.replace({document:withKeys(document2,{length_unit:document2.length_unit??old.length_unit}),
-options:this.store.options});this.store.select(null);this.opened?.();this.banners.close("refused");const keep=button("Keep the limits and the body of the task b\
-efore",()=>(keep.remove(),this.store.edit(now=>withKeys(now,beside))),{"data-do":"keep-rest"});const what=document2.poses.some(pose=>pose.angle!==void 0)?"poses":
-"points";this.banners.say("note",`${document2.poses.length} ${what} were pasted.`,notes,{undo:true,actions:Object.keys(beside).length?[keep]:[]})},again)}save(){
-return this.trying("Saving",async()=>{try{await this.hand(await this.server.post("/task",this.task),`${this.store.name}.toml`)}catch(error){if(error instanceof Refused)
-throw error;this.saveWithoutServer();this.banners.say("note","The server does not answer: the task was saved as JSON, which the command reads as well.")}})}saveWithoutServer(){
-download(new Blob([`${JSON.stringify(this.store.document,null,2)}
+createObjectURL(blob),link=h("a",{href:address,download:name});link.click();setTimeout(()=>URL.revokeObjectURL(address),1e4)}function popover(text,list,fill,attributes={}){
+const summary=h("summary",{class:"bm-button"},text),element=h("details",{class:"bs-menu",...attributes},summary,list);const close=()=>{if(!element.open)return;element.
+open=false;summary.focus()};element.addEventListener("toggle",()=>element.open&&fill(close));element.addEventListener("keydown",event=>{const all=[...list.querySelectorAll(
+".bs-menu-item")],at=all.indexOf(document.activeElement),step={ArrowDown:1,ArrowUp:-1}[event.key];if(event.key==="Escape")close();else if(step&&(at>=0||document.
+activeElement===summary))all[(at+step+all.length)%all.length]?.focus();else return;event.preventDefault();event.stopPropagation()});document.addEventListener("p\
+ointerdown",event=>element.contains(event.target)||(element.open=false));return element}var menuItem=({title,note,act:act2,data},close,attributes={})=>h("button",
+{type:"button",class:"bs-menu-item",...attributes,...data,onclick:()=>(close(),act2())},h("b",{},title),note?h("span",{},note):null);function menu(text,items,attributes={}){
+const list=h("div",{class:"bs-menu-list",role:"menu"});return popover(text,list,close=>list.replaceChildren(...items().map(each=>each.heading?h("p",{class:"bs-m\
+enu-heading",role:"presentation"},each.heading):menuItem(each,close,{role:"menuitem"}))),attributes)}var Files=class{opened;constructor(store,start,banners){this.
+store=store;this.start=start;this.banners=banners;this.server=store.connection;this.chooser=h("input",{type:"file",hidden:true,accept:KINDS,"data-file":"open",onchange:()=>this.
+chosen(this.chooser)});this.outlines=h("input",{type:"file",hidden:true,accept:".svg,.dxf","data-file":"outline",onchange:()=>this.chosen(this.outlines)});this.
+dropping=h("div",{class:"bs-dropping",hidden:true,"aria-hidden":"true"},h("p",{},"Drop a task, a table of poses, or the outline of the body"));this.dialog=h("di\
+alog",{class:"bs-dialog","aria-label":"The same from the command line"});this.element=h("div",{class:"bs-files"},this.menu(),this.chooser,this.outlines,this.dropping,
+this.dialog);this.listen()}menu(){const item=(title,note,act2,data)=>({title,note,act:act2,data:{"data-do":data}});return menu("Task",()=>[item("New","an empty \
+task",()=>this.fresh(),"new"),item("Open…","a task, or a table of poses (Ctrl+O)",()=>this.chooser.click(),"open"),item("Save task","the file that the command\
+ reads (Ctrl+S)",()=>this.save(),"save"),item("Copy as command","the same from the command line",()=>this.commands(),"command"),{heading:"Templates"},...(this.start.
+templates??[]).map(({name,summary})=>({title:name,note:summary,act:()=>this.template(name),data:{"data-template":name}}))],{"data-menu":"task"})}get task(){const{
+document:document2,options,name}=this.store;return{document:document2,options,name}}async trying(what,then,actions=[]){try{return await then()}catch(error){if(error instanceof
+Refused&&error.messages.length)this.banners.say("refused",`${what} was not done.`,error.messages,{actions});else this.banners.say("refused",`${what} was not don\
+e: ${error instanceof Refused?error.message:"the server does not answer"}.`);return null}}fresh(){this.store.replace({document:{length_unit:"mm",angle_unit:"deg",
+poses:[]},options:{},name:"task"})}template(name){return this.trying(`Opening ${name}`,async()=>{const made2=await this.server.get(`/template/${encodeURIComponent(
+name)}`);this.store.replace({name,...made2});this.opened?.()})}async chosen(input){for(const file of input.files)await this.take(file,input===this.outlines);input.
+value=""}chooseOutline(){this.outlines.click()}take(file,asOutline=DRAWINGS.test(file.name)&&this.store.document.poses.length>0&&!isPath(this.store.document)){const isDrawing=DRAWINGS.
+test(file.name),{document:before}=this.store;const other=isDrawing?button(asOutline?"Take it as a path to trace":"Take it as the outline of the body",()=>{for(const kind of[
+"note","refused"])this.banners.close(kind);if(this.store.document!==before)this.store.undo();this.take(file,!asOutline)},{"data-do":asOutline?"as-path":"as-outl\
+ine"}):null;return this.trying(`Reading ${file.name}`,async()=>{if(file.size>LARGEST)throw new Refused(413,[{message:`${file.name} has ${Math.round(file.size/1e3)}\
+ kB, and the page takes ${LARGEST/1e3}.`,help:"give it to the command: burmester studio FILE"}]);const body={name:file.name,base64:await base64Of(file),length_unit:this.
+store.document.length_unit};if(asOutline)return this.outline(await(await this.server.post("/outline",body)).json(),file.name,other);const{document:document2,options={},
+notes=[]}=await(await this.server.post("/read",body)).json();const name=file.name.replace(/\.[^.]*$/,"");const whole=TASKS.test(file.name);this.store.replace(whole?
+{document:document2,options,name}:{document:document2,options:this.store.options,name});this.opened?.();return this.banners.say("note",`${file.name} is open.`,notes,
+{undo:true,actions:other?[other]:[]})},other?[other]:[])}outline({outline:corners,notes=[]},name,other){this.store.edit(document2=>setBody(document2,corners));this.
+store.select({kind:"body",index:0});this.banners.say("note",`The outline of the body is that in ${name}: ${corners.length} corners.`,notes,{undo:true,actions:other?
+[other]:[]})}paste(text,columns){const[first]=text.trim().split("\n"),header=HEADERS[first.trim().split(/\t/.test(first)?/\t/:/[,;\s]+/).length];const again=!columns&&
+header&&!/[^\d\s.,;+\-eE\u2212]/.test(first)?[button(header[1],()=>(this.banners.close("refused"),this.paste(text,header[0])),{"data-do":"read-columns"})]:[];return this.
+trying("Pasting",async()=>{const old=this.store.document;const{document:document2,notes=[]}=await(await this.server.post("/read",{name:"pasted",text,columns,length_unit:old.
+length_unit,angle_unit:"deg"})).json();const beside=Object.fromEntries(BESIDE.filter(key=>old[key]!==void 0&&document2[key]===void 0).map(key=>[key,old[key]]));
+this.store.replace({document:withKeys(document2,{length_unit:document2.length_unit??old.length_unit}),options:this.store.options});this.store.select(null);this.
+opened?.();this.banners.close("refused");const keep=button("Keep the limits and the body of the task before",()=>(keep.remove(),this.store.edit(now=>withKeys(now,
+beside))),{"data-do":"keep-rest"});const what=document2.poses.some(pose=>pose.angle!==void 0)?"poses":"points";this.banners.say("note",`${document2.poses.length}\
+ ${what} were pasted.`,notes,{undo:true,actions:Object.keys(beside).length?[keep]:[]})},again)}save(){return this.trying("Saving",async()=>{try{await this.hand(
+await this.server.post("/task",this.task),`${this.store.name}.toml`)}catch(error){if(error instanceof Refused)throw error;this.saveWithoutServer();this.banners.
+say("note","The server does not answer: the task was saved as JSON, which the command reads as well.")}})}saveWithoutServer(){download(new Blob([`${JSON.stringify(
+this.store.document,null,2)}
 `],{type:"application/json"}),`${this.store.name.replace(/[^\w.-]+/g,"-")||"task"}.json`)}get chosenLinkage(){const{chosen,placed}=this.store,dyads=chosen==="pl\
 aced"?placed?.linkage?.dyads:void 0;if(!dyads?.every(dyad=>dyad.kind==="RR"))return{linkage:chosen==="placed"?null:chosen};return{linkage:null,dyads:dyads.map(({
 fixed_pivot,moving_pivot,radius})=>({fixed_pivot,moving_pivot,radius}))}}export(path2,what={}){return this.trying("Exporting",async()=>{this.hand(await this.server.
@@ -540,7 +548,27 @@ by);give(this.dropping,"hidden",inside2===0)};document.addEventListener("dragent
 op",async event=>{if(!hasFiles(event))return;event.preventDefault();show(-Infinity);inside2=0;for(const file of event.dataTransfer?.files??[])await this.take(file)});
 document.addEventListener("paste",event=>{const text=event.clipboardData?.getData("text/plain")??"",[file]=event.clipboardData?.files??[];const typing=event.target instanceof
 HTMLElement&&event.target.closest("input, textarea, select");if(file)this.take(file);else if(isTable(text))this.paste(text);else return;event.preventDefault();if(typing)
-typing.blur()})}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
+typing.blur()})}};var LENGTHS2=[["hole","holes"],["pin","pins"],["width","links are wide"],["thickness","plates are thick"],["gap","gap between plates"]];var NUMBERS=[["pose","dr\
+awn at pose","1",{least:1,whole:true}],["density","density, kg/m³","2700",{above:0}],["seconds","film, seconds","4",{above:0}],["frames_per_second","pictures a\
+ second","25",{above:0}],["width_px","pixels wide","800",{least:1,whole:true}]];var AXES=["y","x","z","-x","-y","-z"];var UNITS=["mm","cm","m","in","ft"];var USES={
+cut:"Cut",print:"Print",cad:"CAD",simulate:"Simulate",film:"Film",share:"Share"};var ExportSettings=class{constructor(store,scene,formats,files){this.store=store;
+const set=name=>value=>store.setting(name,value);this.fields=new Map;const number=(name,placeholder,options)=>{const field=new NumberField({label:name.replace(/_/g,
+" "),commit:set(name),options:()=>({optional:true,unit:store.document.length_unit,...options}),step:()=>options.kind?scene.step:1,attributes:{"data-setting":name,
+placeholder}});this.fields.set(name,field);return field.element};this.unit=choice("unit of what is exported",UNITS.map(unit2=>[unit2,unit2]),value=>set("unit")(
+value==="mm"?void 0:value),{"data-setting":"unit"});this.unitRow=labelled("unit of the lengths",this.unit);this.up=choice("up",AXES.map(axis=>[axis,axis]),value=>set(
+"up")(value==="y"?void 0:value),{"data-setting":"up"});this.dimensions=tick("drawings have dimension lines",on=>set("dimensions")(on?void 0:false),{"data-settin\
+g":"dimensions"});this.assembled=tick("STL: the parts in their places",on=>set("assembled")(on||void 0),{"data-setting":"assembled"});const rows=(all2,placeholderOf,optionsOf)=>all2.
+map(each=>labelled(each[1],number(each[0],placeholderOf(each),optionsOf(each))," "));const sizes=h("details",{class:"bs-section","data-section":"export"},h("sum\
+mary",{},"Sizes and settings"),h("p",{class:"bs-hint"},"Left empty: sizes that suit the linkage."),h("div",{class:"bs-grid"},this.unitRow,rows(LENGTHS2,()=>"–",
+()=>({kind:"length",above:0})),rows(NUMBERS,each=>each[2],each=>each[3]),labelled("up, in models",this.up)),this.dimensions.element,this.assembled.element);const uses=h(
+"div",{class:"bs-uses"}),all=[...formats.map(({format,title,suffix,use})=>({use,title,note:suffix,act:()=>files.export("/export",{format}),data:{"data-export":format}})),
+{use:"share",title:"Report",note:".html",act:()=>files.export("/report"),data:{"data-export":"report"}},{use:"share",title:"Result",note:".json",act:()=>files.export(
+"/result"),data:{"data-export":"result"}}];const fill=close=>uses.replaceChildren(...Object.entries(USES).map(([use,name])=>[name,all.filter(each=>each.use===use)]).
+filter(([,some2])=>some2.length).map(([name,some2])=>h("div",{role:"group","aria-label":name},h("p",{class:"bs-menu-heading"},name),some2.map(each=>menuItem(each,
+close)))));this.element=popover("Export",h("div",{class:"bs-menu-list bs-exports"},uses,sizes),fill,{"data-menu":"export"});store.on("document",()=>this.draw());
+this.draw()}draw(){const{settings,document:document2}=this.store;for(const[name,field]of this.fields)field.show(settings[name]);give(this.unit,"value",settings.
+unit??"mm");give(this.unitRow,"hidden",Boolean(document2.length_unit)&&!settings.unit);give(this.up,"value",settings.up??"y");give(this.dimensions.box,"checked",
+settings.dimensions!==false);give(this.assembled.box,"checked",Boolean(settings.assembled))}};var WAY=["x","y","angle","drive","transmission"];var POSE=["x","y","angle_deg","position","turned_deg","transmission_deg"];function decodeFrame(buffer){const length=new DataView(
 buffer).getUint32(0,true);const header=JSON.parse(new TextDecoder().decode(new Uint8Array(buffer,4,length)));const numbers=floats(buffer,4+length);for(const linkage of header.
 linkages??[]){if(linkage.ways)linkage.ways=linkage.ways.map(way=>({...way,...pieces(numbers,way,WAY)}));if(!linkage.poses)continue;const{count}=linkage.poses;const columns=pieces(
 numbers,linkage.poses,POSE);linkage.pose_errors=Array.from({length:count},(_,pose)=>{const at=linkage.at?.[pose]??null;const row={way:at?at[0]:null,frame:at?at[1]:
@@ -550,16 +578,17 @@ byteLength/4},(_,k)=>view.getFloat32(4*k,true))}function pieces(numbers,{start,c
 start+k*count,start+(k+1)*count)]))}var KEYS2=[["Tab","from handle to handle, field to field"],["arrow keys","move what has the focus by a step: a pose, the tip that turns it, a corner, a shape, a\
  number; Shift: ten steps, Alt: a tenth"],["Delete","removes the pose, the corner or the shape"],["Enter","closes an outline; puts a shape in the middle while i\
 t is drawn"],["Escape","gives up what is under way: a drag, a drawing, a selection"],["+ − 0","on the plane: zoom and fit; arrow keys pan it"],["space","plays\
- and stops"],["Ctrl+Z, Ctrl+Shift+Z","undo and redo"],["Ctrl+S, Ctrl+O, Ctrl+V","save the task, open a file, paste rows of a spreadsheet"]];function keyList(){const close=button(
-"Close",()=>dialog.close());const dialog=h("dialog",{class:"bs-dialog","aria-label":"Keys"},h("h2",{},"Keys"),h("dl",{class:"bs-keys"},KEYS2.map(([key,what])=>h(
-"div",{},h("dt",{},key),h("dd",{},what)))),close);return[button("Keys",()=>dialog.showModal(),{"data-do":"keys"}),dialog]}var TYPED_IN="button, input, select, t\
-extarea, summary, a, [role=button], [role=slider]";var written2=element=>element?.matches?.("input:not([type=checkbox]):not([type=radio]):not([type=range]), tex\
-tarea");function listenToKeys(store,scene,files=null,root=document){const acts=event=>({z:()=>event.shiftKey?store.redo():store.undo(),y:()=>store.redo(),...files&&
-{s:()=>files.save(),o:()=>files.chooser.click()}});root.addEventListener("keydown",event=>{const{key,target}=event,control=(event.ctrlKey||event.metaKey)&&!event.
-altKey;if(control){const act2=acts(event)[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.test(key))return;event.preventDefault();
-act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(target)&&scene.tool.key(event)){event.
-preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},true);root.addEventListener("input",({
-target})=>target instanceof HTMLElement&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,({target})=>target instanceof
+ and stops"],["?","this list"],["Ctrl+Z, Ctrl+Shift+Z","undo and redo"],["Ctrl+S, Ctrl+O, Ctrl+V","save the task, open a file, paste rows of a spreadsheet"]];function keyList(){
+const close=button("Close",()=>dialog.close());const dialog=h("dialog",{class:"bs-dialog","aria-label":"Keys"},h("h2",{},"Keys"),h("dl",{class:"bs-keys"},KEYS2.
+map(([key,what])=>h("div",{},h("dt",{},key),h("dd",{},what)))),close);document.addEventListener("keydown",event=>{if(event.key==="?"&&!written2(event.target)&&!dialog.
+open)dialog.showModal()});return[button("?",()=>dialog.showModal(),{"data-do":"keys","aria-label":"Keys",title:"What keys do (?)"}),dialog]}var TYPED_IN="button\
+, input, select, textarea, summary, a, [role=button], [role=slider]";var written2=element=>element?.matches?.("input:not([type=checkbox]):not([type=radio]):not(\
+[type=range]), textarea");function listenToKeys(store,scene,files=null,root=document){const acts=event=>({z:()=>event.shiftKey?store.redo():store.undo(),y:()=>store.
+redo(),...files&&{s:()=>files.save(),o:()=>files.chooser.click()}});root.addEventListener("keydown",event=>{const{key,target}=event,control=(event.ctrlKey||event.
+metaKey)&&!event.altKey;if(control){const act2=acts(event)[key.toLowerCase()];if(!act2||written2(target)&&target.dataset.typing==="true"&&/^[zy]$/i.test(key))return;
+event.preventDefault();act2()}else if(scene.dragged&&key==="Escape"){event.preventDefault();scene.dragged.cancel()}else if(scene.tool&&!written2(target)&&scene.
+tool.key(event)){event.preventDefault();event.stopPropagation()}else if(key==="Escape"&&!written2(target)&&store.selection){store.select(null)}},true);root.addEventListener(
+"input",({target})=>target instanceof HTMLElement&&(target.dataset.typing="true"));for(const name of["change","focusout"])root.addEventListener(name,({target})=>target instanceof
 HTMLElement&&delete target.dataset.typing)}function listenToSpace({player},root=document){root.addEventListener("keydown",event=>{if(event.key!==" "||event.ctrlKey||
 event.metaKey||event.altKey||event.target instanceof Element&&event.target.closest(TYPED_IN)||!player.path)return;event.preventDefault();player.play(!player.playing)})}var POINTS=[12,40];var APART=26;var MEETS=16;var SHARE3=.08;var LEAST_LENGTH=40;var SMOOTHED=9;var OVAL=16;function lineOf({poses,path:path2},view){const points=poses.
 filter(({x,y})=>Number.isFinite(x)&&Number.isFinite(y)).map(({x,y})=>`${px(view.X(x))} ${px(view.Y(y))}`);return points.length?`M${points.join("L")}${path2?.closed?
@@ -803,10 +832,10 @@ this.byId.get(id)}get isOld(){return this.store.solvedFor!==this.store.document}
 isPath:isPath(this.store.document),...surroundingsOf(this.store.document,this.data)});this.emit("poses")}takeSolved(){const{solved,document:document2}=this.store,
 before=this.linkages.filter(each=>!each.gone);const{renamed:names,moved}=this.store;const was=new Map([...names].map(([old,id])=>[id,this.byId.get(old)]));const{
 poses,body,keep_out,...rest}=solved;Object.assign(this.data,{body,keep_out,...rest,poses:posesOf(document2)});this.gone=this.store.isEmpty||this.store.isAnother?
-[]:before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept=was.get(fresh.id),now=kept??
-{};const stood=kept&&kept.rank!==Infinity;const before2=stood&&kept.id!==fresh.id?kept.id:null;for(const key of Object.keys(now))delete now[key];Object.assign(now,
-figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!this.store.isAnother&&!stood,followed:false,gone:null,change:null});this.byId.
-set(now.id,now);return now});this.known=!this.store.isEmpty;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.
+[]:before.filter(each=>!names.has(each.id)).map(each=>each.id);this.byId=new Map;this.linkages=solved.linkages.map(fresh=>{const kept2=was.get(fresh.id),now=kept2??
+{};const stood=kept2&&kept2.rank!==Infinity;const before2=stood&&kept2.id!==fresh.id?kept2.id:null;for(const key of Object.keys(now))delete now[key];Object.assign(
+now,figured(linked(fresh)),{was:before2,shift:moved.get(fresh.id)??0,isNew:this.known&&!this.store.isAnother&&!stood,followed:false,gone:null,change:null});this.
+byId.set(now.id,now);return now});this.known=!this.store.isEmpty;this.emit("answers")}takeFollowed(){const frame=this.store.followed;if(!frame)return;for(const each of frame.
 linkages){let now=this.byId.get(each.id);if(now&&each.fresh===false)continue;if(!now){now=appeared(each);this.byId.set(each.id,now);this.linkages.push(now);this.
 hasNew=true}follow(now,each,this.data)}for(const{id,message}of frame.vanished??[]){const now=this.byId.get(id);if(now)Object.assign(now,{gone:message,usable:false})}
 for(const{id,kind,message}of frame.changes??[]){const now=this.byId.get(id);if(now&&kind!=="vanished")now.change=message}if(this.hasNew){this.hasNew=false;this.
@@ -900,11 +929,11 @@ labels.put(x,y,pose.label,13,{}));const row=linkage?.pose_errors[k];if(!row||row
 s("g",{class:`bm-achieved${elsewhere}`,transform:transform(view.X(row.x),view.Y(row.y),radians(row.angle_deg))},isPoint(pose)?null:s("path",{d:axes(.72*AXIS*small)}),
 s("circle",{r:2.2*small})))});group.append(arrows,names);return group}errors(linkage,factor,labels){const{data,view}=this,arrows=s("g",{class:"bm-errors"});if(!linkage||
 !factor)return arrows;linkage.pose_errors.forEach((row,k)=>{if(row.x===null)return;const pose=data.poses[k],x=view.X(pose.x),y=view.Y(pose.y);const dx=factor*view.
-scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2;
-const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;arrows.append(s("path",{d:`M${px(x)} ${px(
-y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});if(arrows.children.length)this.names.append(
-scaleOfErrors(view,factor));return arrows}show(place,drive){this.moving?.show(place,drive)}};var scaleOfErrors=({width},factor)=>s("text",{class:"bm-error-scale",
-x:width-8,y:16,"text-anchor":"end"},factor===1?"errors to scale":`errors × ${factor.toLocaleString("en").replaceAll(","," ")}`);var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
+scale*(row.x-pose.x),dy=-factor*view.scale*(row.y-pose.y);const size2=Math.hypot(dx,dy);if(size2<1.5)return;const head2=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2;
+const tip=`${px(x+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head2*(ux-sign*.5*uy))} ${px(y+dy-head2*(uy+sign*.5*ux))}`;arrows.append(s("path",{d:`M${px(x)}\
+ ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}));for(let share=0;share<=1;share+=.2)labels.block(x+share*dx,y+share*dy,8,8)});if(arrows.children.length)this.names.
+append(scaleOfErrors(view,factor));return arrows}show(place,drive){this.moving?.show(place,drive)}};var scaleOfErrors=({width},factor)=>s("text",{class:"bm-erro\
+r-scale",x:width-8,y:16,"text-anchor":"end"},factor===1?"errors to scale":`errors × ${factor.toLocaleString("en").replaceAll(","," ")}`);var hundredths=value=>Math.round(Math.min(Math.max(value,-1e6),1e6)*100)/100;function smoothPath(X,Y,closed2){const last=X.length-1;if(last<1)return"";const ahead=(values,k)=>k<
 last?values[k+1]:closed2?values[1]:2*values[last]-values[last-1];const behind=(values,k)=>k>0?values[k-1]:closed2?values[last-1]:2*values[0]-values[1];let d=`M${hundredths(
 X[0])} ${hundredths(Y[0])}`;let[u,v]=[(ahead(X,0)-behind(X,0))/6,(ahead(Y,0)-behind(Y,0))/6];for(let k=0;k<last;k+=1){const p=(ahead(X,k+1)-X[k])/6,q=(ahead(Y,k+
 1)-Y[k])/6;d+=`C${hundredths(X[k]+u)} ${hundredths(Y[k]+v)} ${hundredths(X[k+1]-p)} ${hundredths(Y[k+1]-q)} ${hundredths(X[k+1])} ${hundredths(Y[k+1])}`;[u,v]=[
@@ -951,8 +980,9 @@ size=small;put(group.children[0],"d",axes(.72*AXIS*small));put(group.children[1]
 radians(row.angle_deg)));group.classList.toggle("bm-elsewhere",row.at!==this.playing.path);if(this.factor&&data.poses[k])arrows+=arrow(view,data.poses[k],row,this.
 factor)}put(this.arrows,"d",arrows)}};var framesOf=way=>Array.from(way.x,(x,k)=>({x,y:way.y[k],a:way.angle[k]}));var pathOf2=(way,view)=>smoothPath(Array.from(way.
 x,view.X),Array.from(way.y,view.Y),way.round);function arrow(view,pose,row,factor){const x=view.X(pose.x),y=view.Y(pose.y),by=factor*view.scale;const dx=by*(row.
-x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW2))return"";const head=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+dx)}\
- ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head*(ux-sign*.5*uy))} ${px(y+dy-head*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
+x-pose.x),dy=-by*(row.y-pose.y),size2=Math.hypot(dx,dy);if(!(size2>=LEAST_ARROW2))return"";const head2=Math.min(7,.5*size2),ux=dx/size2,uy=dy/size2,tip=`${px(x+
+dx)} ${px(y+dy)}`;const barb=sign=>`L${px(x+dx-head2*(ux-sign*.5*uy))} ${px(y+dy-head2*(uy+sign*.5*ux))}`;return`M${px(x)} ${px(y)}L${tip}${barb(1)}M${tip}${barb(
+-1)}`}var FARTHEST=30;var JUMP=2;function centrodesOf(linkage,way,scene,near2){let before=null;const points=framesOf(way).map(place=>{const point2=centrodePoint(linkage.
 led,place);const far=!point2||Math.hypot(point2.fixed[0]-near2[0],point2.fixed[1]-near2[1])>FARTHEST*scene;const cut=far||before&&Math.hypot(point2.fixed[0]-before[0],
 point2.fixed[1]-before[1])>JUMP*scene;before=far?null:point2.fixed;return{point:far?null:point2,cut}});const pieces2=key=>points.flatMap(({point:point2,cut})=>cut?
 [null,point2&&point2[key]]:[point2?.[key]]);return{fixed:pieces2("fixed"),moving:pieces2("moving")}}var path=(points,X,Y)=>{let d="",pen="M";for(const point2 of points){
@@ -992,10 +1022,10 @@ tton",{type:"button",class:"bs-card-main","aria-pressed":String(Boolean(chosen))
 te ${k}`:of.id)," ",h("span",{class:"bm-type"},linkage.type)),h("span",{class:"bm-verdict"},linkage.usable?"✓ usable":"✕ not usable"),h("dl",{class:"bs-figu\
 res"},facts.map(([name,value])=>[h("dt",{},name),h("dd",{},value)])),linkage.usable?null:h("span",{class:"bm-reason"},linkage.said.reasons.join("; "))))}choose(k){
 const{store,of,known}=this;if(k)store.takeCognate(known.linkages[k-1],of.id);else if(store.placed?.cognateOf)store.letCognateGo();else store.choose(of.id);this.
-show();this.cards.children[k]?.querySelector("button").focus()}};var LEFT=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var ONLY=150;var GAP=28;var MANY_POSES=40;var HEADROOM=1.32;var NO_ERROR=1e-7;var TITLE="Errors a\
-nd transmission angle";var INSET2=8;var LONGEST_NAME5=16;var NAME_WIDTH=11;var Plots=class{top=TOP;count;marks;way;width;X;stretch;across;constructor(data,parent,scrub){
+show();this.cards.children[k]?.querySelector("button").focus()}};var LEFT2=62;var RIGHT=14;var TOP=22;var BOTTOM=44;var PANEL=84;var ONLY=150;var GAP=28;var MANY_POSES=40;var HEADROOM=1.32;var NO_ERROR=1e-7;var TITLE="Errors \
+and transmission angle";var INSET2=8;var LONGEST_NAME5=16;var NAME_WIDTH=11;var Plots=class{top=TOP;count;marks;way;width;X;stretch;across;constructor(data,parent,scrub){
 this.data=data;this.parent=parent;this.svg=s("svg",{class:"bm-plots",role:"img","aria-label":TITLE});parent.append(this.svg);const go=event=>{if(!this.way)return;
-const box=this.svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT-INSET2)/(this.width-LEFT-RIGHT-2*INSET2);const drive=this.driveAt(this.low+clamp(
+const box=this.svg.getBoundingClientRect();const at=(event.clientX-box.left-LEFT2-INSET2)/(this.width-LEFT2-RIGHT-2*INSET2);const drive=this.driveAt(this.low+clamp(
 at,0,1)*(this.high-this.low));if(drive!==null)scrub(frameAt(this.way.drive,drive))};this.svg.addEventListener("pointerdown",event=>{this.svg.setPointerCapture(event.
 pointerId);go(event)});this.svg.addEventListener("pointermove",event=>event.buttons&1&&go(event))}build(linkage,index,stretch){const{data,svg}=this,way=linkage.
 ways[index];this.linkage=linkage;this.way=way;svg.replaceChildren();this.cursor=null;if(!way)return;svg.setAttribute("aria-label",`${linkage.id}: ${TITLE.toLowerCase()}\
@@ -1006,23 +1036,23 @@ stretch;const rows=poses.map(row=>({...row,drive:linear(way.drive,row.frame)}));
  (°)`:slides?`place of ${driver.id} on its line (${unit2})`:`driver angle (${driver.id})`;const ends=[stretch.low,stretch.high].map(u=>linear(way.drive,u)),[low,
 high]=stretch.sense<0?ends.reverse():ends;this.frame(count,low,high,!slides,title,()=>{this.panels(rows,unit2);if(upright)this.uprightNames(rows)})}frame(count,low,high,turns,title,draw){
 const{svg}=this,width=this.width=Math.max(260,this.parent.clientWidth);this.count=count;this.low=low;this.high=high;const base=this.top+(count>1?count*PANEL+(count-
-1)*GAP:ONLY),height=base+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);this.X=at=>LEFT+INSET2+(at-low)/(high-low)*
-(width-LEFT-RIGHT-2*INSET2);const ends=[Math.min(low,high),Math.max(low,high)],marks=turns?angleTicks(ends[0],ends[1],Math.max(3,width/70)):ticks(ends[0],ends[1],
-width/90);this.across=low>high?marks.reverse():marks;this.marks=[];draw();svg.append(s("text",{class:"bm-title",x:(LEFT+width-RIGHT)/2,y:height-6,"text-anchor":"\
+1)*GAP:ONLY),height=base+BOTTOM;svg.setAttribute("viewBox",`0 0 ${width} ${height}`);svg.setAttribute("height",height);this.X=at=>LEFT2+INSET2+(at-low)/(high-low)*
+(width-LEFT2-RIGHT-2*INSET2);const ends=[Math.min(low,high),Math.max(low,high)],marks=turns?angleTicks(ends[0],ends[1],Math.max(3,width/70)):ticks(ends[0],ends[1],
+width/90);this.across=low>high?marks.reverse():marks;this.marks=[];draw();svg.append(s("text",{class:"bm-title",x:(LEFT2+width-RIGHT)/2,y:height-6,"text-anchor":"\
 middle"},title));this.cursor=s("g",{class:"bm-cursor"},s("path",{d:`M0 ${this.top}V${base}`}));this.cursor.append(...this.marks.map(({mark})=>mark));svg.append(
 this.cursor)}heights(k){const y0=this.top+k*(PANEL+GAP);return[y0,y0+(this.count>1?PANEL:ONLY)]}placeOf(drive){return drive}driveAt(place){return place}panels(rows,unit2){
 this.linkage.panels?.forEach((each,k)=>this.values(k,each));if(this.linkage.panels||this.count===1){this.transmission(this.count-1,rows);return}this.errors(0,`p\
 osition error (${unit2})`,rows,row=>row.position,1e-11*this.data.scene);if(nounOf(this.data)==="point"){this.transmission(1,rows);return}this.errors(1,"angle er\
 ror (°)",rows.filter(({pose})=>!isPoint(pose)),row=>row.turned_deg,1e-9);this.transmission(2,rows)}errors(k,title,rows,value,rounding){const{svg,X}=this,[y0,base]=this.
 heights(k);const greatest=Math.max(1e-300,...rows.map(row=>value(row)??0));const visible=greatest>rounding;const high=visible?HEADROOM*greatest:1;const Y=v=>base-
-v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},rows.length?"exact, up to rounding":`no ${nounOf(
-this.data)} is on this assembly`))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT-6,y:base+
+v/high*PANEL;this.panel(title,y0,base);if(!visible){svg.append(s("text",{class:"bm-note",x:LEFT2+8,y:y0+PANEL/2},rows.length?"exact, up to rounding":`no ${nounOf(
+this.data)} is on this assembly`))}else{for(const{at}of ticks(0,high,3).slice(1))this.rule(Y(at),figure(at));svg.append(s("text",{class:"bm-tick",x:LEFT2-6,y:base+
 4,"text-anchor":"end"},"0"))}const greatestThree=new Set([...rows].sort((a,b)=>value(b)-value(a)).slice(0,3));let last=-99;for(const row of[...rows].sort((a,b)=>X(
 a.drive)-X(b.drive))){const x=px(X(row.drive)),y=px(visible?Y(value(row)):base);svg.append(s("path",{class:"bm-stem",d:`M${x} ${base}V${y}`}),s("circle",{class:"\
 bm-dot",cx:x,cy:y,r:3.5},s("title",{},`${calledOf(row.pose)}: ${figure(value(row))}`)));const{label}=row.pose;if(x-last>6+6.5*label.length&&(rows.length<=MANY_POSES||
 greatestThree.has(row))){svg.append(s("text",{class:"bm-dot-name",x,y:y-7,"text-anchor":"middle"},label));last=x}}}transmission(k,rows){const{svg,way,width,X}=this,
 [y0,base]=this.heights(k);const Y=v=>base-v/90*(base-y0);this.panel("transmission angle (°)",y0,base,true);for(const at of[0,30,60,90])this.rule(Y(at),at);const{
-deg:limit,said}=this.data.transmission_limit;svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(limit))}H${width-RIGHT}`}));const below=limit>15&&(linear(
+deg:limit,said}=this.data.transmission_limit;svg.append(s("path",{class:"bm-usual",d:`M${LEFT2} ${px(Y(limit))}H${width-RIGHT}`}));const below=limit>15&&(linear(
 way.transmission,this.stretch.sense<0?this.stretch.low:this.stretch.high)??90)>limit;const limitName2=s("text",{class:"bm-tick bm-halo",x:width-RIGHT-4,y:px(Y(limit))+
 (below?12:-4),"text-anchor":"end"},said);(way.loops??[way.transmission]).forEach((values,loop)=>{this.mark(drive=>linear(values,frameAt(way.drive,drive)),Y);const kind=way.
 loops?` bm-loop${loop}`:"";this.curve(values,Y,`bm-line${kind}`);for(const row of rows){const value=way.loops?row.loops[loop]:row.transmission_deg;if(value!==null)
@@ -1030,19 +1060,19 @@ svg.append(s("circle",{class:`bm-dot${kind}`,cx:px(X(row.drive)),cy:px(Y(value))
 {r:4.5}),value,Y})}values(k,curve){const{title,x,y,dots,stems}=curve,{svg}=this,[low,high]=[Math.min(this.low,this.high),Math.max(this.low,this.high)],[y0,base]=this.
 heights(k);const shown2=[...x.keys()].filter(i=>y[i]!==null&&x[i]>=low&&x[i]<=high).map(i=>[x[i],y[i]]);const all=[...shown2,...dots].map(([,value])=>value),least2=Math.
 min(...all),most=Math.max(...all),room=.08*(most-least2);this.panel(title,y0,base);if(!(Math.max(Math.abs(least2),Math.abs(most))>NO_ERROR)){svg.append(s("text",
-{class:"bm-note",x:LEFT+8,y:y0+PANEL/2},shown2.length?"exact, up to rounding":"it cannot be assembled"));return}const Y=v=>base-(v-least2+room)/(most-least2+2*room)*
-PANEL;const at=point2=>`${px(this.X(point2[0]))} ${px(Y(point2[1]))}`;for(const{at:value,text}of ticks(least2,most,4))this.rule(Y(value),text);if(least2<0&&most>
-0)svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));if(stems)for(const[a,b]of shown2)svg.append(s("path",{class:"bm-stem",d:`\
-M${at([a,0])}L${at([a,b])}`}));else svg.append(s("path",{class:"bm-line",d:`M${shown2.map(at).join("L")}`}));for(const[a,b]of dots)svg.append(s("circle",{class:"\
-bm-dot",cx:px(this.X(a)),cy:px(Y(b)),r:3.5},s("title",{},`${figure(b)}°`)));this.mark(drive=>valueAt(curve,drive),Y)}curve(values,Y,name){const{low,high}=this.
+{class:"bm-note",x:LEFT2+8,y:y0+PANEL/2},shown2.length?"exact, up to rounding":"it cannot be assembled"));return}const Y=v=>base-(v-least2+room)/(most-least2+2*
+room)*PANEL;const at=point2=>`${px(this.X(point2[0]))} ${px(Y(point2[1]))}`;for(const{at:value,text}of ticks(least2,most,4))this.rule(Y(value),text);if(least2<0&&
+most>0)svg.append(s("path",{class:"bm-usual",d:`M${LEFT2} ${px(Y(0))}H${this.width-RIGHT}`}));if(stems)for(const[a,b]of shown2)svg.append(s("path",{class:"bm-st\
+em",d:`M${at([a,0])}L${at([a,b])}`}));else svg.append(s("path",{class:"bm-line",d:`M${shown2.map(at).join("L")}`}));for(const[a,b]of dots)svg.append(s("circle",
+{class:"bm-dot",cx:px(this.X(a)),cy:px(Y(b)),r:3.5},s("title",{},`${figure(b)}°`)));this.mark(drive=>valueAt(curve,drive),Y)}curve(values,Y,name){const{low,high}=this.
 stretch,frames=[low];for(let i=Math.floor(low)+1;i<high;i+=1)frames.push(i);frames.push(high);let line2="",pen="M";for(const u of frames){const value=linear(values,
 u);if(value===null)continue;line2+=`${pen}${px(this.X(linear(this.way.drive,u)))} ${px(Y(value))}`;pen="L"}this.svg.append(s("path",{class:name,d:line2}))}uprightNames(rows){
 let last=-99;for(const row of[...rows].sort((a,b)=>this.X(a.drive)-this.X(b.drive))){const x=this.X(row.drive),y=this.top-20;if(x-last<NAME_WIDTH)continue;last=
 x;const text=s("text",{class:"bm-dot-name bm-upright",transform:`translate(${px(x+4)} ${px(y)}) rotate(-90)`});text.append(shortened(poseName(row.pose),LONGEST_NAME5));
 this.svg.append(s("g",{},s("title",{},poseName(row.pose)),text))}}panel(title,y0,base,labelled3=false){const{svg,width}=this;svg.append(s("rect",{class:"bm-pane\
-l",x:LEFT,y:y0,width:width-LEFT-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT,y:y0-7},title));let last=-99;for(const{at,text}of this.across){const x=px(
+l",x:LEFT2,y:y0,width:width-LEFT2-RIGHT,height:base-y0}),s("text",{class:"bm-title",x:LEFT2,y:y0-7},title));let last=-99;for(const{at,text}of this.across){const x=px(
 this.X(at));svg.append(s("path",{class:"bm-rule",d:`M${x} ${y0}V${base}`}));if(labelled3&&x-last>34){svg.append(s("text",{class:"bm-tick",x,y:base+15,"text-anch\
-or":"middle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT} ${px(y)}H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT-
+or":"middle"},text));last=x}}}rule(y,text){this.svg.append(s("path",{class:"bm-rule",d:`M${LEFT2} ${px(y)}H${this.width-RIGHT}`}),s("text",{class:"bm-tick",x:LEFT2-
 6,y:px(y)+4,"text-anchor":"end"},text))}show(drive){if(!this.cursor)return;const at=this.placeOf(drive);put(this.cursor,"visibility",at===null?"hidden":"visible");
 if(at===null)return;this.cursor.setAttribute("transform",`translate(${px(this.X(at))} 0)`);for(const{mark,value,Y}of this.marks){const known=value(at);put(mark,
 "visibility",known===null?"hidden":"inherit");if(known!==null)put(mark,"cy",px(Y(known)))}}};var TITLE2="Loads";var fieldsets=0;var LoadPlots=class extends Plots{own=null;timed=null;drive;overTime=false;constructor(data,parent,scrub){super(data,parent,scrub);
@@ -1060,7 +1090,7 @@ led,slides=driver.kind==="PR";const title=timed?"time (s)":slides?`place of ${dr
 linkage,own.way).sense<0?ends.reverse():ends;this.frame(panels.length,low,high,!slides&&!timed,title,()=>{panels.forEach((each,k)=>this.lines(k,each,k+1===panels.
 length))})}lines(k,{title,x,lines},last){const all=lines.flatMap(({y})=>y.filter(each=>each!==null)),[y0,base]=this.heights(k);const least2=Math.min(0,...all),most=Math.
 max(0,...all),room=.08*(most-least2||1);this.panel(title,y0,base,last);const Y=v=>base-(v-least2+room)/(most-least2+2*room)*(base-y0);for(const{at,text}of ticks(
-least2,most,4))this.rule(Y(at),text);if(least2<0&&most>0)this.svg.append(s("path",{class:"bm-usual",d:`M${LEFT} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(
+least2,most,4))this.rule(Y(at),text);if(least2<0&&most>0)this.svg.append(s("path",{class:"bm-usual",d:`M${LEFT2} ${px(Y(0))}H${this.width-RIGHT}`}));lines.forEach(
 ({y},line2)=>{let d="",pen="M";x.forEach((at,i)=>{if(y[i]===null)pen="M";else{d+=`${pen}${px(this.X(at))} ${px(Y(y[i]))}`;pen="L"}});this.svg.append(s("path",{class:`\
 bm-line bm-curve${line2}`,d}));this.mark(at=>valueAt({x,y},at),Y)});if(lines.length>1){const names=s("text",{class:"bm-title",x:this.width-RIGHT,y:y0-7,"text-an\
 chor":"end"});lines.forEach(({name},line2)=>names.append(s("tspan",{class:`bm-curve${line2}`,dx:line2?7:0},name)));this.svg.append(names)}}placeOf(drive){const{
@@ -1084,30 +1114,31 @@ const links=["ground","driver","coupler","follower"];return[row("verdict",each=>
 ype",each=>each.type),row("worst miss",each=>worstOf(each,data),each=>each.worst),row("least transmission angle",each=>leastOf(each),each=>each.least,-1),row("s\
 ize",each=>each.quality?spans(each.quality.extent):"–",each=>each.quality?.extent),row("sensitivity",each=>each.quality?figure(each.quality.sensitivity):"–",
 each=>each.quality?.sensitivity),row("driver",each=>each.led[0].id),...links.map(name=>row(`${name} link`,each=>each.said.links?.[name]?`${each.said.links[name]}${unit2}`:
-"–")),row("reason",each=>each.usable?"–":(each.followed?each.reason:each.said.reasons.join("; "))||"–")]}var Compare=class{constructor(store,answers,playing){
-this.store=store;this.answers=answers;this.playing=playing;this.pictures=[0,1].map(()=>h("div",{class:"bm-drawing"}));this.planes=this.pictures.map(parent=>new Plane(
-answers.data,parent));this.names=[0,1].map(()=>h("h3",{}));this.places=[0,1].map(()=>h("p",{class:"bs-quiet"}));this.table=h("div",{class:"bm-scroll",tabindex:0,
-role:"region","aria-label":"Both linkages in numbers"});this.button=h("button",{type:"button",class:"bm-button",onclick:()=>playing.player.play(!playing.player.
-playing)},"Play both");this.close=h("button",{type:"button",class:"bs-small",onclick:()=>store.compared&&store.compare(store.compared)},"End the comparison");this.
-pairs=h("div",{class:"bs-beside"},[0,1].map(k=>h("div",{},this.names[k],this.pictures[k],this.places[k])));this.empty=h("p",{class:"bm-story"},"Press “Compare” \
-on a card: that linkage moves beside the chosen one.");this.full=h("div",{hidden:true},this.pairs,h("div",{class:"bs-tool"},this.button," ",this.close),this.table);
-this.element=h("div",{class:"bs-compare"},this.empty,this.full);this.pace=new Pace(()=>this.build(),()=>this.on&&isSeen(this.element));answers.on("answers shown",
-()=>this.start());playing.on("shape",()=>this.pace.ask());playing.on("place",here=>this.show(here));new ResizeObserver(()=>this.pace.ask()).observe(this.element);
-watch(this.element,()=>this.pace.ask())}get other(){return this.answers.get(this.store.compared)}get on(){return Boolean(this.other&&this.playing.linkage&&this.
-other!==this.answers.shown)}start(){give(this.full,"hidden",!this.on);give(this.empty,"hidden",this.on);if(this.on){for(let part=this.element.parentElement;part;part=
-part.parentElement)if(part.tagName==="DETAILS")part.open=true;this.build()}}build(){if(!this.on)return;const{answers,playing,other}=this,mine=playing.linkage;const options={
-factor:0,fill:0,far:false};this.names.forEach((name,k)=>name.textContent=[mine,other][k].id==="placed"?"By hand":`${[mine,other][k].id}: ${[mine,other][k].type}`);
-this.planes[0].build(mine,playing.player.way,playing.player.stretch,options);this.way=null;this.buildTable(comparison(mine,other,answers.data));if(playing.here)
-this.show(playing.here)}buildTable(rows){const old=this.answers.isOld?"bs-old":null;this.table.replaceChildren(h("table",{class:"bs-compared"},h("caption",{},"B\
-oth linkages in numbers; the better one of each row is bold"),h("thead",{},h("tr",{},h("th",{scope:"col"},""),this.names.map(name=>h("th",{scope:"col"},name.textContent)))),
-h("tbody",{},rows.map(({name,texts,better})=>h("tr",{class:/size|sensitivity|link/.test(name)?old:null},h("th",{scope:"row"},name),texts.map((text,k)=>h("td",{class:"\
-bm-words"},better===k?h("b",{},text):text)))))))}show({place,transmission}){if(!this.on||!isSeen(this.element))return;const{playing,other,answers:{data}}=this,{
-player}=playing;this.planes[0].show(place);this.tell(0,transmission);const at=frameAtStage(other,stageOf(playing.linkage,player.way,player.u));this.pictures[1].
-classList.toggle("bs-old",!at);if(!at){this.planes[1].build(other,0,{low:0,high:(other.ways[0]?.x.length??2)-1},{factor:0,fill:0,far:false});this.places[1].textContent=
-"It does not reach this pose.";return}if(this.way!==at.way){this.way=at.way;const stops=other.pose_errors.filter(row=>row.way===at.way).map(row=>row.frame);const[
-low,high]=[Math.min(...stops),Math.max(...stops)];this.planes[1].build(other,at.way,high>low?{low,high}:{low:0,high:other.ways[at.way].x.length-1},{factor:0,fill:0,
-far:false})}const way=other.ways[at.way];this.planes[1].show(placeAt(other,way,at.u,data.chart.length));this.tell(1,way.transmission[Math.round(at.u)])}tell(k,transmission){
-const text=`transmission angle ${transmission===null||!Number.isFinite(transmission)?"–":`${fixed(transmission,1)}°`}`;say(this.places[k],text)}};var MOST2=8;var ARROWS3={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var curveOf=(way,point2)=>framesOf(way).map(place=>act(place,point2));
+"–")),row("reason",each=>each.usable?"–":(each.followed?each.reason:each.said.reasons.join("; "))||"–")]}var Compare=class{constructor(store,answers,playing,onstart){
+this.store=store;this.onstart=onstart;this.answers=answers;this.playing=playing;this.pictures=[0,1].map(()=>h("div",{class:"bm-drawing"}));this.planes=this.pictures.
+map(parent=>new Plane(answers.data,parent));this.names=[0,1].map(()=>h("h3",{}));this.places=[0,1].map(()=>h("p",{class:"bs-quiet"}));this.table=h("div",{class:"\
+bm-scroll",tabindex:0,role:"region","aria-label":"Both linkages in numbers"});this.button=h("button",{type:"button",class:"bm-button",onclick:()=>playing.player.
+play(!playing.player.playing)},"Play both");this.close=h("button",{type:"button",class:"bs-small",onclick:()=>store.compared&&store.compare(store.compared)},"En\
+d the comparison");this.pairs=h("div",{class:"bs-beside"},[0,1].map(k=>h("div",{},this.names[k],this.pictures[k],this.places[k])));this.empty=h("p",{class:"bm-s\
+tory"},"Press “Compare” on a card: that linkage moves beside the chosen one.");this.full=h("div",{hidden:true},this.pairs,h("div",{class:"bs-tool"},this.button,
+" ",this.close),this.table);this.element=h("div",{class:"bs-compare"},this.empty,this.full);this.pace=new Pace(()=>this.build(),()=>this.on&&isSeen(this.element));
+answers.on("answers shown",()=>this.start());playing.on("shape",()=>this.pace.ask());playing.on("place",here=>this.show(here));new ResizeObserver(()=>this.pace.
+ask()).observe(this.element);watch(this.element,()=>this.pace.ask())}get other(){return this.answers.get(this.store.compared)}get on(){return Boolean(this.other&&
+this.playing.linkage&&this.other!==this.answers.shown)}start(){give(this.full,"hidden",!this.on);give(this.empty,"hidden",this.on);if(!this.on)return void(this.
+began=null);if(this.began!==this.other)this.onstart();this.began=this.other;this.build()}build(){if(!this.on)return;const{answers,playing,other}=this,mine=playing.
+linkage;const options={factor:0,fill:0,far:false};this.names.forEach((name,k)=>name.textContent=[mine,other][k].id==="placed"?"By hand":`${[mine,other][k].id}: ${[
+mine,other][k].type}`);this.planes[0].build(mine,playing.player.way,playing.player.stretch,options);this.way=null;this.buildTable(comparison(mine,other,answers.
+data));if(playing.here)this.show(playing.here)}buildTable(rows){const old=this.answers.isOld?"bs-old":null;this.table.replaceChildren(h("table",{class:"bs-compa\
+red"},h("caption",{},"Both linkages in numbers; the better one of each row is bold"),h("thead",{},h("tr",{},h("th",{scope:"col"},""),this.names.map(name=>h("th",
+{scope:"col"},name.textContent)))),h("tbody",{},rows.map(({name,texts,better})=>h("tr",{class:/size|sensitivity|link/.test(name)?old:null},h("th",{scope:"row"},
+name),texts.map((text,k)=>h("td",{class:"bm-words"},better===k?h("b",{},text):text)))))))}show({place,transmission}){if(!this.on||!isSeen(this.element))return;const{
+playing,other,answers:{data}}=this,{player}=playing;this.planes[0].show(place);this.tell(0,transmission);const at=frameAtStage(other,stageOf(playing.linkage,player.
+way,player.u));this.pictures[1].classList.toggle("bs-old",!at);if(!at){this.planes[1].build(other,0,{low:0,high:(other.ways[0]?.x.length??2)-1},{factor:0,fill:0,
+far:false});this.places[1].textContent="It does not reach this pose.";return}if(this.way!==at.way){this.way=at.way;const stops=other.pose_errors.filter(row=>row.
+way===at.way).map(row=>row.frame);const[low,high]=[Math.min(...stops),Math.max(...stops)];this.planes[1].build(other,at.way,high>low?{low,high}:{low:0,high:other.
+ways[at.way].x.length-1},{factor:0,fill:0,far:false})}const way=other.ways[at.way];this.planes[1].show(placeAt(other,way,at.u,data.chart.length));this.tell(1,way.
+transmission[Math.round(at.u)])}tell(k,transmission){const text=`transmission angle ${transmission===null||!Number.isFinite(transmission)?"–":`${fixed(transmission,
+1)}°`}`;say(this.places[k],text)}};var MOST2=8;var ARROWS3={ArrowLeft:[-1,0],ArrowRight:[1,0],ArrowUp:[0,1],ArrowDown:[0,-1]};var curveOf=(way,point2)=>framesOf(way).map(place=>act(place,point2));
 var CouplerCurves=class{constructor(answers,playing,scene){this.answers=answers;this.playing=playing;this.scene=scene;this.points=[];this.group=s("g",{class:"bs\
 -coupler-curves"});this.handles=s("g",{class:"bs-coupler-points"});scene.layer("paths").append(this.group);scene.layer("pivots").append(this.handles);this.button=
 h("button",{type:"button",class:"bs-small","aria-pressed":"false","data-tool":"coupler-point",onclick:()=>this.pick()},"Pick a point on the body");this.list=h("\
@@ -1139,7 +1170,7 @@ point";const taken=some2&&linkage?`the places that ${linkage.id} takes at ${ever
 join(" and ");const plain=`Every place of the body is one point of this space${marked?`; numbered points are ${marked}`:""}.`;if(!linkage)return[plain];const surface=side=>h(
 "b",{class:`bm-side${side}`},linkage.led[side].id);return[plain," The surfaces are all places that dyad ",surface(0)," (driver) and dyad ",surface(1)," (followe\
 r) allow; where they meet, the line, the coupler moves."]}function table2(caption,heads,rows){return h("div",{class:"bm-scroll",tabindex:0,role:"region","aria-label":caption},h("table",{},h("caption",{},caption),h("the\
-ad",{},h("tr",{},heads.map(head=>h("th",{scope:"col"},head)))),h("tbody",{},rows.map(row=>h("tr",{},row.map((text,k)=>k?h("td",{},text):h("th",{scope:"row"},text)))))))}
+ad",{},h("tr",{},heads.map(head2=>h("th",{scope:"col"},head2)))),h("tbody",{},rows.map(row=>h("tr",{},row.map((text,k)=>k?h("td",{},text):h("th",{scope:"row"},text)))))))}
 var point=(at,digits)=>`(${at.map(value=>fixed(value,digits)).join(", ")})`;function poseFacts(linkage,data,points){const digits=decimalsOf(data);return linkage.
 pose_errors.map((row,k)=>{const name=data.poses[k]?poseName(data.poses[k]):String(k+1);if(row.x===null)return[name,"–",...points.map(()=>"–")];const place=placeOf(
 row),centre=instantCentre(linkage.led,place);return[name,centre?point(centre,digits):"at infinity",...points.map(each=>point(act(place,each.at),digits))]})}var FactsTable=class{constructor(store,answers,playing,curves){
@@ -1185,9 +1216,9 @@ place,at2)));const step=1e-6*scene;let at=point2;for(let k=0;k<NEWTON_STEPS;k+=1
 (n===axis?sense*step:0))));return(up-down)/(2*step)});const squared=slope[0]**2+slope[1]**2,here=value(at);if(!(squared>0))return at;at=at.map((each,n)=>each-here*
 slope[n]/squared)}return Math.hypot(at[0]-point2[0],at[1]-point2[1])<FARTHEST_STEP*scene?at:point2}var worthOf=pairs=>Array.from({length:pairs.columns},(_,k)=>worth(
 pairs.bestPartner(k).kind));var worth=kind=>kind<OUTSIDE2?"works":kind===OUTSIDE2?"outside":"fails";function curvesOf({loops}){const curves={fixed:[],moving:[],
-loops:[],worth:[]};for(const loop of loops){const kept=loop.fixed.map((_,k)=>k).filter(k=>[...loop.fixed[k],...loop.moving[k]].every(Number.isFinite));curves.loops.
-push(kept.length);for(const k of kept){curves.fixed.push(loop.fixed[k]);curves.moving.push(loop.moving[k]);curves.worth.push(loop.class?worth(loop.class[k]):"pl\
-ain")}}return curves}function curvePaths(points,loops,worth2,X,Y,widest){const paths={works:"",outside:"",fails:"",plain:""};const near2=(p,q)=>Math.hypot(p[0]-
+loops:[],worth:[]};for(const loop of loops){const kept2=loop.fixed.map((_,k)=>k).filter(k=>[...loop.fixed[k],...loop.moving[k]].every(Number.isFinite));curves.loops.
+push(kept2.length);for(const k of kept2){curves.fixed.push(loop.fixed[k]);curves.moving.push(loop.moving[k]);curves.worth.push(loop.class?worth(loop.class[k]):"\
+plain")}}return curves}function curvePaths(points,loops,worth2,X,Y,widest){const paths={works:"",outside:"",fails:"",plain:""};const near2=(p,q)=>Math.hypot(p[0]-
 q[0],p[1]-q[1])<=widest;const text=([x,y])=>`${Math.round(X(x)*100)/100} ${Math.round(Y(y)*100)/100}`;const between2=(p,q)=>[(p[0]+q[0])/2,(p[1]+q[1])/2];let start=0;
 for(const size2 of loops){for(let i=0;i<size2;i+=1){const[a,b,c]=[-1,0,1].map(step=>points[start+(i+step+size2)%size2]);const list=[...near2(a,b)?[between2(a,b)]:
 [],b,...near2(b,c)?[between2(b,c)]:[]];if(list.length>1)paths[worth2[start+i]]+=`M${list.map(text).join("L")}`}start+=size2}return paths}var LONGEST_STEP2=.5;var STROKES=["plain","fails","outside","works"];var FamilyCurves=class{constructor(store,answers,playing,scene){this.store=store;this.answers=
@@ -1373,10 +1404,10 @@ om ${calledOf(pose)}`;const missed2=()=>`at ${calledOf(pose)}, ${row.said.positi
 drive):null;const known=this.path.told?.map(each=>this.toldOf(each))??[`driver ${driver}${time===null?"":` at ${fixed(time,2)} s`}`,`body (${fixed(place.x,digits)}\
 , ${fixed(place.y,digits)})${unit2}, ${fixed(((degrees(place.a)+180)%360+360)%360-180,2)}°`];const texts=[...known,`transmission ${transmission===null?"–":`${fixed(
 transmission,1)}°`}`,said];texts.forEach((text,k)=>{const whole=k+1<texts.length?`${text} ·`:text;if(this.parts[k].textContent!==whole)this.parts[k].textContent=
-whole});put(this.slider,"aria-valuetext",`${texts[0]}, ${texts[3]}`)}toldOf({name,digits,values,panel:panel2}){const error=panel2===void 0?null:valueAt(this.linkage.
-panels[panel2],smooth(this.path.drive,this.u));const off=error===null?"":`, off by ${Math.abs(error)<NO_ERROR2?"0":figure(error)}°`;return`${name} ${fixed(smooth(
-values,this.u),digits)}°${off}`}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,
-left=clamp(x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%
+whole});put(this.slider,"aria-valuetext",`${texts[0]}, ${texts[3]}`)}toldOf({name,digits,values,panel}){const error=panel===void 0?null:valueAt(this.linkage.panels[panel],
+smooth(this.path.drive,this.u));const off=error===null?"":`, off by ${Math.abs(error)<NO_ERROR2?"0":figure(error)}°`;return`${name} ${fixed(smooth(values,this.
+u),digits)}°${off}`}};function laidOut(texts,width,count){const ends=Array(count).fill(-99);return texts.map(({x,text})=>{const size2=6.4*text.length,left=clamp(
+x-size2/2,0,Math.max(0,width-size2));const at=ends.findIndex(end=>left>end+4);if(at>=0)ends[at]=left+size2;return{text,at,middle:left+size2/2}})}var around2=(u,turn)=>(u%
 turn+turn)%turn;function icon(pause){return s("svg",{width:12,height:12,viewBox:"0 0 12 12","aria-hidden":"true"},s("path",{d:pause?"M1 0h3.5v12H1zM7.5 0H11v12H\
 7.5z":"M1 0l11 6l-11 6z"}))}var APART2=3;var GOLDEN=.381966011250105;var HALVINGS=24;function drivenByOther(linkage,length){const led=[linkage.led[1],linkage.led[0]];if(led[0].kind==="PP"||
 !linkage.ways.length)return{...linkage,led,loads:null,ways:[],pose_errors:linkage.pose_errors.map(row=>({...row,way:null,frame:null,at:null}))};const ways=[],places=Array(
@@ -1753,20 +1784,18 @@ dyads?.length)return placed.dyads;return linkage?.led??[]}build(quick){const{ans
 return;const box=linkage?.space??data.space;const quadrics=dyads.map(dyad=>quadricOf(dyad,data.chart,box));if(quadrics.length===1)quadrics.push(quadrics[0]);const shown2={
 ...linkage&&!linkage.gone?linkage:{ways:[],led:dyads},space:{...box,quadrics}};const key=dyads.map(dyad=>dyad.id).join();if(key!==this.told){this.told=key;this.
 story.replaceChildren(...spaceStory(data,linkage&&dyads.length===2?{id:linkage.id,led:dyads}:null))}space.build(shown2,playing.player.way,quick);if(playing.path&&
-playing.here)space.show(playing.here.place);else space.hide()}};var LOADS=["loads","springs","drive"];var panel=(name,title,open,...content)=>h("details",{class:`bm-card bs-panel bs-panel-${name}`,open,"data-panel":name},h("\
-summary",{},h("h2",{},title)),content);function addResults(store,scene,{player,results,panels}){const answers=new Answers(store),playing=new Playing(store,answers);
+playing.here)space.show(playing.here.place);else space.hide()}};var LOADS=["loads","springs","drive"];function addResults(store,scene,{player,results,drawer}){const answers=new Answers(store),playing=new Playing(store,answers);
 const live=new LiveLinkage(answers,playing,scene),surface=new PivotSurface(store,answers,playing,scene);const centrodes=new Centrodes(answers,playing,scene),curves=new CouplerCurves(
 answers,playing,scene);const cards=new Results(store,answers),charts=new Charts(answers,playing),space=new SpacePanel(answers,playing);const cognates=new CognatePanel(
-store,answers);const compare=new Compare(store,answers,playing),facts=new FactsTable(store,answers,playing,curves);player.append(playing.element,h("div",{class:"\
-bs-player-tools"},centrodes.element,curves.element));results.append(cards.element);const ofAngles=[panel("pivots","Put a pivot somewhere",true,surface.element),
-panel("space","Image space",true,space.element)];const loads=new LoadCharts(answers,playing),ofLoads=panel("loads","Loads along the motion",true,loads.element);
-const ofCurve=panel("cognates","The same curve by three linkages",true,cognates.element);const fold=()=>{const{document:document2}=store;for(const each of ofAngles)
-give(each,"hidden",document2.poses.some(isPoint2));give(ofCurve,"hidden",!isOfPoints(document2));give(ofLoads,"hidden",!LOADS.some(key=>document2[key]))};store.
-on("document",fold);fold();panels.append(ofCurve,...ofAngles,panel("charts","Errors and transmission",true,charts.element),ofLoads,panel("compare","Compare two \
-linkages",false,compare.element),panel("facts","Every number in tables",false,facts.element));for(const part of panels.children)part.addEventListener("toggle",()=>dispatchEvent(
-new Event("resize")));unfoldForPrint(panels,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(\
-prefers-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,cards,charts,loads,space,
-cognates,compare,facts}}var FEW2=40;var PointFields=class{constructor({name,options,step,set}){this.name=name;this.options=options;this.step=step;this.set=set;this.fields=[];this.shape=
+store,answers),loads=new LoadCharts(answers,playing);const compare=new Compare(store,answers,playing,()=>drawer.open("compare")),facts=new FactsTable(store,answers,
+playing,curves);const ways=[...playing.element.querySelectorAll(".bs-player-ways, .bs-driver-note")];player.append(playing.element);results.append(cards.element);
+const ofAngles=()=>!store.document.poses.some(isPoint2);drawer.add("charts","Errors and transmission",charts.element);drawer.add("loads","Loads",loads.element,()=>LOADS.
+some(key=>store.document[key]));drawer.add("motion","Driver and curves",h("div",{},ways,h("div",{class:"bs-player-tools"},centrodes.element,curves.element)));drawer.
+add("cognates","Cognates",cognates.element,()=>isOfPoints(store.document));drawer.add("pivots","Pivots",surface.element,ofAngles);drawer.add("space","Image spac\
+e",space.element,ofAngles);drawer.add("compare","Compare",compare.element);drawer.add("facts","Tables",facts.element);store.on("document",()=>drawer.update());drawer.
+update();unfoldForPrint(drawer.element,new AbortController().signal);catchUpForPrint();listenToSpace(playing);playOnce(store,answers,playing);matchMedia("(prefe\
+rs-color-scheme: dark)").addEventListener("change",()=>answers.emit("answers"));return{answers,playing,live,surface,centrodes,curves,cards,charts,loads,space,cognates,
+compare,facts}}var FEW2=40;var PointFields=class{constructor({name,options,step,set}){this.name=name;this.options=options;this.step=step;this.set=set;this.fields=[];this.shape=
 h("span",{class:"bs-hint"});this.more=h("p",{class:"bs-hint"});this.pairs=h("div",{class:"bs-coordinates"});this.element=h("div",{class:"bs-point-fields"},this.
 shape,this.pairs,this.more)}show(shape,points){const count=Math.min(points.length,FEW2);if(shape!==this.shape.textContent)this.fields=[];say(this.shape,shape);while(this.
 fields.length<count)this.fields.push(this.make(this.fields.length));this.fields.length=count;const wanted=this.fields.map(each=>each.element);if(wanted.length!==
@@ -1774,17 +1803,17 @@ this.pairs.children.length||wanted.some((each,k)=>each!==this.pairs.children[k])
 (field,i)=>field.show(points[k][i])));give(this.more,"hidden",points.length<=FEW2);say(this.more,`and ${points.length-FEW2} more, to drag in the plane`)}make(k){
 const pair=["x","y"].map((axis,i)=>new NumberField({label:`${axis} of point ${k+1} of ${this.name}`,options:()=>({...this.options(),optional:false}),step:this.step,
 commit:value=>this.set(points=>points.map((point2,j)=>j===k?point2.map((old,m)=>m===i?value:old):point2))}));return{pair,element:h("span",{class:"bs-pair"},pair.
-map(field=>field.element))}}};var SHAPES=["point","line","segment","box","polygon"];var UNITS2=["","mm","cm","m","in","ft"];var section2=(name,title,open,...content)=>h("details",{class:"bs-\
-section","data-section":name,open},h("summary",{},title),...content);var TaskPanel=class{madeTables;regionRows;linkWidth;margin;inPlane;bodyNumbers;asks;options;tables;apart;regionList;bodyState;constructor(store,scene,regions,body,files,form){
+map(field=>field.element))}}};var SHAPES=["point","line","segment","box","polygon"];var SIGMA=[["position","position","length"],["angle_deg","angle","angle"]];var UNITS2=["","mm","cm","m","i\
+n","ft"];var section=(name,title,open,...content)=>h("details",{class:"bs-section","data-section":name,open},h("summary",{},title),...content);var TaskPanel=class{madeTables;regionRows;linkWidth;margin;inPlane;bodyNumbers;asks;options;tables;apart;regionList;sigma;constructor(store,scene,regions,body,files,form){
 this.store=store;this.scene=scene;this.regions=regions;this.body=body;this.files=files;this.form=form;this.element=h("div",{class:"bs-task"});this.element.append(
-this.makeLimits(),this.makeRegions(),this.makeBody(),this.makeRequirements(),this.makeOptions());store.on("document selection",()=>this.draw());regions.onjudged=
-()=>this.drawVerdicts();this.draw()}edit(change){this.store.edit(change)}length(label,commit,options={},attributes={}){return new NumberField({label,commit,options:()=>({
-kind:"length",unit:this.store.document.length_unit,optional:true,...options}),step:()=>this.scene.step,attributes})}tools(label,shapes,toolOf,data){return h("di\
-v",{class:"bs-tools",role:"group","aria-label":label},shapes.map(shape=>this.toolButton(shape,()=>toolOf(shape),{"data-draw":`${data} ${shape}`})))}toolButton(text,toolOf,attributes){
+this.makeRequirements(),this.makeLimits(),this.makeRegions(),this.makeBody(),this.makeSigma(),this.makeOptions());store.on("document selection",()=>this.draw());
+regions.onjudged=()=>this.drawVerdicts();this.draw()}edit(change){this.store.edit(change)}length(label,commit,options={},attributes={}){return new NumberField({
+label,commit,options:()=>({kind:"length",unit:this.store.document.length_unit,optional:true,...options}),step:()=>this.scene.step,attributes})}tools(label,shapes,toolOf,data){
+return h("div",{class:"bs-tools",role:"group","aria-label":label},shapes.map(shape=>this.toolButton(shape,()=>toolOf(shape),{"data-draw":`${data} ${shape}`})))}toolButton(text,toolOf,attributes){
 const made2=button(text,()=>this.scene.use(made2.tool&&made2.tool===this.scene.tool?null:made2.tool=toolOf()),{"aria-pressed":"false",...attributes});this.scene.
 on("tool",tool=>put(made2,"aria-pressed",Boolean(tool)&&tool===made2.tool));return made2}points(name,set){return new PointFields({name,set,options:()=>({kind:"l\
 ength",unit:this.store.document.length_unit}),step:()=>this.scene.step})}makeLimits(){this.apart=tick("another limit for each of the two dyads",on=>this.edit(document2=>splitLimits(
-document2,on)),{"data-key":"limits-apart"});this.tables=h("div",{});this.madeTables=[];return section2("limits","Limits of pivots and links",false,this.apart.element,
+document2,on)),{"data-key":"limits-apart"});this.tables=h("div",{});this.madeTables=[];return section("limits","Limits of pivots and links",false,this.apart.element,
 this.tables)}limitsOf(form){return this.form.limits.filter(each=>each.form===form)}makeTable(k){const{store,regions}=this,edit=changes=>this.edit(document2=>setLimit(
 document2,k,changes));const title=h("h3",{}),parts={};for(const{key,label:name}of this.limitsOf("region")){const state=h("p",{class:"bs-state"});const numbers=this.
 points(`the limit of the ${key.replace("_"," ")}`,change=>this.edit(document2=>withPoints(document2,k,key,change)));const remove=button("Delete",()=>regions.removeLimit(
@@ -1808,8 +1837,8 @@ tell(made2.kindsState,tables[k]?.kinds?regions.said(k,"kinds"):null)});this.regi
 Boolean):null))}makeRegions(){this.regionList=h("div",{});this.regionRows=[];this.linkWidth=this.length("width of the links",value=>this.edit(document2=>setSurrounding(
 document2,"link_width",value)),{least:0},{"data-key":"link_width",placeholder:"0"});this.margin=this.length("least clearance",value=>this.edit(document2=>setSurrounding(
 document2,"margin",value)),{least:0},{"data-key":"margin",placeholder:"0"});this.inPlane=tick("links that stand on the ground must not touch the body either",on=>this.
-edit(document2=>setSurrounding(document2,"body_in_plane",on||void 0)),{"data-key":"body_in_plane"});return section2("keep-out","Regions to keep out of",false,h(
-"p",{class:"bs-hint"},"The body and the links must not touch them between the poses."),this.tools("Draw a region to keep out of",["box","polygon"],shape=>this.regions.
+edit(document2=>setSurrounding(document2,"body_in_plane",on||void 0)),{"data-key":"body_in_plane"});return section("keep-out","Regions to keep out of",false,h("\
+p",{class:"bs-hint"},"The body and the links must not touch them between the poses."),this.tools("Draw a region to keep out of",["box","polygon"],shape=>this.regions.
 regionTool(shape),"region"),this.regionList,h("div",{class:"bs-row"},labelled("links are wide",this.linkWidth.element),labelled("least clearance",this.margin.element)),
 this.inPlane.element)}drawRegions(){const{store}=this,regions=regionsOf(store.document);while(this.regionRows.length<regions.length){this.regionRows.push(this.regionRow(
 this.regionRows.length));this.regionList.append(this.regionRows.at(-1).element)}for(const row of this.regionRows.splice(regions.length))row.element.remove();this.
@@ -1825,13 +1854,13 @@ text)name.value=text;element.classList.toggle("bs-selected",selected);give(inNum
 hidden)file.textContent=`from the drawing ${region.file}`;else numbers.show(shapeKey(region),region[shapeKey(region)])};return{element,state,show}}makeBody(){this.
 bodyNumbers=this.points("the outline",change=>this.edit(document2=>setBody(document2,change(bodyOf(document2)))));this.bodyCount=h("summary",{});this.bodyBox=h(
 "details",{},this.bodyCount,this.bodyNumbers.element);this.noBody=button("Delete the outline",()=>this.edit(document2=>setBody(document2,[])),{"data-do":"delete\
--body"});return section2("body","Outline of the body",false,h("p",{class:"bs-hint"},"It is seen at every pose, moves with the linkage, and says what an angle er\
-ror counts as."),h("div",{class:"bs-tools"},this.toolButton("Draw it",()=>this.body.tool(),{"data-draw":"body"}),button("From a drawing (SVG, DXF)…",()=>this.
-files.chooseOutline(),{"data-do":"outline-file"}),this.noBody),this.bodyBox)}drawBody(){const{document:task}=this.store,corners=bodyOf(task);give(this.noBody,"h\
-idden",!task.body);give(this.bodyBox,"hidden",!corners.length);if(!corners.length)return;say(this.bodyCount,`${corners.length} corners, in numbers`);this.bodyNumbers.
-show("polygon",corners)}makeRequirements(){this.asks=this.form.requirements.map(each=>({...each,...this.field(each,value=>this.edit(document2=>setRequirement(document2,
-each.key,value)))}));const of=(...forms)=>this.asks.filter(({form})=>forms.includes(form)).map(({element})=>element);return section2("requirements","What the li\
-nkage must be",true,h("div",{class:"bs-grid"},of("number","corridor"),of("choice")),of("flag"),of("area"),of("names"))}field({key,label,form,choices,...bounds2},set){
+-body"});return section("body","Outline of the body",false,h("p",{class:"bs-hint"},"It is seen at every pose, moves with the linkage, and says what an angle err\
+or counts as."),h("div",{class:"bs-tools"},this.toolButton("Draw it",()=>this.body.tool(),{"data-draw":"body"}),button("From a drawing (SVG, DXF)…",()=>this.files.
+chooseOutline(),{"data-do":"outline-file"}),this.noBody),this.bodyBox)}drawBody(){const{document:task}=this.store,corners=bodyOf(task);give(this.noBody,"hidden",
+!task.body);give(this.bodyBox,"hidden",!corners.length);if(!corners.length)return;say(this.bodyCount,`${corners.length} corners, in numbers`);this.bodyNumbers.show(
+"polygon",corners)}makeRequirements(){this.asks=this.form.requirements.map(each=>({...each,...this.field(each,value=>this.edit(document2=>setRequirement(document2,
+each.key,value)))}));const of=(...forms)=>this.asks.filter(({form})=>forms.includes(form)).map(({element})=>element);return section("requirements","What the lin\
+kage must be",true,h("div",{class:"bs-grid"},of("number","corridor"),of("choice")),of("flag"),of("area"),of("names"))}field({key,label,form,choices,...bounds2},set){
 const attributes={"data-key":key};switch(form){case"choice":case"word":{const[[usual]]=choices,element=choice(label,choices,value=>set(value===usual?void 0:value),
 attributes);return{element:labelled(label,element),show:value=>element.value=value??usual}}case"flag":{const{box,element}=tick(label,on=>set(on||void 0),attributes);
 return{element,show:value=>give(box,"checked",Boolean(value))}}case"names":{const ticks2=choices.map(([name,text])=>({name,...tick(text,()=>set(some(ticks2)),{"\
@@ -1849,48 +1878,60 @@ show(value)}}}}drawRequirements(){const{requirements,loads,springs,drive}=this.s
 asks){show(requirements?.[key]);give(element,"hidden",Boolean(ofLoads)&&!loaded&&requirements?.[key]===void 0)}}makeOptions(){const{store}=this;this.unit=choice(
 "unit of length",UNITS2.map(unit2=>[unit2,unit2||"not stated"]),value=>this.edit(document2=>withKeys(document2,{length_unit:value||void 0})),{"data-key":"length\
 _unit"});this.options=this.form.options.map(each=>({...each,...this.field(each,value=>store.option(each.key,value))}));const of=form=>this.options.filter(each=>each.
-form===form).map(({element})=>element);return section2("options","Unit and method",false,h("div",{class:"bs-grid"},labelled("unit of length",this.unit),of("word"),
+form===form).map(({element})=>element);return section("options","Unit and method",false,h("div",{class:"bs-grid"},labelled("unit of length",this.unit),of("word"),
 of("length")),h("p",{class:"bs-hint"},"Another unit leaves the numbers as they are."))}drawOptions(){const{document:document2,options}=this.store,unit2=document2.
 length_unit??"";if(![...this.unit.options].some(each=>each.value===unit2))this.unit.append(h("option",{value:unit2},unit2));this.unit.value=unit2;for(const{key,
-show}of this.options)show(options[key])}draw(){const{document:{limits,keep_out,surroundings,body,requirements,length_unit},options,selection}=this.store;const now=[
-limits,keep_out,surroundings,body,requirements,length_unit,options,selection];if(now.every((each,k)=>each===this.drawn?.[k])&&this.drawn)return;this.drawn=now;this.
-drawLimits();this.drawRegions();this.drawBody();this.drawRequirements();this.drawOptions();this.drawVerdicts()}};function tell(element,sentences){give(element,"\
-hidden",sentences===null);if(sentences===null)return;put(element,"class",`bs-state ${sentences.length?"bs-broken":"bs-met"}`);say(element,sentences.length?`✕ ${sentences.
-join(" ")}`:"✓ met by the chosen linkage")}function withPoints(document2,k,key,change){const[[shape,stated]]=Object.entries(limitsOf(document2)[k][key]);return setLimit(
-document2,k,{[key]:shapeOf(shape,change(shape==="point"?[stated]:stated))})}var range=(least2,most)=>least2===void 0&&most===void 0?void 0:{...least2===void 0?{}:
-{least:least2},...most===void 0?{}:{most}};function kindsOf2(kinds){const list=kinds.filter(({box})=>box.checked).map(({kind})=>kind);return list.length===kinds.
-length||!list.length?void 0:list}function some(ticks2){const list=ticks2.filter(({box})=>box.checked).map(({name})=>name);return list.length?list:void 0}var EMPTY="An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";var CURVE="Drag a point of the c\
-urve, or draw another one: the linkages are looked for anew.";var POINTS2="Drag a pose or a point: the linkages are looked for anew.";var FIRST="Drag a pose by \
-its point, turn it by the tip of its arrow: every linkage answers at once.";function layOut(root,store,start){const scene=new Scene(store),banners=new Banners(store),
-files=new Files(store,start,banners);banners.files=files;const body=new BodyEditor(store,scene),regions=new Regions(store,scene);const panel2=new TaskPanel(store,
-scene,regions,body,files,start.form),handles=new PoseHandles(store,scene),table3=new PoseTable(store,scene);const curve=new PathCurve(store,scene),path2=new PathPanel(
-store,scene);const player=h("div",{id:"bs-player"}),results=h("aside",{id:"bs-results","aria-label":"Linkages"}),panels=h("div",{id:"bs-panels"});const name=h("\
-input",{class:"bs-text bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"false",onchange:()=>store.rename(name.value.trim()||"task")});
-const undo=button("↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"\
-Redo (Ctrl+Shift+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,"value",store.name.replace(/[\r\n]+/g," "));give(undo,"dis\
-abled",!store.history.canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);show();root.replaceChildren(h("header",{class:"bs-head"},
-h("h1",{},"burmester studio"),name,h("div",{class:"bs-row"},undo,redo),files.element,banners.status,banners.live),banners.element,h("main",{class:"bs-main"},h("\
-section",{class:"bs-left","aria-label":"The task"},h("div",{class:"bm-card"},h("h2",{},"Poses"),table3.element,path2.element),h("div",{class:"bm-card"},panel2.element,
-new ExportSettings(store,scene).element)),h("section",{class:"bs-stage bm-card","aria-label":"The plane"},stageBar(store,scene,()=>files.opened()),scene.element,
-player),results,panels));scene.resize();addResults(store,scene,{player,results,panels});listenToKeys(store,scene,files);new Autosave(store);files.opened=refitWhenSolved(
-store,scene);return{scene,banners,files,body,regions,panel:panel2,handles,table:table3,curve,path:path2}}function stageBar(store,scene,drawn){const pose=button(
-"Add poses",()=>scene.use(scene.tool?.name==="pose"?null:new PoseTool(store,scene)),{"data-do":"add-poses","aria-pressed":"false"});const toggle=(text,name,make,data)=>button(
-text,()=>scene.use(scene.tool?.name===name?null:make()),{"data-do":data,"aria-pressed":"false"});const point2=toggle("Add points","point",()=>new PointTool(store,
-scene),"add-points");const path2=toggle("Draw a path","path",()=>new PathTool(store,scene,drawn),"draw-path");const stop=button("Stop solving",()=>store.cancel(),
-{"data-do":"cancel",hidden:true});const line2=h("p",{class:"bs-line"});const show=()=>{say(line2,scene.tool?.hint??(store.document.poses.length?isPath(store.document)?
-CURVE:store.document.poses.some(isPoint2)?POINTS2:FIRST:EMPTY));for(const[each,name]of[[pose,"pose"],[point2,"point"],[path2,"path"]])put(each,"aria-pressed",scene.
-tool?.name===name)};scene.on("tool",show);store.on("document",show);let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(
-()=>give(stop,"hidden",false),700);else give(stop,"hidden",true)});show();return h("div",{class:"bs-bar"},h("div",{class:"bs-row"},pose,point2,path2,button("Fit",
-()=>scene.fitAgain(),{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),button("+",()=>scene.zoom(1.25,scene.size.width/
-2,scene.size.height/2),{"aria-label":"Zoom in"}),button("−",()=>scene.zoom(.8,scene.size.width/2,scene.size.height/2),{"aria-label":"Zoom out"}),...keyList(),
-stop),line2)}function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(store)?.led??[]).map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&
+show}of this.options)show(options[key])}makeSigma(){const{store,scene}=this;this.wanted={};this.lack=h("p",{class:"bs-fault",hidden:true},"Give both: how far po\
+sitions are off, and how far angles.");this.sigma=SIGMA.map(([key,name,kind])=>{const field=new NumberField({label:`standard deviation of the ${name}`,options:()=>({
+kind,unit:store.document.length_unit,optional:true,above:0}),step:()=>kind==="angle"?.1:scene.step/10,commit:value=>this.setSigma(key,value),attributes:{"data-k\
+ey":`sigma-${key}`,placeholder:"–"}});return{key,name,field}});return section("sigma","How well the poses are known",false,h("p",{class:"bs-hint"},"Standard d\
+eviations of what was measured. Left empty: as well as their digits say."),h("div",{class:"bs-grid"},this.sigma.map(({name,field})=>labelled(`${name} ±`,field.
+element,name==="angle"?"°":" "))),this.lack)}setSigma(key,value){this.wanted=withKeys({...this.store.document.pose_sigma,...this.wanted},{[key]:value});const given=Object.
+keys(this.wanted).length;give(this.lack,"hidden",given!==1);if(given===1)return;const pose_sigma=given?this.wanted:void 0;this.wanted={};this.store.edit(document2=>withKeys(
+document2,{pose_sigma}))}drawSigma(){const{pose_sigma}=this.store.document;this.wanted={};give(this.lack,"hidden",true);for(const{key,field}of this.sigma)field.
+show(pose_sigma?.[key])}draw(){const{document:{limits,keep_out,surroundings,body,requirements,length_unit,pose_sigma},options,selection}=this.store;const now=[limits,
+keep_out,surroundings,body,requirements,length_unit,pose_sigma,options,selection];if(now.every((each,k)=>each===this.drawn?.[k])&&this.drawn)return;if(!this.drawn||
+pose_sigma!==this.drawn[6])this.drawSigma();this.drawn=now;this.drawLimits();this.drawRegions();this.drawBody();this.drawRequirements();this.drawOptions();this.
+drawVerdicts()}};function tell(element,sentences){give(element,"hidden",sentences===null);if(sentences===null)return;put(element,"class",`bs-state ${sentences.length?
+"bs-broken":"bs-met"}`);say(element,sentences.length?`✕ ${sentences.join(" ")}`:"✓ met by the chosen linkage")}function withPoints(document2,k,key,change){const[
+[shape,stated]]=Object.entries(limitsOf(document2)[k][key]);return setLimit(document2,k,{[key]:shapeOf(shape,change(shape==="point"?[stated]:stated))})}var range=(least2,most)=>least2===
+void 0&&most===void 0?void 0:{...least2===void 0?{}:{least:least2},...most===void 0?{}:{most}};function kindsOf2(kinds){const list=kinds.filter(({box})=>box.checked).
+map(({kind})=>kind);return list.length===kinds.length||!list.length?void 0:list}function some(ticks2){const list=ticks2.filter(({box})=>box.checked).map(({name})=>name);
+return list.length?list:void 0}var EMPTY="An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";var CURVE="Drag a point of the c\
+urve, or draw another one: the linkages are looked for anew.";var POINTS2="Drag a pose or a point: the linkages are looked for anew.";var PATIENCE=700;var FIRST="\
+Drag a pose by its point, turn it by the tip of its arrow: every linkage answers at once.";function layOut(root,store,start){const scene=new Scene(store),banners=new Banners(
+store),files=new Files(store,start,banners);banners.files=files;const body=new BodyEditor(store,scene),regions=new Regions(store,scene);const settings=new ExportSettings(
+store,scene,start.exports??[],files);const panel=new TaskPanel(store,scene,regions,body,files,start.form),handles=new PoseHandles(store,scene),table3=new PoseTable(
+store,scene);const curve=new PathCurve(store,scene),path2=new PathPanel(store,scene);const player=h("div",{id:"bs-player"}),cards=h("div",{id:"bs-results"}),drawer=new Drawer;
+const poses=h("details",{class:"bs-section bs-section-poses","data-section":"poses",open:true},h("summary",{},"Poses"),table3.element,path2.element);const left=sidePanel(
+"left","The task",h("div",{class:"bs-left"},poses,panel.element));const right=sidePanel("right","Linkages",cards);root.replaceChildren(h("a",{class:"bs-skip",href:"\
+#plane",onclick:event=>(event.preventDefault(),scene.svg.focus())},"Skip to the plane"),head(store,files,settings,banners,keyList()),banners.element,h("main",{class:"\
+bs-main"},left,h("section",{class:"bs-stage",id:"plane","aria-label":"The plane"},stageBar(store,scene,()=>files.opened()),h("div",{class:"bs-canvas"},scene.element,
+planeLine(store,scene)),player),sheets(root,[["task","Task",left],["linkages","Linkages",right],["drawer","Charts",drawer.element]]),right,drawer.element));scene.
+resize();addResults(store,scene,{player,results:cards,drawer});listenToKeys(store,scene,files);new Autosave(store);files.opened=refitWhenSolved(store,scene);return{
+scene,banners,files,body,regions,panel,handles,table:table3,curve,path:path2}}function head(store,files,settings,banners,keys){const name=h("input",{class:"bs-t\
+ext bs-task-name","aria-label":"Name of the task",autocomplete:"off",spellcheck:"false",onchange:()=>store.rename(name.value.trim()||"task")});const undo=button(
+"↶",()=>store.undo(),{"data-do":"undo",title:"Undo (Ctrl+Z)","aria-label":"Undo"}),redo=button("↷",()=>store.redo(),{"data-do":"redo",title:"Redo (Ctrl+Shif\
+t+Z)","aria-label":"Redo"});const show=()=>{if(document.activeElement!==name)give(name,"value",store.name.replace(/[\r\n]+/g," "));give(undo,"disabled",!store.history.
+canUndo);give(redo,"disabled",!store.history.canRedo)};store.on("document",show);show();const stop=button("Stop",()=>store.cancel(),{"data-do":"cancel",hidden:true,
+"aria-label":"Stop solving"});let waiting;store.on("state",()=>{clearTimeout(waiting);if(store.state==="solving")waiting=setTimeout(()=>give(stop,"hidden",false),
+PATIENCE);else give(stop,"hidden",true)});return h("header",{class:"bs-head"},h("h1",{},"burmester studio"),files.element,name,h("div",{class:"bs-row"},undo,redo),
+banners.status,stop,banners.live,settings.element,keys)}function stageBar(store,scene,drawn){const toggle=(text,name,make,data)=>{const made2=button(text,()=>scene.
+use(scene.tool?.name===name?null:make()),{"data-do":data,"aria-pressed":"false"});scene.on("tool",()=>put(made2,"aria-pressed",scene.tool?.name===name));return made2};
+const zoom=(text,label,factor)=>button(text,()=>scene.zoom(factor,scene.size.width/2,scene.size.height/2),{"aria-label":label,title:label});const bar=h("div",{class:"\
+bs-bar",role:"toolbar","aria-label":"Tools of the plane"},toggle("Add poses","pose",()=>new PoseTool(store,scene),"add-poses"),toggle("Add points","point",()=>new PointTool(
+store,scene),"add-points"),toggle("Draw a path","path",()=>new PathTool(store,scene,drawn),"draw-path"),h("span",{class:"bs-gap"}),button("Fit",()=>scene.fitAgain(),
+{"data-do":"fit",title:"Show the poses; once more: all of the body and the regions, too (0)"}),zoom("+","Zoom in",1.25),zoom("−","Zoom out",.8));walkByArrows(
+bar,"button").first();return bar}function planeLine(store,scene){const line2=h("p",{class:"bs-line"});const show=()=>say(line2,scene.tool?.hint??(store.document.
+poses.length?isPath(store.document)?CURVE:store.document.poses.some(isPoint2)?POINTS2:FIRST:EMPTY));scene.on("tool",show);store.on("document",show);show();return line2}
+function refitWhenSolved(store,scene){let waits=true;scene.hold(()=>(waits?[]:currentLinkage(store)?.led??[]).map(dyad=>dyad.fixed_pivot).filter(point2=>point2&&
 isNear(store,point2)));store.on("solved",()=>{const refit=waits&&scene.isFitted;waits=false;if(refit)scene.fit()});return()=>{waits=true;scene.fit()}}function isNear({
 solved,document:{poses}},[x,y]){return poses.some(pose=>Math.hypot(x-pose.x,y-pose.y)<3*(solved?.scene??Infinity))}function listenToTokens(connection,banners){addEventListener(
 "hashchange",async()=>{if(!location.hash)return;await connection.session();connection.open()});let asked=false;connection.on("open",()=>banners.close("expired"));
 connection.on("closed",async()=>{if(asked)return;asked=true;try{await connection.get("/start")}catch(error){if(error instanceof Refused&&error.status===401)banners.
 expired()}asked=false})}async function main(){const root=document.getElementById("studio"),connection=new Connection(decodeFrame);try{await connection.session();
-const start=await connection.get("/start"),kept=keptHere();const store=new Store({connection,document:start.document,options:start.options,name:start.name,...kept});
-const parts=layOut(root,store,start);if(start.saved&&!kept)offerSaved(store,parts,start.saved);listenToTokens(connection,parts.banners);document.documentElement.
+const start=await connection.get("/start"),kept2=keptHere();const store=new Store({connection,document:start.document,options:start.options,name:start.name,...kept2});
+const parts=layOut(root,store,start);if(start.saved&&!kept2)offerSaved(store,parts,start.saved);listenToTokens(connection,parts.banners);document.documentElement.
 dataset.ready="true";connection.open()}catch(error){addEventListener("hashchange",()=>location.reload());const[told]=error instanceof Refused&&error.status===401?
 error.messages:[];root.replaceChildren(h("p",{class:"bs-failed",role:"alert"},told?`The studio is not shown here: ${told.message}. What to do: ${told.help}.`:`T\
 he page could not start: ${error.message}. Is burmester studio still running? Start it again and open the address that it prints.`));if(!(error instanceof Refused))

@@ -1,6 +1,6 @@
 // The parts that show answers, and where they stand.
 
-import { give, h } from "../widget/dom.mjs";
+import { h } from "../widget/dom.mjs";
 import { unfoldForPrint } from "../widget/printing.mjs";
 import { Answers } from "./answers.mjs";
 import { Centrodes } from "./centrodes.mjs";
@@ -20,42 +20,30 @@ import { SpacePanel } from "./space_panel.mjs";
 
 const LOADS = ["loads", "springs", "drive"]; // what a task states of them
 
-/** A panel under the scene that folds. */
-const panel = (name, title, open, ...content) =>
-  h("details", { class: `bm-card bs-panel bs-panel-${name}`, open, "data-panel": name }, h("summary", {}, h("h2", {}, title)), content);
-
 /** Make every part that shows answers, and put it in its place.
- * @param {object} store @param {object} scene @param {{ player: Element, results: Element, panels: Element }} places */
-export function addResults(store, scene, { player, results, panels }) {
+ * @param {object} store @param {object} scene @param {{ player: Element, results: Element, drawer: import("./arrangement.mjs").Drawer }} places */
+export function addResults(store, scene, { player, results, drawer }) {
   const answers = new Answers(store), playing = new Playing(store, answers);
   const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
   const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
   const cards = new Results(store, answers), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
-  const cognates = new CognatePanel(store, answers);
-  const compare = new Compare(store, answers, playing), facts = new FactsTable(store, answers, playing, curves);
-  player.append(playing.element, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element));
+  const cognates = new CognatePanel(store, answers), loads = new LoadCharts(answers, playing);
+  const compare = new Compare(store, answers, playing, () => drawer.open("compare")), facts = new FactsTable(store, answers, playing, curves);
+  const ways = [...playing.element.querySelectorAll(".bs-player-ways, .bs-driver-note")];
+  player.append(playing.element);
   results.append(cards.element);
-  const ofAngles = [panel("pivots", "Put a pivot somewhere", true, surface.element), panel("space", "Image space", true, space.element)];
-  const loads = new LoadCharts(answers, playing), ofLoads = panel("loads", "Loads along the motion", true, loads.element);
-  const ofCurve = panel("cognates", "The same curve by three linkages", true, cognates.element);
-  const fold = () => {
-    const { document } = store;
-    for (const each of ofAngles) give(each, "hidden", document.poses.some(isPoint)); // they tell of angles, which points leave free
-    give(ofCurve, "hidden", !isOfPoints(document));
-    give(ofLoads, "hidden", !LOADS.some((key) => document[key]));
-  };
-  store.on("document", fold);
-  fold();
-  panels.append(
-    ofCurve,
-    ...ofAngles,
-    panel("charts", "Errors and transmission", true, charts.element),
-    ofLoads,
-    panel("compare", "Compare two linkages", false, compare.element),
-    panel("facts", "Every number in tables", false, facts.element),
-  );
-  for (const part of panels.children) part.addEventListener("toggle", () => dispatchEvent(new Event("resize")));
-  unfoldForPrint(panels, new AbortController().signal); // what is folded of the task says nothing
+  const ofAngles = () => !store.document.poses.some(isPoint); // points leave angles free
+  drawer.add("charts", "Errors and transmission", charts.element);
+  drawer.add("loads", "Loads", loads.element, () => LOADS.some((key) => store.document[key]));
+  drawer.add("motion", "Driver and curves", h("div", {}, ways, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element)));
+  drawer.add("cognates", "Cognates", cognates.element, () => isOfPoints(store.document));
+  drawer.add("pivots", "Pivots", surface.element, ofAngles);
+  drawer.add("space", "Image space", space.element, ofAngles);
+  drawer.add("compare", "Compare", compare.element);
+  drawer.add("facts", "Tables", facts.element);
+  store.on("document", () => drawer.update());
+  drawer.update();
+  unfoldForPrint(drawer.element, new AbortController().signal); // what is folded of the task says nothing
   catchUpForPrint();
   listenToSpace(playing);
   playOnce(store, answers, playing);

@@ -33,6 +33,7 @@ export class Banners {
     this.element = h("div", { class: "bs-banners" });
     this.status = h("p", { class: "bs-status" });
     this.live = h("p", { class: "bs-unseen", role: "status" }); // what is said aloud: answers, not each step to them
+    new ResizeObserver(() => document.body.style.setProperty("--bs-banners", `${this.element.offsetHeight}px`)).observe(this.element);
     store.on("messages", () => this.messages());
     store.on("state solved messages", () => this.state());
   }

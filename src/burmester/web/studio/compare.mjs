@@ -28,8 +28,10 @@ export function comparison(one, other, data) {
 }
 
 export class Compare {
-  constructor(store, answers, playing) {
+  /** onstart: called when a comparison begins. */
+  constructor(store, answers, playing, onstart) {
     this.store = store;
+    this.onstart = onstart;
     this.answers = answers;
     this.playing = playing;
     this.pictures = [0, 1].map(() => h("div", { class: "bm-drawing" }));
@@ -62,10 +64,10 @@ export class Compare {
   start() {
     give(this.full, "hidden", !this.on);
     give(this.empty, "hidden", this.on);
-    if (this.on) {
-      for (let part = this.element.parentElement; part; part = part.parentElement) if (part.tagName === "DETAILS") part.open = true;
-      this.build();
-    }
+    if (!this.on) return void (this.began = null);
+    if (this.began !== this.other) this.onstart();
+    this.began = this.other;
+    this.build();
   }
 
   build() {

@@ -30,29 +30,35 @@ export function download(blob, name) {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-/** A menu under a button: a list of what can be done. */
-export function menu(text, items, attributes = {}) {
-  const list = h("div", { class: "bs-menu-list", role: "menu" });
+/** What opens under a button: `fill` makes its content anew each time.  Arrow keys go from item to item. */
+export function popover(text, list, fill, attributes = {}) {
   const summary = h("summary", { class: "bm-button" }, text), element = h("details", { class: "bs-menu", ...attributes }, summary, list);
   const close = () => {
     if (!element.open) return;
     element.open = false;
     summary.focus();
   };
-  element.addEventListener("toggle", () => {
-    if (element.open) list.replaceChildren(...items().map(({ title, note, act, data }) => h("button", { type: "button", role: "menuitem", class: "bs-menu-item", ...data, onclick: () => (close(), act()) }, h("b", {}, title), note ? h("span", {}, note) : null)));
-  });
+  element.addEventListener("toggle", () => element.open && fill(close));
   element.addEventListener("keydown", (event) => {
-    const all = [...list.children], at = all.indexOf(document.activeElement);
+    const all = [...list.querySelectorAll(".bs-menu-item")], at = all.indexOf(document.activeElement), step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (event.key === "Escape") close();
-    else if (event.key === "ArrowDown") all[(at + 1) % all.length]?.focus();
-    else if (event.key === "ArrowUp") all[(at + all.length - 1) % all.length]?.focus();
+    else if (step && (at >= 0 || document.activeElement === summary)) all[(at + step + all.length) % all.length]?.focus();
     else return;
     event.preventDefault();
     event.stopPropagation();
   });
   document.addEventListener("pointerdown", (event) => element.contains(event.target) || (element.open = false));
   return element;
+}
+
+/** One thing to choose in what opens under a button. */
+export const menuItem = ({ title, note, act, data }, close, attributes = {}) =>
+  h("button", { type: "button", class: "bs-menu-item", ...attributes, ...data, onclick: () => (close(), act()) }, h("b", {}, title), note ? h("span", {}, note) : null);
+
+/** A menu under a button: a list of what can be done, with headings. */
+export function menu(text, items, attributes = {}) {
+  const list = h("div", { class: "bs-menu-list", role: "menu" });
+  return popover(text, list, (close) => list.replaceChildren(...items().map((each) => (each.heading ? h("p", { class: "bs-menu-heading", role: "presentation" }, each.heading) : menuItem(each, close, { role: "menuitem" })))), attributes);
 }
 
 export class Files {
@@ -68,24 +74,21 @@ export class Files {
     this.outlines = h("input", { type: "file", hidden: true, accept: ".svg,.dxf", "data-file": "outline", onchange: () => this.chosen(this.outlines) });
     this.dropping = h("div", { class: "bs-dropping", hidden: true, "aria-hidden": "true" }, h("p", {}, "Drop a task, a table of poses, or the outline of the body"));
     this.dialog = h("dialog", { class: "bs-dialog", "aria-label": "The same from the command line" });
-    this.element = h("div", { class: "bs-files" }, ...this.buttons(), this.chooser, this.outlines, this.dropping, this.dialog);
+    this.element = h("div", { class: "bs-files" }, this.menu(), this.chooser, this.outlines, this.dropping, this.dialog);
     this.listen();
   }
 
-  buttons() {
-    const { start } = this;
-    return [
-      menu("Templates", () => (start.templates ?? []).map(({ name, summary }) => ({ title: name, note: summary, act: () => this.template(name), data: { "data-template": name } })), { "data-menu": "templates" }),
-      button("New", () => this.fresh(), { "data-do": "new", title: "An empty task" }),
-      button("Open…", () => this.chooser.click(), { "data-do": "open", title: "A task, or a table of poses (Ctrl+O)" }),
-      button("Save task", () => this.save(), { "data-do": "save", title: "The file that the command reads (Ctrl+S)" }),
-      menu("Export", () => [
-        ...(start.exports ?? []).map(({ format, title, suffix }) => ({ title, note: suffix, act: () => this.export("/export", { format }), data: { "data-export": format } })),
-        { title: "Report", note: ".html", act: () => this.export("/report"), data: { "data-export": "report" } },
-        { title: "Result", note: ".json", act: () => this.export("/result"), data: { "data-export": "result" } },
-      ], { "data-menu": "export" }),
-      button("Copy as command", () => this.commands(), { "data-do": "command", title: "The same from the command line" }),
-    ];
+  /** What is done with the task as a whole. */
+  menu() {
+    const item = (title, note, act, data) => ({ title, note, act, data: { "data-do": data } });
+    return menu("Task", () => [
+      item("New", "an empty task", () => this.fresh(), "new"),
+      item("Open…", "a task, or a table of poses (Ctrl+O)", () => this.chooser.click(), "open"),
+      item("Save task", "the file that the command reads (Ctrl+S)", () => this.save(), "save"),
+      item("Copy as command", "the same from the command line", () => this.commands(), "command"),
+      { heading: "Templates" },
+      ...(this.start.templates ?? []).map(({ name, summary }) => ({ title: name, note: summary, act: () => this.template(name), data: { "data-template": name } })),
+    ], { "data-menu": "task" });
   }
 
   get task() {

@@ -11,16 +11,20 @@ const KEYS = [
   ["Escape", "gives up what is under way: a drag, a drawing, a selection"],
   ["+ − 0", "on the plane: zoom and fit; arrow keys pan it"],
   ["space", "plays and stops"],
+  ["?", "this list"],
   ["Ctrl+Z, Ctrl+Shift+Z", "undo and redo"],
   ["Ctrl+S, Ctrl+O, Ctrl+V", "save the task, open a file, paste rows of a spreadsheet"],
 ];
 
-/** A button that shows what keys do. */
+/** A button that shows what keys do, and so does the key ?. */
 export function keyList() {
   const close = button("Close", () => dialog.close());
   const dialog = h("dialog", { class: "bs-dialog", "aria-label": "Keys" }, h("h2", {}, "Keys"),
     h("dl", { class: "bs-keys" }, KEYS.map(([key, what]) => h("div", {}, h("dt", {}, key), h("dd", {}, what)))), close);
-  return [button("Keys", () => dialog.showModal(), { "data-do": "keys" }), dialog];
+  document.addEventListener("keydown", (event) => {
+    if (event.key === "?" && !written(event.target) && !dialog.open) dialog.showModal();
+  });
+  return [button("?", () => dialog.showModal(), { "data-do": "keys", "aria-label": "Keys", title: "What keys do (?)" }), dialog];
 }
 
 const TYPED_IN = "button, input, select, textarea, summary, a, [role=button], [role=slider]"; // elements with a use of their own for space

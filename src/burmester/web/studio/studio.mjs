@@ -2,6 +2,7 @@
 // where a document or a name says so, else in radians; F is the ground, M the body.
 
 import { give, h, put, say } from "../widget/dom.mjs";
+import { Drawer, sheets, sidePanel, walkByArrows } from "./arrangement.mjs";
 import { Autosave, keptHere } from "./autosave.mjs";
 import { Banners } from "./banners.mjs";
 import { BodyEditor } from "./body_editor.mjs";
@@ -26,6 +27,7 @@ import { TaskPanel } from "./task_panel.mjs";
 const EMPTY = "An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";
 const CURVE = "Drag a point of the curve, or draw another one: the linkages are looked for anew.";
 const POINTS = "Drag a pose or a point: the linkages are looked for anew.";
+const PATIENCE = 700; // milliseconds until solving may be stopped
 const FIRST = "Drag a pose by its point, turn it by the tip of its arrow: every linkage answers at once.";
 
 /** The parts of the page, laid out in `root`. */
@@ -33,9 +35,33 @@ function layOut(root, store, start) {
   const scene = new Scene(store), banners = new Banners(store), files = new Files(store, start, banners);
   banners.files = files;
   const body = new BodyEditor(store, scene), regions = new Regions(store, scene);
+  const settings = new ExportSettings(store, scene, start.exports ?? [], files);
   const panel = new TaskPanel(store, scene, regions, body, files, start.form), handles = new PoseHandles(store, scene), table = new PoseTable(store, scene);
   const curve = new PathCurve(store, scene), path = new PathPanel(store, scene);
-  const player = h("div", { id: "bs-player" }), results = h("aside", { id: "bs-results", "aria-label": "Linkages" }), panels = h("div", { id: "bs-panels" });
+  const player = h("div", { id: "bs-player" }), cards = h("div", { id: "bs-results" }), drawer = new Drawer();
+  const poses = h("details", { class: "bs-section bs-section-poses", "data-section": "poses", open: true }, h("summary", {}, "Poses"), table.element, path.element);
+  const left = sidePanel("left", "The task", h("div", { class: "bs-left" }, poses, panel.element));
+  const right = sidePanel("right", "Linkages", cards);
+  root.replaceChildren(
+    h("a", { class: "bs-skip", href: "#plane", onclick: (event) => (event.preventDefault(), scene.svg.focus()) }, "Skip to the plane"),
+    head(store, files, settings, banners, keyList()),
+    banners.element,
+    h("main", { class: "bs-main" },
+      left,
+      h("section", { class: "bs-stage", id: "plane", "aria-label": "The plane" }, stageBar(store, scene, () => files.opened()), h("div", { class: "bs-canvas" }, scene.element, planeLine(store, scene)), player),
+      sheets(root, [["task", "Task", left], ["linkages", "Linkages", right], ["drawer", "Charts", drawer.element]]),
+      right, drawer.element),
+  );
+  scene.resize();
+  addResults(store, scene, { player, results: cards, drawer });
+  listenToKeys(store, scene, files);
+  new Autosave(store);
+  files.opened = refitWhenSolved(store, scene);
+  return { scene, banners, files, body, regions, panel, handles, table, curve, path };
+}
+
+/** The head of the page: the task as a whole, and what leaves it. */
+function head(store, files, settings, banners, keys) {
   const name = h("input", { class: "bs-text bs-task-name", "aria-label": "Name of the task", autocomplete: "off", spellcheck: "false", onchange: () => store.rename(name.value.trim() || "task") });
   const undo = button("↶", () => store.undo(), { "data-do": "undo", title: "Undo (Ctrl+Z)", "aria-label": "Undo" }), redo = button("↷", () => store.redo(), { "data-do": "redo", title: "Redo (Ctrl+Shift+Z)", "aria-label": "Redo" });
   const show = () => {
@@ -45,48 +71,44 @@ function layOut(root, store, start) {
   };
   store.on("document", show);
   show();
-  root.replaceChildren(
-    h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), name, h("div", { class: "bs-row" }, undo, redo), files.element, banners.status, banners.live),
-    banners.element,
-    h("main", { class: "bs-main" },
-      h("section", { class: "bs-left", "aria-label": "The task" }, h("div", { class: "bm-card" }, h("h2", {}, "Poses"), table.element, path.element), h("div", { class: "bm-card" }, panel.element, new ExportSettings(store, scene).element)),
-      h("section", { class: "bs-stage bm-card", "aria-label": "The plane" }, stageBar(store, scene, () => files.opened()), scene.element, player),
-      results, panels),
-  );
-  scene.resize();
-  addResults(store, scene, { player, results, panels });
-  listenToKeys(store, scene, files);
-  new Autosave(store);
-  files.opened = refitWhenSolved(store, scene);
-  return { scene, banners, files, body, regions, panel, handles, table, curve, path };
-}
-
-/** What is done in the plane, and one line that says what can be dragged. */
-function stageBar(store, scene, drawn) {
-  const pose = button("Add poses", () => scene.use(scene.tool?.name === "pose" ? null : new PoseTool(store, scene)), { "data-do": "add-poses", "aria-pressed": "false" });
-  const toggle = (text, name, make, data) => button(text, () => scene.use(scene.tool?.name === name ? null : make()), { "data-do": data, "aria-pressed": "false" });
-  const point = toggle("Add points", "point", () => new PointTool(store, scene), "add-points");
-  const path = toggle("Draw a path", "path", () => new PathTool(store, scene, drawn), "draw-path");
-  const stop = button("Stop solving", () => store.cancel(), { "data-do": "cancel", hidden: true });
-  const line = h("p", { class: "bs-line" });
-  const show = () => {
-    say(line, scene.tool?.hint ?? (store.document.poses.length ? (isPath(store.document) ? CURVE : store.document.poses.some(isPoint) ? POINTS : FIRST) : EMPTY));
-    for (const [each, name] of [[pose, "pose"], [point, "point"], [path, "path"]]) put(each, "aria-pressed", scene.tool?.name === name);
-  };
-  scene.on("tool", show);
-  store.on("document", show);
+  const stop = button("Stop", () => store.cancel(), { "data-do": "cancel", hidden: true, "aria-label": "Stop solving" });
   // Offered only where solving is not over at once.
   let waiting;
   store.on("state", () => {
     clearTimeout(waiting);
-    if (store.state === "solving") waiting = setTimeout(() => give(stop, "hidden", false), 700);
+    if (store.state === "solving") waiting = setTimeout(() => give(stop, "hidden", false), PATIENCE);
     else give(stop, "hidden", true);
   });
+  return h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), files.element, name, h("div", { class: "bs-row" }, undo, redo), banners.status, stop, banners.live, settings.element, keys);
+}
+
+/** What is done in the plane. */
+function stageBar(store, scene, drawn) {
+  const toggle = (text, name, make, data) => {
+    const made = button(text, () => scene.use(scene.tool?.name === name ? null : make()), { "data-do": data, "aria-pressed": "false" });
+    scene.on("tool", () => put(made, "aria-pressed", scene.tool?.name === name));
+    return made;
+  };
+  const zoom = (text, label, factor) => button(text, () => scene.zoom(factor, scene.size.width / 2, scene.size.height / 2), { "aria-label": label, title: label });
+  const bar = h("div", { class: "bs-bar", role: "toolbar", "aria-label": "Tools of the plane" },
+    toggle("Add poses", "pose", () => new PoseTool(store, scene), "add-poses"),
+    toggle("Add points", "point", () => new PointTool(store, scene), "add-points"),
+    toggle("Draw a path", "path", () => new PathTool(store, scene, drawn), "draw-path"),
+    h("span", { class: "bs-gap" }),
+    button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show the poses; once more: all of the body and the regions, too (0)" }),
+    zoom("+", "Zoom in", 1.25), zoom("−", "Zoom out", 0.8));
+  walkByArrows(bar, "button").first();
+  return bar;
+}
+
+/** One line over the plane that says what can be dragged. */
+function planeLine(store, scene) {
+  const line = h("p", { class: "bs-line" });
+  const show = () => say(line, scene.tool?.hint ?? (store.document.poses.length ? (isPath(store.document) ? CURVE : store.document.poses.some(isPoint) ? POINTS : FIRST) : EMPTY));
+  scene.on("tool", show);
+  store.on("document", show);
   show();
-  return h("div", { class: "bs-bar" },
-    h("div", { class: "bs-row" }, pose, point, path, button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show the poses; once more: all of the body and the regions, too (0)" }),
-      button("+", () => scene.zoom(1.25, scene.size.width / 2, scene.size.height / 2), { "aria-label": "Zoom in" }), button("−", () => scene.zoom(0.8, scene.size.width / 2, scene.size.height / 2), { "aria-label": "Zoom out" }), ...keyList(), stop),
-    line);
+  return line;
 }
 
 /** The first answer to a task brings pivots that its first view did not know. */

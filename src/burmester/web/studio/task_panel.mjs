@@ -6,6 +6,7 @@ import { NumberField, button, choice, labelled, textField, tick } from "./fields
 import { PointFields } from "./point_fields.mjs";
 
 const SHAPES = ["point", "line", "segment", "box", "polygon"];
+const SIGMA = [["position", "position", "length"], ["angle_deg", "angle", "angle"]];
 const UNITS = ["", "mm", "cm", "m", "in", "ft"];
 
 const section = (name, title, open, ...content) => h("details", { class: "bs-section", "data-section": name, open }, h("summary", {}, title), ...content);
@@ -22,7 +23,7 @@ export class TaskPanel {
   /** @type {any} */ tables;
   /** @type {any} */ apart;
   /** @type {any} */ regionList;
-  /** @type {any} */ bodyState;
+  /** @type {any} */ sigma;
 
   /** form: what can be asked, as the start of the page says. */
   constructor(store, scene, regions, body, files, form) {
@@ -33,7 +34,7 @@ export class TaskPanel {
     this.files = files;
     this.form = form;
     this.element = h("div", { class: "bs-task" });
-    this.element.append(this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeRequirements(), this.makeOptions());
+    this.element.append(this.makeRequirements(), this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeSigma(), this.makeOptions());
     store.on("document selection", () => this.draw());
     regions.onjudged = () => this.drawVerdicts();
     this.draw();
@@ -272,11 +273,48 @@ export class TaskPanel {
     for (const { key, show } of this.options) show(options[key]);
   }
 
+  // How well the poses are known
+
+  /** The standard deviations of the poses: both or none. */
+  makeSigma() {
+    const { store, scene } = this;
+    this.wanted = {};
+    this.lack = h("p", { class: "bs-fault", hidden: true }, "Give both: how far positions are off, and how far angles.");
+    this.sigma = SIGMA.map(([key, name, kind]) => {
+      const field = new NumberField({
+        label: `standard deviation of the ${name}`, options: () => ({ kind, unit: store.document.length_unit, optional: true, above: 0 }), step: () => (kind === "angle" ? 0.1 : scene.step / 10),
+        commit: (value) => this.setSigma(key, value), attributes: { "data-key": `sigma-${key}`, placeholder: "–" },
+      });
+      return { key, name, field };
+    });
+    return section("sigma", "How well the poses are known", false,
+      h("p", { class: "bs-hint" }, "Standard deviations of what was measured. Left empty: as well as their digits say."),
+      h("div", { class: "bs-grid" }, this.sigma.map(({ name, field }) => labelled(`${name} ±`, field.element, name === "angle" ? "°" : " "))), this.lack);
+  }
+
+  setSigma(key, value) {
+    this.wanted = withKeys({ ...this.store.document.pose_sigma, ...this.wanted }, { [key]: value });
+    const given = Object.keys(this.wanted).length;
+    give(this.lack, "hidden", given !== 1);
+    if (given === 1) return; // the other one is still to come
+    const pose_sigma = given ? this.wanted : undefined;
+    this.wanted = {};
+    this.store.edit((document) => withKeys(document, { pose_sigma }));
+  }
+
+  drawSigma() {
+    const { pose_sigma } = this.store.document;
+    this.wanted = {};
+    give(this.lack, "hidden", true);
+    for (const { key, field } of this.sigma) field.show(pose_sigma?.[key]);
+  }
+
   /** While poses are dragged nothing here is another. */
   draw() {
-    const { document: { limits, keep_out, surroundings, body, requirements, length_unit }, options, selection } = this.store;
-    const now = [limits, keep_out, surroundings, body, requirements, length_unit, options, selection];
+    const { document: { limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma }, options, selection } = this.store;
+    const now = [limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma, options, selection];
     if (now.every((each, k) => each === this.drawn?.[k]) && this.drawn) return;
+    if (!this.drawn || pose_sigma !== this.drawn[6]) this.drawSigma(); // a half that was typed stays
     this.drawn = now;
     this.drawLimits();
     this.drawRegions();
