@@ -19,7 +19,7 @@ from itertools import product
 import numpy as np
 from tests.oracles.bilinear_systems import SHAPES, of_poses, one
 
-from burmester.numerics.unique_rows import unique_rows
+from burmester.numerics.arrays import unique_rows
 from burmester.polynomials.elimination import in_chart
 from burmester.polynomials.elimination_template import (
     Chart,

@@ -10,7 +10,7 @@ all.  Three tries with different seeds have to agree on the count.
 import numpy as np
 
 from burmester.functions.critical_generators import exponents, follow, gradient, terms
-from burmester.numerics.unique_rows import unique_index
+from burmester.numerics.arrays import unique_index
 
 SAME_POINT = 1e-6  # relative, of the products of the terms
 QUIET = 10  # loops without a new point

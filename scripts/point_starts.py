@@ -13,8 +13,7 @@ from time import perf_counter
 
 import numpy as np
 
-from burmester.points.alt_burmester import Positions
-from burmester.points.classes import distinct
+from burmester.points.alt_burmester import Positions, distinct
 from burmester.points.path_tracking import polished, tracked
 from burmester.points.start_systems import CASES
 

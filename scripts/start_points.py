@@ -13,7 +13,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from burmester.numerics.unique_rows import unique_rows
+from burmester.numerics.arrays import unique_rows
 from burmester.polynomials.bilinear_fit import Parameters, circle_shape, equations, line_shape
 from burmester.polynomials.parameter_homotopy import ARRIVED, follow
 

@@ -2,7 +2,7 @@
 
 import math
 
-from burmester.io.reading.trees.schema import BOUNDS
+from burmester.io.reading.trees.node import BOUNDS
 from burmester.io.task_schema import task_schema
 from burmester.requirements.requirement import Number
 from burmester.requirements.table import ASKED, NOT_ASKED

@@ -16,8 +16,8 @@ from docs.building.modules import modules_page
 from PIL import Image
 
 from burmester.cli import burmester as command
+from burmester.paper.five_methods import side_by_side
 from burmester.paper.reproduction import reproduce
-from burmester.paper.side_by_side import side_by_side
 from burmester.plot import write_figures
 from burmester.plot.paper import NAMES
 

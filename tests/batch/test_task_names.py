@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from burmester.batch.long_tables import table_parts
-from burmester.batch.task_names import TaskNames, digests
+from burmester.batch.long_tables import TaskNames, digests, table_parts
 from burmester.errors import InputError
 
 pa = pytest.importorskip("pyarrow")

@@ -7,9 +7,8 @@ import pytest
 from benchmarks.clearance import campaign
 
 from burmester import RR, Displacement, KeepOut, Linkage, Polygon, Surroundings, box
-from burmester.clearance.least_clearance import Clearance, clearance_between_poses
+from burmester.clearance.least_clearance import Clearance, MotionFrames, clearance_between_poses
 from burmester.clearance.many_linkages import shares_too_close
-from burmester.clearance.motion_frames import MotionFrames
 from burmester.clearance.moving_parts import bars_of
 from burmester.fourbar.defects import Driven, judge
 from tests.oracles.clearance_sweep import Moved, moved_four_bar, random_outline, sweep

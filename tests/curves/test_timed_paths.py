@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
+from burmester.curves.crank_linkages import linkages_of_five_points
 from burmester.curves.path_fit import PathSearch
-from burmester.curves.timed_paths import linkages_of_five_points
 from tests.oracles.coupler_curves import dyads_of, random_crank, traced
 from tests.oracles.witness import places
 

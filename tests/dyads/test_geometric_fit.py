@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import least_squares as scipy_least_squares
 from scipy.optimize import linprog, minimize
 
+from burmester.dyads.face_search import least_worst
 from burmester.dyads.geometric_fit import (
     FitProblem,
     circle_distances,
@@ -12,7 +13,6 @@ from burmester.dyads.geometric_fit import (
     line_distances,
 )
 from burmester.dyads.least_powers import least_squares
-from burmester.dyads.least_worst import least_worst
 from burmester.dyads.local_minima import best_dyads
 from burmester.geometry.displacement import Displacement
 from tests.oracles.limits_problems import circle_distance, line_distance

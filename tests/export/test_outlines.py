@@ -13,7 +13,7 @@ from burmester import KeepOut, Polygon, Surroundings
 from burmester.errors import BurmesterError
 from burmester.export import Options, export
 from burmester.export.drawings import dxf, svg
-from burmester.export.drawings.outlines import hatch
+from burmester.export.drawings.sheet import hatch
 from tests.oracles.bodies import BODY, HOSTILE, carried, same_ring
 from tests.oracles.handed_over import NAMES, complex_places, saved, scale_of
 

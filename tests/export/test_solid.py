@@ -20,7 +20,7 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export.options import Options
 from burmester.export.parts.plates import assembly_of
 from burmester.export.solids import solid
-from burmester.export.solids.stl import read_stl, shells_of
+from burmester.export.solids.solid import read_stl, shells_of
 from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from tests.oracles import witness

@@ -16,13 +16,12 @@ from scipy.optimize import least_squares
 from burmester.batch import run as run_batch
 from burmester.batch.options import BatchOptions
 from burmester.batch.part_file import Plan, versions, work
-from burmester.batch.task_texts import line_parts
+from burmester.batch.sources import line_parts
 from burmester.cli import burmester as command
 from burmester.diagnosis.pair_checks import pair_findings, reversals
 from burmester.errors import InputError
-from burmester.functions.placed_links import placed_links
-from burmester.io.reading.functions.function_file import read_function
-from burmester.io.reading.functions.function_kind import is_function
+from burmester.functions.phase_family import placed_links
+from burmester.io.reading.functions.function_file import is_function, read_function
 from burmester.synthesis.function_generation import generate_function
 from burmester.tasks.function_task import FunctionTask
 from tests.oracles import function_loops

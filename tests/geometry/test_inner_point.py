@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from burmester.geometry.inner_point import inner_point
+from burmester.geometry.outlines import inner_point
 
 HORSESHOE = [(0, 0), (5, 0), (5, 4), (4, 4), (4, 1), (1, 1), (1, 4), (0, 4)]
 WALL = [(0, 0), (1, 0), (1, 30), (0, 30)]

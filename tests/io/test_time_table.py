@@ -3,7 +3,7 @@
 import pytest
 
 from burmester.errors import InputError
-from burmester.io.time_table import times_of_file
+from burmester.io.reading.trees.loads_tree import times_of_file
 from tests.oracles.stated_requirements import reader
 
 POSES = "length_unit = 'mm'\nangle_unit = 'deg'\nposes = [[0, 0, 0], [10, 5, 20], [30, 8, 50]]\n"

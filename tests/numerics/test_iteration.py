@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 from scipy.optimize import approx_fprime, least_squares, minimize
 
+from burmester.numerics.arrays import shares, unique_rows, weights_of_mean_one, weights_or_ones
 from burmester.numerics.bundles import concatenate, copied, put, take, where
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.iteration import iterate, shortened
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec, solve_or_shortest
 from burmester.numerics.quadratic_program import SoftProgram
-from burmester.numerics.unique_rows import unique_rows
-from burmester.numerics.weights import shares, weights_of_mean_one, weights_or_ones
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ import time
 from burmester import signals
 from burmester.batch.dispatch import Dispatch
 from burmester.batch.engines import Processes
+from burmester.batch.job import stopping
 from burmester.batch.parts import Part
-from burmester.batch.stopping import stopping
 from tests.oracles.batches import Numbers
 
 

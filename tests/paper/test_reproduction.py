@@ -14,7 +14,7 @@ from rich.console import Console
 from burmester.fourbar.dyad import RR
 from burmester.io.cases import load
 from burmester.paper.comparison import compare
-from burmester.paper.five_methods import Answer
+from burmester.paper.five_methods import Answer, SideBySide, side_by_side
 from burmester.paper.reproduction import (
     Comparison,
     Section,
@@ -23,7 +23,6 @@ from burmester.paper.reproduction import (
     reproduce,
     reproduction_data,
 )
-from burmester.paper.side_by_side import SideBySide, side_by_side
 from burmester.paper.tables import show_reproduction
 
 Path = tuple[str | int, ...]

@@ -5,8 +5,8 @@ import pytest
 
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.geometry.displacement import Displacement
-from burmester.points import complete_solve
-from burmester.points.classes import cognates, distinct
+from burmester.points import real_linkages
+from burmester.points.alt_burmester import cognates, distinct
 from burmester.points.real_linkages import linkages_through
 from burmester.points.start_systems import CASES, Case, start_system
 from tests.oracles import witness
@@ -54,7 +54,7 @@ def test_all_linkages_meet_their_positions(case):
 def test_from_the_second_solved_problem_come_the_same_linkages(monkeypatch):
     poses, is_point, _ = problem(Case(3, 4), 2)
     one = linkages_through(poses, is_point)
-    monkeypatch.setattr(complete_solve, "start_system", lambda case, number: start_system(case, 1))
+    monkeypatch.setattr(real_linkages, "start_system", lambda case, number: start_system(case, 1))
     other = linkages_through(poses, is_point)
     assert len(one.batch) == len(other.batch) > 0
     fixed = [

@@ -7,7 +7,7 @@ from numpy.polynomial import Polynomial
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.unique_rows import unique_rows
+from burmester.numerics.arrays import unique_rows
 from burmester.polynomials import stationary_points as module
 from burmester.polynomials.bilinear_fit import Parameters, circle_shape
 from burmester.polynomials.elimination_template import finite_count

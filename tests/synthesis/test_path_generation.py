@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from burmester.curves.timed_paths import linkages_of_five_points
+from burmester.curves.crank_linkages import linkages_of_five_points
 from burmester.describe.digits import worst_errors
 from burmester.fourbar.cognates import cognates
 from burmester.fourbar.linkage_batch import LinkageBatch

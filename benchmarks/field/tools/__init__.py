@@ -41,4 +41,4 @@ class Tool(Protocol):
 def tool(name: str) -> Tool:
     if name not in NAMES:
         raise ValueError(f"there is no tool {name}; there are {', '.join(NAMES)}")
-    return cast(Tool, import_module(f"benchmarks.field.tools.{name}"))
+    return cast("Tool", import_module(f"benchmarks.field.tools.{name}"))

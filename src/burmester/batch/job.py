@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import os
+import signal
+import threading
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import closing, suppress
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass, field
 from itertools import chain
 from time import monotonic
+from types import FrameType
 from typing import TYPE_CHECKING, Any, final
 
 from burmester.batch.dispatch import Dispatch
@@ -19,7 +22,6 @@ from burmester.batch.options import DEPTHS, BatchOptions, Depth
 from burmester.batch.out_folder import OutFolder
 from burmester.batch.parts import Part
 from burmester.batch.sources import Source, open_source
-from burmester.batch.stopping import stopping
 from burmester.batch.summary import Summary, read_summary
 from burmester.errors import InputError
 
@@ -305,3 +307,29 @@ class _Job:
             self.progress(
                 BatchProgress(self.tasks, self.before, self.total, seconds, dict(self.outcomes))
             )
+
+
+@contextmanager
+def stopping() -> Iterator[Callable[[], bool]]:
+    """Whether somebody has asked to stop, in this block.
+
+    A second Ctrl-C does what the first would have done without this.
+    """
+    asked = threading.Event()
+    if threading.current_thread() is not threading.main_thread():
+        yield asked.is_set
+        return
+    before = signal.getsignal(signal.SIGINT)
+    if not callable(before):  # ignored, or nobody's in Python
+        yield asked.is_set
+        return
+
+    def ask(number: int, frame: FrameType | None) -> None:
+        asked.set()
+        signal.signal(signal.SIGINT, before)
+
+    signal.signal(signal.SIGINT, ask)
+    try:
+        yield asked.is_set
+    finally:
+        signal.signal(signal.SIGINT, before)

@@ -17,8 +17,7 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import weights_or_ones
+from burmester.numerics.arrays import FloatArray, weights_or_ones
 
 Ball: TypeAlias = Any  # arb or acb
 Matrix: TypeAlias = Any  # arb_mat or acb_mat

@@ -26,9 +26,9 @@ def reproduce(as_json: bool, figures: str | None, force: bool) -> int:
         for path in paths:
             click.echo(f"wrote {printable(str(path))}")
         return EXIT_FOUND
+    from burmester.paper.five_methods import side_by_side
     from burmester.paper.reproduction import reproduce as run
     from burmester.paper.reproduction import reproduction_data
-    from burmester.paper.side_by_side import side_by_side
 
     with working("computing the tables of the paper"):
         sections, tasks = run(), side_by_side()

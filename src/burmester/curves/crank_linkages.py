@@ -17,8 +17,14 @@ from typing import Any, NamedTuple, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
+from burmester.dyads.five_poses import dyads_of_five
+from burmester.dyads.local_minima import best_dyads
+from burmester.fourbar.cognates import cognates
+from burmester.fourbar.dyad import RR
 from burmester.fourbar.instantaneous import crossing_angle
+from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
 from burmester.numerics.bundles import take
 
@@ -28,6 +34,10 @@ A, B, R = 4, 5, 6  # the lengths of crank, coupler (between its pins) and follow
 C = slice(
     7, 9
 )  # the coupler point, seen from the crank's pin, the coupler's other pin on the x axis
+
+
+MAX_DYADS = 12  # the best of the poses of more points; each pair of them is two start values
+LONGEST = 50.0  # radii of gyration; dyads with longer links are none to start from
 
 
 class CrankPlaces(NamedTuple):
@@ -172,3 +182,47 @@ class CrankLinkages:
 def _along(u: ComplexArray, v: ComplexArray) -> FloatArray:
     """The scalar product of two vectors as complex numbers."""
     return np.asarray(u.real * v.real + u.imag * v.imag)
+
+
+def linkages_of_five_points(
+    points: FloatArray, crank_angles: FloatArray
+) -> tuple[LinkageBatch, FloatArray]:
+    """All linkages (k,) that trace five points (5, 2) at five crank angles (5,), in radians.
+
+    Their first dyad is the crank, and it turns from point to point as the angles do; the coupler
+    point is the origin of M.  Returns them with their places (k, 5, 3): x, y, angle.  They may need
+    another branch, or meet the points in another order: nothing here judges them.
+
+    Raises
+    ------
+    InputError
+        E121 (other than five points), E103 (a number that is not finite).
+    """
+    places = Displacement(np.asarray(points, dtype=np.float64), np.asarray(crank_angles))
+    found = dyads_of_five(places)
+    return _with_cranks(found.dyads, places)
+
+
+def timed_starts(points: ComplexArray, timing: FloatArray) -> tuple[CrankLinkages, FloatArray]:
+    """Linkages (k,) near five or more timed points (n,) about 1 in size; crank angles (k, n)."""
+    places = Displacement(pairs_of(points), timing)
+    circles = best_dyads(places).dyads
+    near = np.flatnonzero(circles.radius < LONGEST)[:MAX_DYADS]
+    batch, rows = _with_cranks(circles[near], places)
+    return CrankLinkages.of(batch, rows)
+
+
+def _with_cranks(dyads: RR, poses: Displacement) -> tuple[LinkageBatch, FloatArray]:
+    """The cognates of all pairs of dyads (k,) that have a crank at the first one's fixed pivot."""
+    number = len(dyads.radius)
+    one, two = np.nonzero(~np.eye(number, dtype=bool))
+    (found, *_) = cognates(Linkage(dyads[one], dyads[two]))
+    batch = LinkageBatch.of_pins(found)
+    # The body of a cognate turns as the link of the dyad, and its angle is that link's direction.
+    link = complex_of(poses.act(dyads[one].moving_pivot[:, None, :]))
+    angle = np.unwrap(np.angle(link - complex_of(dyads[one].fixed_pivot)[:, None]), axis=-1)
+    origin = np.broadcast_to(poses.translation, (*angle.shape, 2))
+    rows = np.concatenate([origin, angle[..., None]], axis=-1)
+    z = batch.dimensions
+    sound = np.isfinite(z).all(axis=(1, 2)) & (z[:, :, 4] > 0).all(axis=1)
+    return batch[sound], rows[sound]

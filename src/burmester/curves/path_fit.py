@@ -1,7 +1,7 @@
 """The linkages whose coupler point comes nearest to many points, with or without their timing.
 
 Untimed, starts are the curves of the atlas that are like the path; timed, also every locally best
-linkage of the poses that the timing makes of the points (`timed_paths`).  All are refined by their
+linkage of the poses that the timing makes of the points.  All are refined by their
 true distances, the better ones longer.  A search: that no better linkage exists is not proved.
 """
 
@@ -16,14 +16,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.curves.atlas import likenesses
-from burmester.curves.crank_linkages import CrankLinkages
+from burmester.curves.crank_linkages import CrankLinkages, timed_starts
 from burmester.curves.curve_descent import CurveFit, PathTarget, descend
-from burmester.curves.timed_paths import timed_starts
 from burmester.fourbar.path_gaps import PathGaps, are_drawing
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, complex_of, even_numbers, pairs_of
+from burmester.numerics.arrays import (
+    FloatArray,
+    complex_of,
+    even_numbers,
+    pairs_of,
+    weights_of_mean_one,
+)
 from burmester.numerics.bundles import concatenate, take
-from burmester.numerics.weights import weights_of_mean_one
 from burmester.progress import goes_on, step
 from burmester.tasks.pose_sample import PoseSample
 

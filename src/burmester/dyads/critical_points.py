@@ -37,9 +37,8 @@ from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray, shares, weights_or_ones
 from burmester.numerics.linear_algebra import solve_or_shortest
-from burmester.numerics.weights import shares, weights_or_ones
 
 __all__ = [
     "COUNT",

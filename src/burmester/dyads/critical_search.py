@@ -12,9 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray, unique_index, unique_rows
 from burmester.numerics.linear_algebra import matvec, one_thread, solve_where_regular
-from burmester.numerics.unique_rows import unique_index, unique_rows
 from burmester.polynomials import elimination, macaulay
 from burmester.polynomials.bilinear_fit import Parameters, circle_shape
 from burmester.polynomials.elimination_template import CHARTS

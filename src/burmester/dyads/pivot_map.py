@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import shares
+from burmester.numerics.arrays import FloatArray, shares
 
 BLOCK_RESIDUALS = 1 << 18  # computed at a time, to bound the memory
 # Sine of the least angle between two columns; below it the partner is not determined.

@@ -14,11 +14,9 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.half_planes import half_planes
-from burmester.geometry.regions import Point, Polygon, Region
-from burmester.numerics.arrays import FloatArray
+from burmester.geometry.regions import Point, Polygon, Region, half_planes
+from burmester.numerics.arrays import FloatArray, unique_rows
 from burmester.numerics.quadratic_program import SoftProgram
-from burmester.numerics.unique_rows import unique_rows
 from burmester.tasks.limits import Limits
 from burmester.tasks.rails import Rail
 

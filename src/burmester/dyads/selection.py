@@ -16,9 +16,8 @@ from numpy.typing import NDArray
 from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads, ManyBestDyads
-from burmester.dyads.long_links import SENSIBLE_SWING, swings
 from burmester.dyads.pencil import MIN_POSES, Pencil, fit_pencil
-from burmester.dyads.sliders import fixed_lines, moving_lines
+from burmester.dyads.sliders import SENSIBLE_SWING, fixed_lines, moving_lines, swings
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, dyads_of, row_of

@@ -9,13 +9,18 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
-from burmester.fourbar.dyad import PR, RP
+from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import weights_or_ones
+from burmester.numerics.arrays import FloatArray, weights_or_ones
+from burmester.tasks.repeated_poses import orientation_arcs
 
 DEPENDENT = 1e-15  # of the size of rows; what is left of one that depends on others is no more
+
+
+SENSIBLE_SWING = 0.1  # radians; a link that swings more is a link; arcs bend by 1 % of their chords
+OUT_OF_SIGHT = 10.0  # sizes of the picture; no picture shows both ends of a longer link
 
 
 def fixed_lines(
@@ -147,3 +152,26 @@ def moving_lines(
     """
     lines, rms, worst = fixed_lines(poses.inverse(), weights)
     return RP(lines.moving_pivot, lines.normal_angle, lines.offset), rms, worst
+
+
+def swing(dyad: RR, poses: Displacement) -> float:
+    """The angle, radians, by which one RR dyad's link turns over poses (N,).
+
+    Against F or against M, where it turns less.  An endless link does not turn.
+    """
+    return float(swings(dyad, poses))
+
+
+def swings(dyads: RR, poses: Displacement) -> FloatArray:
+    """The same of RR dyads (*,), each with its poses (*, N)."""
+    with np.errstate(invalid="ignore"):
+        arm = poses.act(dyads.moving_pivot[..., None, :]) - dyads.fixed_pivot[..., None, :]
+        direction = np.arctan2(arm[..., 1], arm[..., 0])
+        _, in_f = orientation_arcs(direction)
+        _, in_m = orientation_arcs(direction - poses.angle)
+    return np.where(np.isfinite(dyads.radius), np.minimum(in_f, in_m), 0.0)
+
+
+def nearly_sliders(dyads: RR, poses: Displacement, size: float | FloatArray) -> NDArray[np.bool_]:
+    """Which links (*,) are out of sight and hardly swing; size: (*,), what a picture shows."""
+    return (dyads.radius > OUT_OF_SIGHT * size) & (swings(dyads, poses) < SENSIBLE_SWING)

@@ -19,7 +19,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.export.numbers import decimals_within, rounded
+from burmester.export.escaping import decimals_within, rounded
 from burmester.export.options import Options, stated_unit
 from burmester.export.reference import PRECISION, Reference, as_rows, require_equal, require_places
 from burmester.geometry.displacement import Displacement

@@ -28,8 +28,7 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.weights import shares
+from burmester.numerics.arrays import ComplexArray, FloatArray, shares
 from burmester.tasks.motion_task import Task
 
 STEPS_DOWN = 12  # number of steps on each way down, for each task

@@ -31,8 +31,7 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import shares
+from burmester.numerics.arrays import FloatArray, shares
 from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 

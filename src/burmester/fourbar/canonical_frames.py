@@ -16,8 +16,7 @@ import numpy as np
 
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, pairs_of
-from burmester.numerics.weights import shares
+from burmester.numerics.arrays import FloatArray, pairs_of, shares
 
 # Mean squared deviation of e^(i angle).  A smaller one is rounding: M only translates.
 ROTATION_ROUNDING = 1e-28

@@ -236,7 +236,7 @@ class Circuits:
             loop, sign = self.loop[rows][:, None], self.sign[rows, None]
             own = at if len(parameter) < shape[0] else at.rows(rows)
             w[rows], q[rows] = input_and_root(loop, kind, sign, own)
-        return cast(tuple[ComplexArray, ComplexArray], self.loop[:, None].place(w, q))
+        return cast("tuple[ComplexArray, ComplexArray]", self.loop[:, None].place(w, q))
 
     def _kinds(self) -> Iterator[tuple[RangeKind, NDArray[np.intp]]]:
         """The kinds of circuits (m,) that exist, and which circuits are of each."""

@@ -14,8 +14,7 @@ import numpy as np
 
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import weights_or_ones
+from burmester.numerics.arrays import FloatArray, weights_or_ones
 
 
 class _Dimensions:

@@ -444,4 +444,4 @@ def displacement_of(d: ComplexArray, turn: ComplexArray) -> Displacement:
 def with_trailing_axes(value: DyadOrLoop, ndim: int) -> DyadOrLoop:
     """A dyad or loop (*,) with axes of size 1 added behind, `ndim` axes in all."""
     own = value.shape if isinstance(value, DrivenLoop) else shape_of(value)
-    return cast(DyadOrLoop, value[(..., *[None] * (ndim - len(own)))])
+    return cast("DyadOrLoop", value[(..., *[None] * (ndim - len(own)))])

@@ -15,8 +15,13 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.loop_closure import DrivenLoop
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, even_numbers
-from burmester.numerics.weights import weights_or_ones
+from burmester.numerics.arrays import (
+    ComplexArray,
+    FloatArray,
+    complex_of,
+    even_numbers,
+    weights_or_ones,
+)
 
 PHASES: Final = 360  # samples of the phase
 MOST_SAMPLED: Final = 60  # points by which phases are sampled; the last search takes all

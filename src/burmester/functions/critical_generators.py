@@ -22,9 +22,8 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray, unique_index
 from burmester.numerics.linear_algebra import solve_or_shortest
-from burmester.numerics.unique_rows import unique_index
 from burmester.tasks.function_task import FunctionTask
 
 REAL_TOLERANCE = 1e-6  # relative; a point whose w differs less from its mirror image is real

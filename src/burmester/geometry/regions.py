@@ -20,6 +20,9 @@ MIN_WIDTH = 1e-12  # share of a polygon's length; a narrower polygon has no insi
 STRAIGHT_CORNER_SINE = 1e-9  # of the turn at a corner; below it both edges count as one line
 
 
+MAX_SIDES: Final = 8  # number of sides of a convex polygon that are conditions each
+
+
 class Face(NamedTuple):
     """A piece of a region: origin (2,) + basis (2, dimension) u, for all u.
 
@@ -501,3 +504,34 @@ def require_searchable(region: Region) -> None:
             why="every edge and every corner is searched by itself",
             help=f"take {MAX_SEARCHED_CORNERS} of its corners at most",
         )
+
+
+def half_planes(region: Region) -> FloatArray | None:
+    """Rows (m, 3) whose product with (1, X, Y) is 0 (the region's equations) or at most 0 in it.
+
+    Each side of a convex polygon is one by itself: its distance has a kink at a corner, where a
+    descent would be held.  None for other polygons, and such with many sides.
+    """
+    if isinstance(region, Polygon):
+        return _sides(region)
+    rows, ends = region.equations(), region.corners()
+    if len(rows) == 2:
+        return rows
+    beyond = np.array([[-1.0, 0.0, 0.0]] * 2)
+    if ends is not None:
+        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+        beyond = np.array([[ends[0] @ along, *-along], [-ends[1] @ along, *along]])
+    return np.concatenate([rows, beyond])
+
+
+def _sides(polygon: Polygon) -> FloatArray | None:
+    """The sides of a convex polygon, (k, 3): row · (1, X, Y) at most 0; else None."""
+    v = polygon.corners()
+    along = np.roll(v, -1, axis=0) - v
+    along = along / np.linalg.norm(along, axis=1, keepdims=True)
+    after = np.roll(along, -1, axis=0)
+    turn = along[:, 0] * after[:, 1] - along[:, 1] * after[:, 0]
+    if len(v) > MAX_SIDES or (turn < 0).any():
+        return None
+    outward = np.stack([along[:, 1], -along[:, 0]], axis=1)
+    return np.column_stack([-(outward * v).sum(axis=1), outward])

@@ -13,9 +13,8 @@ from burmester.describe.decimals import decimals_of_dyad
 from burmester.describe.dimensions import sides_of
 from burmester.describe.load_words import load_notes
 from burmester.errors import InputError
-from burmester.io.linkage_data import dimensions_data
+from burmester.io.linkage_data import dimensions_data, load_figures_data
 from burmester.io.linkage_table import table_of
-from burmester.io.loads_data import load_figures_data
 from burmester.io.reading.pose_table import Source
 from burmester.io.reading.trees.loads_tree import loads_data
 from burmester.io.reading.trees.specification_tree import region_from_text

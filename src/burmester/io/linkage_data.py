@@ -18,7 +18,6 @@ from burmester.errors import Finding
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
-from burmester.io.loads_data import load_figures_data
 from burmester.io.pose_data import poses_data
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.pose_tolerances import COMPONENTS
@@ -28,6 +27,7 @@ from burmester.verdicts.uncertainty import DyadUncertainty, PivotRegion
 
 if TYPE_CHECKING:
     from burmester.clearance.least_clearance import Clearance
+    from burmester.loads.load_figures import DriveFigures, Extremes, LoadFigures
     from burmester.sixbar.found import FoundSixBar
 
 CONFIDENCE = 0.95
@@ -325,4 +325,63 @@ def _spread(spread: Spread, tolerance: float | None) -> dict[str, Any]:
         "bound_at_poses": numbers(spread.worst),
         "method": "monte_carlo" if spread.monte_carlo else "first_order",
         "lost": number(float(spread.lost)) if spread.monte_carlo else None,
+    }
+
+
+def load_figures_data(figures: LoadFigures, names: tuple[str, ...] | None) -> dict[str, Any]:
+    """Efforts in N m where the driver turns, else in N; lengths in the task's unit.
+
+    names: of the poses; those without have numbers.
+    """
+    effort = "driver_torque_Nm" if figures.turns else "driver_force_N"
+    coordinate = "driver_deg" if figures.turns else "driver_m"
+    return {
+        "loads": {
+            effort: _extremes(figures.effort),
+            "hand_force_N": None if figures.hand is None else _extremes(figures.hand),
+            "hand_friction_N": None if figures.hand is None else figures.rub,
+            "pin_force_N": figures.pins,
+            "equilibria": [
+                {
+                    coordinate: each.driver,
+                    "stable": each.stable,
+                    "between_poses": list(each.between_poses),
+                }
+                for each in figures.rests
+            ],
+            "stays_at": [(names[k] if names else "") or str(k + 1) for k in figures.stays],
+            "springs": [
+                {
+                    "kind": each.spring.kind,
+                    "count": each.spring.count,
+                    "ends": [
+                        {"link": end.link, "point": list(end.point)} for end in each.spring.ends
+                    ],
+                    "length": dict(zip(("least", "greatest"), each.length, strict=True)),
+                    "force_N": dict(zip(("least", "greatest"), each.tension, strict=True)),
+                }
+                for each in figures.springs
+            ],
+        },
+        "drive": None if figures.drive is None else _in_time(figures.drive, effort),
+    }
+
+
+def _extremes(values: Extremes) -> dict[str, Any]:
+    return {
+        **{
+            name: value if math.isfinite(value) else None
+            for name, value in (("least", values.least), ("greatest", values.greatest))
+        },
+        "at_poses": [list(each) for each in values.at_poses],
+    }
+
+
+def _in_time(figures: DriveFigures, effort: str) -> dict[str, Any]:
+    return {
+        "duration_s": figures.drive.duration_s,
+        "profile": figures.drive.profile,
+        effort: _extremes(figures.effort),
+        "body_speed": {"greatest": figures.speed},
+        "body_acceleration": {"greatest": figures.acceleration},
     }

@@ -12,7 +12,7 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from burmester.describe.cognates import cognates_of
-from burmester.describe.moved_pivots import moved_pivots
+from burmester.describe.quality_words import moved_pivots
 from burmester.dyads.critical_points import COUNT, CriticalDyads
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads

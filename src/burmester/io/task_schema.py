@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 from burmester.io.reading.functions.function_file import FUNCTION_SCHEMA
 from burmester.io.reading.trees.loads_tree import LOAD_SCHEMAS
+from burmester.io.reading.trees.node import Schema
 from burmester.io.reading.trees.pose_tree import MISPLACED_KEYS, POSE_SCHEMAS
-from burmester.io.reading.trees.schema import Schema
 from burmester.io.reading.trees.specification_tree import LIMITS_SCHEMA, REQUIREMENTS_SCHEMA
 from burmester.io.reading.trees.surroundings_tree import (
     BODY_SCHEMA,

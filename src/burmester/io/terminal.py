@@ -12,7 +12,7 @@ from rich.text import Text
 
 from burmester.describe import sentences, six_bar_words
 from burmester.describe.dimensions import dyad_in_words
-from burmester.describe.moved_pivots import improvements
+from burmester.describe.quality_words import improvements
 from burmester.io import linkage_table
 from burmester.io.linkage_table import new_table, show_warnings, table_of
 from burmester.io.message import draw, message, note, print_trimmed, show

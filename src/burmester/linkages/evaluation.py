@@ -22,9 +22,8 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.judged_places import NearestPlaces, best_places
 from burmester.linkages.misses import Misses
-from burmester.numerics.arrays import FloatArray, even_numbers
+from burmester.numerics.arrays import FloatArray, even_numbers, weights_or_ones
 from burmester.numerics.bundles import take
-from burmester.numerics.weights import weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.target import Target

@@ -19,7 +19,7 @@ import numpy as np
 from burmester.mechanisms.circuits import Circuits
 from burmester.mechanisms.contract import Mechanism, drive_of
 from burmester.numerics.arrays import ComplexArray, FloatArray, wrapped_angle
-from burmester.numerics.golden_section import golden_section
+from burmester.numerics.iteration import golden_section
 
 TURN = 2 * np.pi
 STEPS = 720  # of the table of a branch, for each piece of its circuit

@@ -18,7 +18,7 @@ from burmester.mechanisms.branches import Branch
 from burmester.mechanisms.circuits import Circuits
 from burmester.mechanisms.contract import Mechanism, body_of
 from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.golden_section import golden_section
+from burmester.numerics.iteration import golden_section
 
 PLACES = 720  # looked at on a piece of a circuit
 REFINED = 4  # of the places that are nearer than both neighbours, so many on each piece are refined

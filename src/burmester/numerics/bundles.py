@@ -87,13 +87,13 @@ def _for_each_array(function: Callable[..., Any], *bundles: Bundle) -> Bundle:
     elif first is None or type(first) in FOR_ALL_ROWS:
         made = first
     elif isinstance(first, tuple):
-        parts = _each(function, zip(*cast(Any, bundles), strict=True))
+        parts = _each(function, zip(*cast("Any", bundles), strict=True))
         made = tuple(parts) if type(first) is tuple else type(first)(*parts)
-    elif names := _fields(cast(Any, type(first))):
+    elif names := _fields(cast("Any", type(first))):
         made = type(first)(*_each(function, ([getattr(b, n) for b in bundles] for n in names)))
     else:
         made = function(*bundles)
-    return cast(Bundle, made)
+    return cast("Bundle", made)
 
 
 def _each(function: Callable[..., Any], columns: Iterable[Sequence[Any]]) -> list[Any]:

@@ -15,6 +15,7 @@ distances.  A fit of one dyad needs two ends for a linkage: the two lowest that 
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -28,7 +29,10 @@ from burmester.dyads.pencil import fit_pencil
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
+from burmester.io.cases import load
 from burmester.numerics.arrays import FloatArray
+from burmester.progress import step
+from burmester.tasks.motion_task import Task
 
 START_SPREAD = 3.0  # canonical lengths: spread of the start pivots
 SAME_END = 1e-4  # relative distance below which two ends are one
@@ -148,3 +152,53 @@ def _answer(name: str, dyads: RR, poses: Displacement, seconds: float, **of_star
     miss = np.abs(dyads[:, None].residual(poses))
     rms = np.sqrt((miss**2).mean(axis=-1))
     return Answer(name, dyads, rms, miss.max(axis=-1), seconds, **of_starts)
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class SideBySide:
+    """What five methods make of one of the paper's tasks."""
+
+    title: str
+    case: str
+    answers: tuple[Answer, ...]
+
+
+def side_by_side(starts: int = 100, seed: int = 2012) -> tuple[SideBySide, ...]:
+    """The paper's two tasks by five methods; the same seed gives the same starts."""
+    tasks = {"Table 2 (pose 6 at 52.87 deg)": "ge2012-exact", "Table 5": "ge2012-approximate"}
+    result = []
+    for title, case in tasks.items():
+        step(f"solving {title} by every method")
+        poses = Task.from_rows(load(case)["poses"], angle_unit="deg").poses
+        result.append(SideBySide(title, case, by_every_method(poses, starts, seed)))
+    return tuple(result)
+
+
+def side_by_side_data(task: SideBySide) -> dict[str, Any]:
+    """One task as plain data."""
+    answers = [_answer_data(answer) for answer in task.answers]
+    return {"title": task.title, "case": task.case, "answers": answers}
+
+
+def _answer_data(answer: Answer) -> dict[str, Any]:
+    dyads = [
+        {
+            "fixed_pivot": answer.dyads.fixed_pivot[k].tolist(),
+            "moving_pivot": answer.dyads.moving_pivot[k].tolist(),
+            "radius": float(answer.dyads.radius[k]),
+            "rms_error": float(answer.rms_error[k]),
+            "max_error": float(answer.max_error[k]),
+        }
+        for k in range(len(answer.rms_error))
+    ]
+    needed = answer.needed
+    return {
+        "method": answer.method,
+        "dyads": dyads,
+        "starts": answer.starts,
+        "settled": answer.settled,
+        "reached": answer.reached,
+        "starts_needed": needed if needed is not None and math.isfinite(needed) else None,
+        "seconds_on_this_machine": answer.seconds,
+    }

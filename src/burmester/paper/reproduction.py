@@ -32,7 +32,7 @@ from burmester.paper.comparison import (
     compare_columns,
 )
 from burmester.paper.fit import LAST_DIGIT, VECTORS, PaperFit, rounded
-from burmester.paper.side_by_side import SideBySide, side_by_side_data
+from burmester.paper.five_methods import SideBySide, side_by_side_data
 
 ENTRIES: Final = ("sigma1", "sigma2", "tau1", "tau2", "c33", "c34", "c44")  # of Eq. (9), at
 PLACES: Final = ([0, 1, 0, 1, 2, 2, 3], [2, 2, 3, 3, 2, 3, 3])

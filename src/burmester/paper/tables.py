@@ -14,8 +14,7 @@ from burmester.describe.digits import short
 from burmester.io.linkage_table import new_table
 from burmester.io.message import print_trimmed
 from burmester.paper.comparison import Section, Verdict
-from burmester.paper.five_methods import Answer
-from burmester.paper.side_by_side import SideBySide
+from burmester.paper.five_methods import Answer, SideBySide
 
 
 def show_reproduction(

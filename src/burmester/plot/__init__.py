@@ -20,7 +20,12 @@ if find_spec("matplotlib") is None:
     )
 
 from burmester.plot.camera import Box, Camera
-from burmester.plot.charts import pose_errors, transmission
+from burmester.plot.charts import (
+    pose_errors,
+    structural_error,
+    structural_error_figure,
+    transmission,
+)
 from burmester.plot.common_curve import common_curve
 from burmester.plot.family_map import family_figure, family_map
 from burmester.plot.maps import centre_point_curve, circle_point_curve, pivot_map
@@ -30,7 +35,6 @@ from burmester.plot.paper import write_figures
 from burmester.plot.partner_curve import partner_curve
 from burmester.plot.plane import achieved, centrodes, coupler_curve, poses
 from burmester.plot.space import image_space
-from burmester.plot.structural_error import structural_error, structural_error_figure
 from burmester.plot.style import figure, finish, house_style, legend
 from burmester.plot.walk import steps, walk, write_gif
 

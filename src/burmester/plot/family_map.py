@@ -24,18 +24,18 @@ from burmester.families.pair_verdicts import PairClass
 from burmester.fourbar.dyad import RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.numerics.arrays import FloatArray
-from burmester.plot.family_marks import (
+from burmester.plot.partner_curve import (
     SCALE,
     TICKS,
     TINTS,
     colors_of,
+    partner_curve,
     place_name,
     pose_names,
     ring,
     rings,
     scale_of,
 )
-from burmester.plot.partner_curve import partner_curve
 from burmester.plot.plane import poses as draw_poses
 from burmester.plot.style import (
     BLACK,

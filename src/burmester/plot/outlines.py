@@ -14,7 +14,7 @@ from matplotlib.text import Text
 from numpy.typing import ArrayLike
 
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.inner_point import inner_point
+from burmester.geometry.outlines import inner_point
 from burmester.plot.style import GREEN, GREY, plain
 from burmester.tasks.surroundings import KeepOut
 

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
-from burmester.geometry.half_planes import half_planes
-from burmester.geometry.regions import Polygon, Region
+from burmester.geometry.regions import Polygon, Region, half_planes
 from burmester.numerics.arrays import FloatArray
 from burmester.refinement.constraints import QUOTIENTS, ConstraintSlopes, FromSlopes
 from burmester.tasks.limits import Limits

@@ -26,11 +26,10 @@ from burmester.fourbar.foot_points import foot_points, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
 from burmester.fourbar.transmission import Transmission
-from burmester.numerics.arrays import FloatArray
+from burmester.numerics.arrays import FloatArray, weights_of_mean_one, weights_or_ones
 from burmester.numerics.bundles import concatenate, take
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.integer_least_squares import closest_numbers, firmest_last
-from burmester.numerics.weights import weights_of_mean_one, weights_or_ones
 from burmester.refinement.constraints import (
     SHORTEST_LINK,
     AllConstraints,

@@ -21,8 +21,7 @@ from burmester.fourbar.foot_points import newton_steps, places_of, rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Point, Polygon, Region
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import shares, weights_of_mean_one
+from burmester.numerics.arrays import FloatArray, shares, weights_of_mean_one
 from burmester.tasks.frames import limits_in
 from burmester.tasks.limits import Limits
 

@@ -38,8 +38,7 @@ from burmester.mechanisms.pose_order import (
     tolerated_step,
 )
 from burmester.mechanisms.transmission import DEAD_POINT_ANGLE, least_transmission_angle
-from burmester.numerics.arrays import ComplexArray, FloatArray, wrapped_angle
-from burmester.numerics.weights import weights_or_ones
+from burmester.numerics.arrays import ComplexArray, FloatArray, weights_or_ones, wrapped_angle
 from burmester.refinement.tolerance_boxes import EXACT_ROUNDING, counted_error, shares_used
 from burmester.sixbar.candidates import box_diagonal, figures_of, merit_of, steps_along
 from burmester.sixbar.found import FoundSixBar

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from burmester.dyads.critical_search import COUNT
 from burmester.dyads.local_minima import ManyBestDyads
-from burmester.dyads.long_links import OUT_OF_SIGHT, nearly_sliders
 from burmester.dyads.pencil import MIN_POSES, fit_pencil
 from burmester.dyads.selection import (
     CIRCLE,
@@ -20,6 +19,7 @@ from burmester.dyads.selection import (
     same_dyads,
     within_digits,
 )
+from burmester.dyads.sliders import OUT_OF_SIGHT, nearly_sliders
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR

@@ -19,9 +19,8 @@ from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch, pin_distan
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
 from burmester.linkages.judged_places import NearestPlaces
-from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.numerics.arrays import FloatArray, shares, wrapped_angle
 from burmester.numerics.bundles import concatenate, take
-from burmester.numerics.weights import shares
 from burmester.stacked.answers import LinkageRows
 from burmester.tasks.length_per_radian import lengths_per_radian
 from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE

@@ -25,8 +25,7 @@ from burmester.functions.exact_pairs import exact_generators, generators_of_phas
 from burmester.functions.found_generator import MET, FoundGenerator, found_generators, price_list
 from burmester.functions.generator import Generator
 from burmester.functions.nearest_generators import nearest_generators
-from burmester.functions.phase_family import best_of_phases
-from burmester.functions.placed_links import placed_links
+from burmester.functions.phase_family import best_of_phases, placed_links
 from burmester.functions.refinement import at_bounds
 from burmester.geometry.regions import Point
 from burmester.numerics.arrays import FloatArray

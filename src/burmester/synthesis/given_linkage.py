@@ -20,8 +20,7 @@ from burmester.errors import Advice, InputError
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage import Linkage
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import weights_or_ones
+from burmester.numerics.arrays import FloatArray, weights_or_ones
 from burmester.tasks.motion_task import MOST, Task, characteristic_length
 from burmester.tasks.notation import length_of, span
 from burmester.wording import figure

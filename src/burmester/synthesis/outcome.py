@@ -11,8 +11,8 @@ from burmester.dyads.critical_points import CriticalDyads
 from burmester.dyads.critical_search import COUNT
 from burmester.dyads.five_poses import FivePoseDyads
 from burmester.dyads.local_minima import BestDyads
-from burmester.dyads.long_links import nearly_sliders, swing
 from burmester.dyads.selection import Found, GivenPoses, within_digits
+from burmester.dyads.sliders import nearly_sliders, swing
 from burmester.errors import Advice
 from burmester.fourbar.dyad import RR
 from burmester.linkages.from_dyads import MAX_POSES_REFINED, sample_refined

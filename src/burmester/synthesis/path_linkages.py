@@ -14,10 +14,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.curves.crank_linkages import CrankLinkages
+from burmester.curves.crank_linkages import CrankLinkages, linkages_of_five_points
 from burmester.curves.curve_descent import CurveFit
 from burmester.curves.path_fit import PathSearch
-from burmester.curves.timed_paths import linkages_of_five_points
 from burmester.fourbar.cognates import cognates
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch

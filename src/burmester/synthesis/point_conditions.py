@@ -18,7 +18,7 @@ from burmester.diagnosis.checks import repeats_advice
 from burmester.errors import Advice
 from burmester.geometry.regions import Point
 from burmester.numerics.arrays import FloatArray
-from burmester.points.classes import CLASS
+from burmester.points.alt_burmester import CLASS
 from burmester.points.point_sets import PointSet, line_or_circle
 from burmester.points.start_systems import CASES, Case
 from burmester.tasks.limits import Limits

@@ -13,8 +13,7 @@ import numpy as np
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import shares
+from burmester.numerics.arrays import FloatArray, shares
 from burmester.tasks.motion_task import Task
 
 # Of the travel per radian; bodies between a tenth and six tenths of it lose least by this share

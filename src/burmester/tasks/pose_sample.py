@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.weights import weights_or_ones
+from burmester.numerics.arrays import FloatArray, weights_or_ones
 from burmester.tasks.motion_task import Task
 
 # Of the way of a motion, measured between the means of so many runs of poses: errors of single

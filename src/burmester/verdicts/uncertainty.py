@@ -26,8 +26,7 @@ from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import GRASHOF_SUMS, TYPE_OF_SIGNS, Linkage, Links, grashof
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.numerics.weights import weights_or_ones
+from burmester.numerics.arrays import ROUNDING, FloatArray, weights_or_ones
 from burmester.tasks.motion_task import Task
 
 POSSIBLE_DEVIATIONS = 2.0  # standard deviations; a type farther off is taken as excluded

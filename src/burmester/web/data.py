@@ -16,10 +16,10 @@ from burmester.cures import Face, for_command, for_page
 from burmester.describe import digits, quality_words, sentences
 from burmester.describe.dimensions import decimals_of, dimensions, dyad_in_words
 from burmester.describe.load_words import load_notes
-from burmester.describe.moved_pivots import improvements
+from burmester.describe.quality_words import improvements
 from burmester.dyads.selection import FoundDyad
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.inner_point import inner_point
+from burmester.geometry.outlines import inner_point
 from burmester.io.linkage_data import dyad_data, linkage_data, number
 from burmester.io.pose_data import poses_data
 from burmester.linkages.evaluation import transmission_at_given_poses

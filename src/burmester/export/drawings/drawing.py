@@ -18,13 +18,20 @@ import numpy as np
 
 from burmester.export.description import description, dimension_notes, length_decimals, spring_notes
 from burmester.export.drawings.dimension_lines import DimensionLine
-from burmester.export.drawings.outlines import Outlines, hatch, name_start
-from burmester.export.drawings.sheet import Sheet, beside, joint_names, notes_on, sheet_of
+from burmester.export.drawings.sheet import (
+    Outlines,
+    Sheet,
+    beside,
+    hatch,
+    joint_names,
+    name_start,
+    notes_on,
+    sheet_of,
+)
 from burmester.export.options import Options
-from burmester.export.parts.holes import pivots_of
 from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import Plate, moved
-from burmester.export.parts.plates import Assembly, assembly_of
+from burmester.export.parts.plates import Assembly, assembly_of, pivots_of
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.loads.masses import body_named

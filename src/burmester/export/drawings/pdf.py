@@ -38,8 +38,7 @@ from burmester.export.drawings.pages import LETTERS, MARGIN, Page, Pages, pages_
 from burmester.export.drawings.sheet import notes_on
 from burmester.export.escaping import one_line
 from burmester.export.options import Options
-from burmester.export.parts.holes import axis_deviation, pivots_of
-from burmester.export.parts.plates import Assembly, assembly_of
+from burmester.export.parts.plates import Assembly, assembly_of, axis_deviation, pivots_of
 from burmester.export.reference import fault, require_equal
 from burmester.geometry.outlines import rounded_hull
 from burmester.numerics.arrays import FloatArray

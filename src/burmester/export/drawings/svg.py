@@ -19,8 +19,7 @@ import numpy as np
 
 from burmester.export.drawings.dimension_lines import DimensionLine
 from burmester.export.drawings.drawing import Drawing, Item, Kind, halved, require_drawing
-from burmester.export.escaping import xml_text
-from burmester.export.numbers import error_within
+from burmester.export.escaping import error_within, xml_text
 from burmester.export.options import Options
 from burmester.export.parts.plates import Assembly
 from burmester.export.reference import require_equal

@@ -11,8 +11,8 @@ from typing import Final, final
 
 import numpy as np
 
+from burmester.export.escaping import number, xy
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.numbers import number, xy
 from burmester.loads.masses import body_named
 from burmester.loads.spring_laws import SpringLaw
 from burmester.mechanisms.bodies import GROUND

@@ -6,7 +6,7 @@ E162 dimensions that cannot be made        E163 a linkage that a model of bodies
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final, Self, final
 
@@ -15,13 +15,23 @@ from numpy.typing import ArrayLike
 
 from burmester.cures import Cure, Help
 from burmester.errors import InputError
-from burmester.export.models.bodies import INSET, METRES, Shape, parts_of_bodies, rim, shapes
-from burmester.export.models.joints import JointMotion
-from burmester.export.models.mass_properties import MassProperties, require_density
+from burmester.export.models.bodies import (
+    INSET,
+    METRES,
+    BodyParts,
+    JointMotion,
+    Shape,
+    heights_of,
+    parts_of_bodies,
+    rim,
+    shapes,
+)
 from burmester.export.options import Options
+from burmester.export.parts.outlines import slot_outline
 from burmester.export.parts.plate import SLOT_RUN_OUT
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference, require_equal
+from burmester.geometry.outlines import outline_moments, rounded_hull
 from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
 from burmester.loads.masses import Masses
 from burmester.mechanisms.bodies import ORIGIN
@@ -40,6 +50,12 @@ DIRECTIONS: Final[Mapping[str, FloatArray]] = {
     for sign in ("", "-")
     for number, axis in enumerate("xyz")
 }
+
+
+LEAST_DENSITY, GREATEST_DENSITY = (
+    10.0,
+    25000.0,
+)  # kg/m³: a foam, and more than osmium; others are slips of unit
 
 
 @final
@@ -245,4 +261,86 @@ def require_up(up: str) -> FloatArray:
         f"there is no direction {up!r}",
         why=f"up is {', '.join(DIRECTIONS)}: an axis of the plane of the poses, or z, across it",
         help=Help.of("give {}", Cure("up", "y")),
+    )
+
+
+@final
+@dataclass(frozen=True, slots=True, eq=False)
+class MassProperties:
+    """The mass properties of a body, in a frame of its own.
+
+    mass: kilograms.  centre: (3,) of mass, metres.  inertia: (3, 3) about the centre, kg m², with
+    the negative products off the diagonal.
+    """
+
+    mass: float
+    centre: FloatArray
+    inertia: FloatArray
+
+    @classmethod
+    def of(cls, body: BodyParts, made: Assembly, density: float) -> Self:
+        """Those of a body's plates and pins, all of one density (kg/m³)."""
+        parts = list[Self]()
+        for plate in body.plates:
+            cuts = [rounded_hull(each[None, :2], each[2] / 2) for each in plate.holes]
+            cuts += [slot_outline(each) for each in plate.slots]
+            parts.append(cls._prism(plate.outline, cuts, heights_of(plate, made), density))
+        for pin in body.pins:
+            outline = rounded_hull(np.array([[pin.x, pin.y]]), pin.diameter / 2)
+            parts.append(cls._prism(outline, [], heights_of(pin, made), density))
+        return cls._joined(parts)
+
+    @classmethod
+    def _prism(
+        cls,
+        outline: FloatArray,
+        cuts: Iterable[FloatArray],
+        heights: tuple[float, float],
+        density: float,
+    ) -> Self:
+        """An outline less its cuts, extruded from one height to another; millimetres."""
+        origin = outline[:, :2].mean(axis=0)  # near, so that few digits are lost
+        area, x, y, xx, xy, yy = outline_moments(outline, origin) - sum(
+            outline_moments(each, origin) for each in cuts
+        )
+        x, y = x / area, y / area
+        height = heights[1] - heights[0]
+        mass = density * area * height * METRES**3
+        about_x, about_y = yy / area - y * y, xx / area - x * x
+        thick, product = height**2 / 12, x * y - xy / area
+        inertia = [
+            [about_x + thick, product, 0.0],
+            [product, about_y + thick, 0.0],
+            [0.0, 0.0, about_x + about_y],
+        ]
+        centre = np.append(origin + np.array([x, y]), sum(heights) / 2)
+        return cls(float(mass), centre * METRES, mass * np.array(inertia) * METRES**2)
+
+    @classmethod
+    def _joined(cls, parts: Sequence[Self]) -> Self:
+        """Parts in one frame as one body (Steiner's theorem)."""
+        mass = sum(each.mass for each in parts)
+        centre = sum((each.mass * each.centre for each in parts), np.zeros(3)) / mass
+        inertia = np.zeros((3, 3))
+        for each in parts:
+            off = each.centre - centre
+            inertia += each.inertia + each.mass * (off @ off * np.eye(3) - np.outer(off, off))
+        return cls(mass, centre, inertia)
+
+    def about_z(self, x: float = 0.0, y: float = 0.0) -> float:
+        """The moment of inertia about an axis along z through (x, y), kg m²."""
+        away = math.hypot(self.centre[0] - x, self.centre[1] - y)
+        return float(self.inertia[2, 2] + self.mass * away**2)
+
+
+def require_density(density: float) -> float:
+    """A density in kg/m³; raises E162 for one that no material has."""
+    if LEAST_DENSITY <= density <= GREATEST_DENSITY:
+        return density
+    raise InputError(
+        "E162",
+        f"there is no material of {density:g} kg/m³",
+        why=f"densities from {LEAST_DENSITY:g} to {GREATEST_DENSITY:g} kg/m³ are taken: "
+        "aluminium has 2700, steel 7850",
+        help=Help.of("give {}, for aluminium; 1 g/cm³ is 1000 kg/m³", Cure("density", 2700)),
     )

@@ -10,23 +10,21 @@ E162 dimensions that cannot be made        E163 a linkage that a model of bodies
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Literal
+from typing import Final, Literal, NamedTuple, final
 from xml.etree import ElementTree
 
 import numpy as np
 
 from burmester.cures import for_page, said
 from burmester.export.description import description
-from burmester.export.escaping import xml_attribute, xml_comment
+from burmester.export.escaping import number, numbers_in, xml_attribute, xml_comment, xy
 from burmester.export.models.applied_loads import AppliedLoads
 from burmester.export.models.bodies import Shape
-from burmester.export.models.body_tree import Body, Site, Tree, tree_of
+from burmester.export.models.body_tree import Body, Link, Site, Tree, require_pose, tree_of
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.models.read_back import Link, require_pose
-from burmester.export.models.servo import Servo
-from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, require_equal
 from burmester.mechanisms.bodies import GROUND
@@ -39,6 +37,16 @@ SITE_SIZE = 0.02  # of the span: marks of pivots
 GROUND_COLOUR, OUTLINE_COLOUR = ".4 .4 .4 1", "0 .47 .35 1"
 COLOURS = (".76 .15 .18 1", "0 .34 .72 1", ".11 .5 .25 1", ".75 .42 0 1", ".45 .25 .65 1")
 SEEN_ONLY = ' contype="0" conaffinity="0" group="1"'
+
+
+LONGEST_STEP: Final = 1e-3  # seconds: time step, shorter for linkages below 10 cm
+STEP_SHARE: Final = 0.01  # of sqrt(span / g), the time of a fall: longest time step
+FREQUENCY: Final = 0.3  # radians a time step: natural frequency
+ARMATURE: Final = 0.01  # of the reduced inertia: that of the motor itself
+# The same where there are more loops: the driver is often so light beside all that it moves that
+# the damping of the servo, which a step of MuJoCo weighs against the driver alone, would shake
+# them.
+LOOPS_ARMATURE: Final = 0.3
 
 
 def write(chosen: Candidate, path: Path, options: Options) -> None:
@@ -304,3 +312,42 @@ def _links(element: ElementTree.Element, on: str) -> Iterable[tuple[str, Link]]:
         turn, zero = numbers_in(each, "euler")[2], numbers_in(joint, "ref")[0]
         yield name, Link(on, complex(x, y), turn, kind, along, zero)
         yield from _links(each, name)
+
+
+@final
+class Servo(NamedTuple):
+    """A servo, and the time step (seconds) that suits it.
+
+    frequency: natural, radians a second.
+    stiffness, damping, armature: newtons, metres and kilograms, or N m, radians and kg m².
+    share: of what the driver moves, the armature.
+    controls: (N,), the commands at the poses, within the joint's limits; at a dead point, where no
+    motor holds, they do not lead.
+    """
+
+    time_step: float
+    frequency: float
+    stiffness: float
+    damping: float
+    armature: float
+    share: float
+    controls: FloatArray
+
+    @classmethod
+    def of(cls, model: DynamicModel) -> Servo:
+        """A servo with critical damping for the median of the inertia at the poses."""
+        step = min(LONGEST_STEP, STEP_SHARE * math.sqrt(model.reference.span / STANDARD_GRAVITY))
+        step = float(f"{step:.1e}")
+        load = model.at_poses()
+        moved_by_driver = load.inertia[0]
+        finite = moved_by_driver[np.isfinite(moved_by_driver)]
+        inertia = float(np.median(finite)) if len(finite) else model.masses[model.driver].about_z()
+        share = ARMATURE if len(model.reference.closures) == 1 else LOOPS_ARMATURE
+        frequency, moved = FREQUENCY / step, (1 + share) * inertia
+        stiffness = moved * frequency**2
+        lead = np.nan_to_num(load.effort / stiffness, nan=0.0, posinf=0.0, neginf=0.0)
+        motor = model.motor
+        at = model.joints.at_poses[:, motor] + lead
+        controls = np.clip(at, model.low[motor], model.high[motor])
+        damping = 2 * moved * frequency
+        return cls(step, frequency, stiffness, damping, share * inertia, share, controls)

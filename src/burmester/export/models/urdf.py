@@ -21,11 +21,9 @@ import numpy as np
 
 from burmester.cures import for_page, said
 from burmester.export.description import description
-from burmester.export.escaping import xml_attribute, xml_comment
-from burmester.export.models.body_tree import Body, Site, Tree, tree_of
+from burmester.export.escaping import number, numbers_in, xml_attribute, xml_comment, xy
+from burmester.export.models.body_tree import Body, Link, Site, Tree, require_pose, tree_of
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.models.read_back import Link, require_pose
-from burmester.export.numbers import number, numbers_in, xy
 from burmester.export.options import Options
 from burmester.export.reference import PRECISION, require_equal
 from burmester.geometry.displacement import Displacement

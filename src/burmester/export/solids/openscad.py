@@ -18,8 +18,7 @@ from typing import Any
 import numpy as np
 
 from burmester.export.description import description
-from burmester.export.escaping import one_line
-from burmester.export.numbers import number
+from burmester.export.escaping import number, one_line
 from burmester.export.options import Options
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference, as_rows, require_equal

@@ -11,23 +11,29 @@ E162 dimensions that cannot be made        E163 a linkage that plates cannot hol
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from importlib import import_module
+from itertools import count
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.export.escaping import step_text
 from burmester.export.options import Options
-from burmester.export.parts.collisions import collision
-from burmester.export.parts.holes import axes_of, axis_deviation, pivots_of, rim_deviation
-from burmester.export.parts.plates import Assembly, assembly_of
+from burmester.export.parts.plates import (
+    Assembly,
+    assembly_of,
+    axes_of,
+    axis_deviation,
+    pivots_of,
+    rim_deviation,
+)
 from burmester.export.reference import PRECISION, fault
-from burmester.export.solids.solid_parts import area_of, laid, parts_of, placed
-from burmester.export.solids.step_order import settle
-from burmester.export.solids.stl import Triangles, read_stl, shells_of, volume_of
+from burmester.export.solids.solid_parts import area_of, collision, laid, parts_of, placed
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 
@@ -41,6 +47,21 @@ FLOAT32_ERROR: Final = 1e-6  # of the size: error of a coordinate of 32 bits
 FIXED_TIME: Final = (
     "2000-01-01T00:00:00"  # written into every STEP file, so that equal parts give equal files
 )
+
+
+NEXT_TO_NOTHING = 1e-12  # millimetres or a share of a unit vector; less is the rounding of a zero
+
+# An entity, whose texts may hold any sign: "#12 = COLOUR_RGB('',0.5,0.5,0.5);"
+_ENTITY = re.compile(r"#(\d+) = ((?:'(?:[^']|'')*'|[^';])*);\s*")
+_PIECE = re.compile(r"'(?:[^']|'')*'|#(\d+)|(-?\d+\.\d*E-\d+)")
+_COLOURS = "MECHANICAL_DESIGN_GEOMETRIC_PRESENTATION_REPRESENTATION("
+_USE = re.compile(r"(?<=^NEXT_ASSEMBLY_USAGE_OCCURRENCE\(')\d+")  # the number of a part's use
+_DATA, _END = "DATA;\n", "ENDSEC;\nEND-ISO-10303-21;"
+
+
+Triangles: TypeAlias = NDArray[np.float64]
+
+SAME: Final = 1e-6  # of the greatest coordinate: distance below which two corners are one
 
 
 def write_step(chosen: Candidate, path: Path, options: Options) -> None:
@@ -168,3 +189,89 @@ def _checked_shells(path: Path, made: Assembly) -> tuple[list[Triangles], float]
         raise fault(f"its {len(found)} parts do not have the volumes of the plates and pins")
     reach = float(np.abs(triangles).max())
     return shells, FLOAT32_ERROR * reach
+
+
+def settle(path: Path) -> None:
+    """Write the file again: colours sorted by their solids, uses counted, an entity a line."""
+    text = path.read_text(encoding="ascii")
+    begin, end = text.index(_DATA) + len(_DATA), text.rindex(_END)
+    entities = {
+        found[1]: _PIECE.sub(_without_dust, " ".join(found[2].split()))
+        for found in _ENTITY.finditer(text, begin, end)
+    }
+    numbers, uses = [*entities], count(1)
+    for number, entity in entities.items():
+        entities[number] = _USE.sub(lambda _: str(next(uses)), entity)
+    roots = [number for number in numbers if entities[number].startswith(_COLOURS)]
+    before = numbers.index(roots[0]) if roots else len(numbers)
+    order = {number: k for k, number in enumerate(numbers[:before], start=1)}
+    told = {number: f"#{number}" for number in order}
+
+    def expanded(number: str) -> str:
+        """An entity with those that it refers to in it, down to what comes before the colours."""
+        if number not in told:
+            told[number] = _PIECE.sub(
+                lambda found: expanded(found[1]) if found[1] else found[0], entities[number]
+            )
+        return told[number]
+
+    def visit(number: str) -> None:
+        if number not in order:
+            order[number] = len(order) + 1
+            for found in _PIECE.finditer(entities[number]):
+                if found[1]:
+                    visit(found[1])
+
+    for number in sorted(roots, key=expanded):
+        visit(number)
+    lines = (f"#{new} = {_renumbered(entities[old], order)};\n" for old, new in order.items())
+    path.write_text(text[:begin] + "".join(lines) + text[end:], encoding="ascii", newline="\n")
+
+
+def _renumbered(entity: str, order: dict[str, int]) -> str:
+    return _PIECE.sub(lambda found: f"#{order[found[1]]}" if found[1] else found[0], entity)
+
+
+def _without_dust(found: re.Match[str]) -> str:
+    """A piece of an entity, a number next to nothing as zero."""
+    return "0." if found[2] and abs(float(found[2])) < NEXT_TO_NOTHING else found[0]
+
+
+def read_stl(path: Path) -> Triangles:
+    """The triangles (n, 3, 3) of a binary STL; raises ValueError where it is none."""
+    data = path.read_bytes()
+    count = int.from_bytes(data[80:84], "little")
+    if len(data) != 84 + 50 * count or count == 0:
+        raise ValueError(f"{len(data)} bytes are not {count} triangles")
+    rows = np.frombuffer(data, dtype=np.uint8, offset=84).reshape(count, 50)
+    numbers = np.ascontiguousarray(rows[:, 12:48]).view("<f4")
+    return numbers.astype(np.float64).reshape(count, 3, 3)
+
+
+def shells_of(triangles: Triangles) -> list[Triangles] | None:
+    """The triangles (n, 3, 3) by shells, written one after the other; None unless all are closed.
+
+    In a closed shell each edge is run through once in each sense.  Corners that are nearer than
+    `SAME` are one: near zero, numbers of 32 bits have more digits than those they were made of.
+    """
+    corners = np.round(triangles.reshape(-1, 3) / (SAME * np.abs(triangles).max()))
+    names = np.unique(corners, axis=0, return_inverse=True)[1].reshape(-1, 3)
+    shells, first, open_ = list[Triangles](), 0, set[tuple[int, int]]()
+    for number, (a, b, c) in enumerate(names.tolist()):
+        for start, end in ((a, b), (b, c), (c, a)):
+            if start == end or (start, end) in open_:
+                return None
+            if (end, start) in open_:
+                open_.remove((end, start))
+            else:
+                open_.add((start, end))
+        if not open_:
+            shells.append(triangles[first : number + 1])
+            first = number + 1
+    return None if open_ else shells
+
+
+def volume_of(shell: Triangles) -> float:
+    """The volume within a closed shell, outward normals by the right hand."""
+    shell = shell - shell.mean(axis=(0, 1))
+    return float(np.einsum("ij,ij", np.cross(shell[:, 0], shell[:, 1]), shell[:, 2]) / 6)

@@ -39,14 +39,14 @@ from burmester.io.reading.pose_table import (
 from burmester.io.reading.stated_tolerances import FREE_WORDS, TOLERANCE_ROLES, free_components
 from burmester.io.reading.tables.cell_numbers import CellNumbers
 from burmester.io.reading.tables.column_words import known
-from burmester.io.reading.tables.columns_together import (
+from burmester.io.reading.tables.grid import SEPARATOR_NAMES, Grid, Row, rows_of, split_cells
+from burmester.io.reading.tables.header import (
     MAX_COSINE,
     direction_notes,
     height_notes,
+    read_header,
     require_directions,
 )
-from burmester.io.reading.tables.grid import SEPARATOR_NAMES, Grid, Row, rows_of, split_cells
-from burmester.io.reading.tables.header import read_header
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.traced_path import TracedPath

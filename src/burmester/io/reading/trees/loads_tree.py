@@ -19,25 +19,30 @@ duration_s = 2
 
 from __future__ import annotations
 
+import csv
 import os
 from collections.abc import Iterator
 from functools import partial
 from typing import Any, Final
 
+from burmester.errors import InputError
+from burmester.io.files import open_plain
 from burmester.io.reading.outlines.outline_file import FROM_PAGE, folder_of
-from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
-from burmester.io.reading.trees.schema import (
+from burmester.io.reading.trees.node import (
     ABOVE_ZERO,
     NOT_NEGATIVE,
     NUMBER,
     PAIR,
     TEXT,
+    Field,
+    Fields,
+    Node,
     Schema,
     one_or_more,
+    table_schema,
     words,
 )
-from burmester.io.reading.trees.schema import listed as listed_of
-from burmester.io.time_table import times_of_file
+from burmester.io.reading.trees.node import listed as listed_of
 from burmester.tasks.loads import (
     BODY,
     DENSITIES,
@@ -55,6 +60,7 @@ from burmester.tasks.loads import (
     Mass,
     Plates,
     Spring,
+    malformed,
 )
 from burmester.wording import listed
 
@@ -70,6 +76,10 @@ _SPRING_HELP = (
     f"a spring has kind, one of {listed([*NEEDED])}; ground_point and body_point, or from and to "
     "with link and point each; the numbers of its kind, and count"
 )
+
+
+MAX_BYTES = 1_000_000
+HELP = "give the columns time_s, and pose (names or numbers) or driver_deg (degrees)"
 
 
 def _gravity(node: Node) -> Any:
@@ -377,3 +387,28 @@ def _spring_data(spring: Spring) -> dict[str, Any]:
         ends = {"from": one, "to": two}
         data |= {key: {"link": end.link, "point": list(end.point)} for key, end in ends.items()}
     return data | dict(spring.numbers) | {"count": spring.count}
+
+
+def times_of_file(path: str) -> list[tuple[float, str | float]]:
+    """The rows of a CSV file for `Drive.through`; raises E101 and E177."""
+    try:
+        with open_plain(path, "rb") as data:
+            text = data.read(MAX_BYTES).decode("utf-8-sig")
+        head, *rows = [row for row in csv.reader(text.splitlines()) if any(row)] or [[]]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        why = getattr(error, "strerror", None) or str(error)
+        raise InputError("E101", f"{path} cannot be read", why=why, help=HELP) from None
+    names = [each.strip() for each in head]
+    place = next((each for each in ("pose", "driver_deg") if each in names), None)
+    if "time_s" not in names or place is None:
+        raise malformed(f"{path} is no table of times", f"its columns are {names}", HELP)
+    at = names.index("time_s"), names.index(place)
+    out = list[tuple[float, str | float]]()
+    for number, row in enumerate(rows, start=2):
+        try:
+            time, there = (row[k].strip() for k in at)
+            out.append((float(time), there if place == "pose" else float(there)))
+        except (ValueError, IndexError):
+            message = f"{path}, row {number}: {','.join(row)!r} is no time with its {place}"
+            raise malformed(message, help=HELP) from None
+    return out

@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
-from typing import Any, NamedTuple, TypeAlias, TypeVar
+from typing import Any, Final, NamedTuple, TypeAlias, TypeVar
 
 from burmester.errors import InputError
 from burmester.io.reading.specification import LIMITS, REQUIREMENTS
 from burmester.io.reading.trees.locations import Document, Path, close_match
-from burmester.io.reading.trees.schema import FLAG, NUMBER, PAIR, TEXT, Schema
 from burmester.tasks.option_table import TOP_KEYS
 
 T = TypeVar("T")
 NUMBER_HELP = "write a number without quotes, with a point for its decimal mark"
+
+
+Schema: TypeAlias = dict[str, Any]
+
+NUMBER: Final[Schema] = {"type": "number"}
+NOT_NEGATIVE: Final[Schema] = {"type": "number", "minimum": 0}
+ABOVE_ZERO: Final[Schema] = {"type": "number", "exclusiveMinimum": 0}
+TEXT: Final[Schema] = {"type": "string"}
+FLAG: Final[Schema] = {"type": "boolean"}
+BOUNDS: Final = {"least": "minimum", "above": "exclusiveMinimum", "below": "exclusiveMaximum"}
 
 
 class Node(NamedTuple):
@@ -191,6 +200,14 @@ class Field(NamedTuple):
         return self.schema or _OF_READERS[self.read]
 
 
+def listed(item: Schema, least: int = 0, most: int | None = None) -> Schema:
+    """A list of items, at least and at most so many."""
+    out: Schema = {"type": "array", "items": item}
+    out |= {"minItems": least} if least else {}
+    return out if most is None else out | {"maxItems": most}
+
+
+PAIR: Final[Schema] = listed(NUMBER, 2, 2)
 _OF_READERS: dict[Callable[[Node], Any], Schema] = {
     Node.number: NUMBER,
     Node.digits: NUMBER,
@@ -210,3 +227,26 @@ def table_schema(fields: Fields, **more: Any) -> Schema:
         for key, field in fields.items()
     }
     return {"type": "object", "properties": keys, "additionalProperties": False, **more}
+
+
+def words(known: Iterable[str]) -> Schema:
+    """One of the words, as it is written."""
+    return {"enum": [*known]}
+
+
+def any_case(known: Iterable[str]) -> Schema:
+    """One of the words in letters of any case, with hyphens or blanks; editors propose these."""
+    known = [*known]
+    patterns = ("".join(map(_any_case, word)) for word in known)
+    pattern = f"^[ -]*(?:{'|'.join(patterns)})[ -]*$"
+    return {"type": "string", "anyOf": [words(known), {"pattern": pattern}]}
+
+
+def _any_case(letter: str) -> str:
+    both = letter.lower() + letter.upper()
+    return f"[{both}]" if letter.isalpha() else "[ -]+" if letter in " -" else letter
+
+
+def one_or_more(item: Schema, least: int = 0, most: int | None = None) -> Schema:
+    """An item alone, or a list of such."""
+    return {"anyOf": [item, listed(item, least, most)]}

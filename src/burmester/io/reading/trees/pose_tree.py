@@ -36,18 +36,21 @@ from burmester.io.reading.specification import (
 )
 from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance, StatedTolerances
 from burmester.io.reading.trees.locations import Document, close_match
-from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
-from burmester.io.reading.trees.schema import (
+from burmester.io.reading.trees.node import (
     ABOVE_ZERO,
     NOT_NEGATIVE,
     NUMBER,
     PAIR,
     TEXT,
+    Field,
+    Fields,
+    Node,
     Schema,
     any_case,
+    table_schema,
     words,
 )
-from burmester.io.reading.trees.schema import listed as listed_of
+from burmester.io.reading.trees.node import listed as listed_of
 from burmester.tasks.option_table import TABLES, TOP_KEYS
 from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.traced_path import TracedPath

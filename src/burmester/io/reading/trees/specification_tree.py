@@ -33,20 +33,23 @@ from burmester.io.reading.specification import (
     StatedRequirement,
     checked_requirement,
 )
-from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
-from burmester.io.reading.trees.schema import (
+from burmester.io.reading.trees.node import (
     ABOVE_ZERO,
     BOUNDS,
     FLAG,
     NOT_NEGATIVE,
     NUMBER,
     PAIR,
+    Field,
+    Fields,
+    Node,
     Schema,
     any_case,
     one_or_more,
+    table_schema,
     words,
 )
-from burmester.io.reading.trees.schema import listed as listed_of
+from burmester.io.reading.trees.node import listed as listed_of
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.requirement import Number, Requirement
 from burmester.requirements.table import ASKED

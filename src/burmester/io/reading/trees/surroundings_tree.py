@@ -20,8 +20,15 @@ from burmester.errors import Advice, InputError
 from burmester.geometry.regions import Polygon
 from burmester.io.reading.outlines.outline_file import OutlineFile, folder_of, read_outline
 from burmester.io.reading.specification import StatedSurroundings
-from burmester.io.reading.trees.node import Field, Fields, Node, table_schema
-from burmester.io.reading.trees.schema import NOT_NEGATIVE, PAIR, one_or_more
+from burmester.io.reading.trees.node import (
+    NOT_NEGATIVE,
+    PAIR,
+    Field,
+    Fields,
+    Node,
+    one_or_more,
+    table_schema,
+)
 from burmester.io.reading.trees.specification_tree import SHAPE_FIELDS, read_region
 from burmester.tasks.surroundings import MAX_REGIONS, KeepOut, Surroundings
 
