@@ -32,7 +32,7 @@ from burmester.errors import BurmesterError, InputError
 from burmester.export import FORMATS as EVERY
 from burmester.export import Options, export
 from burmester.export.drawings.sheet import laid_lengthwise
-from burmester.export.parts.outlines import distances
+from burmester.export.parts.plate import distances
 from burmester.export.parts.plates import assembly_of
 from burmester.export.parts.stock import stock_for
 from burmester.fourbar.dyad import PR

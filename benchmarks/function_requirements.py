@@ -24,7 +24,7 @@ from burmester.fourbar.linkage import TYPE_OF_SIGNS
 from burmester.functions.critical_generators import critical_generators
 from burmester.functions.exact_pairs import generators_of_phases
 from burmester.functions.nearest_generators import FurtherStarts
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import concatenate
 from burmester.synthesis.function_generation import generate_function
 from burmester.tasks.function_task import FunctionTask, SampledFunction, even_spacing
 from burmester.tasks.requirements import Requirements

@@ -31,7 +31,7 @@ SOLVERS = (
     "synthesis.function_generation.generate_function",
     "synthesis.six_bars.synthesize_six_bars",
     "synthesis.judgement.judge_linkage",
-    "synthesis.six_bar_judgement.judge_six_bar",
+    "synthesis.six_bars.judge_six_bar",
 )
 FOLDER = "BURMESTER_SOLVED"  # a variable that names the folder with the answers of all workers
 

@@ -28,9 +28,9 @@ if TYPE_CHECKING:
     from burmester.api.linkage import ResultSixBar as ResultSixBar
     from burmester.api.result import Result as Result
     from burmester.api.saved import read_result as read_result
-    from burmester.api.six_bars import SixBarResult as SixBarResult
-    from burmester.api.six_bars import synthesize_six_bars as synthesize_six_bars
+    from burmester.api.synthesize import SixBarResult as SixBarResult
     from burmester.api.synthesize import synthesize as synthesize
+    from burmester.api.synthesize import synthesize_six_bars as synthesize_six_bars
     from burmester.certificates.certificate import certify as certify
     from burmester.certificates.certificate import certify_five as certify_five
     from burmester.diagnosis.checks import Diagnosis as Diagnosis
@@ -100,8 +100,7 @@ _OF_ROOMS = {
     "api.linkage": "ResultLinkage ResultSixBar",
     "api.result": "Result",
     "api.saved": "read_result",
-    "api.six_bars": "SixBarResult synthesize_six_bars",
-    "api.synthesize": "synthesize",
+    "api.synthesize": "SixBarResult synthesize synthesize_six_bars",
     "diagnosis.checks": "Diagnosis diagnose",
     "dyads.local_minima": "best_dyads",
     "errors": "BurmesterError InputError",

@@ -16,8 +16,8 @@ from benchmarks.batch_kills import campaign, command, strays
 from burmester import InputError
 from burmester.batch import manifest as manifests
 from burmester.batch import run
+from burmester.batch.manifest import read_summary
 from burmester.batch.out_folder import OutFolder
-from burmester.batch.summary import read_summary
 from tests.oracles.batches import PARTS, as_table, files_of, rows
 from tests.samples import samples
 

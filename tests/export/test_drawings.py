@@ -18,7 +18,7 @@ from burmester.errors import BurmesterError
 from burmester.export import Options
 from burmester.export.drawings import dxf, svg
 from burmester.export.drawings.sheet import laid_lengthwise
-from burmester.export.parts.outlines import distances
+from burmester.export.parts.plate import distances
 from burmester.export.parts.plates import assembly_of
 from burmester.geometry.regions import box
 from tests.oracles.common_tasks import in_line

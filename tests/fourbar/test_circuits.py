@@ -26,9 +26,8 @@ from burmester.fourbar.instantaneous import (
     velocity,
 )
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.linkage_batch import LinkageBatch, Transmission
 from burmester.fourbar.loop_closure import DrivenLoop
-from burmester.fourbar.transmission import Transmission
 from burmester.geometry.displacement import Displacement
 from tests.oracles.random_dyads import (
     CHANGE,

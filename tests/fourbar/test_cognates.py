@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from burmester.fourbar.cognates import cognates
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage import Linkage, cognates
 from tests.oracles.witness import misses, places, random_four_bar
 
 

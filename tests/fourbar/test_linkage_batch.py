@@ -10,7 +10,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import concatenate
 
 KINDS = (RR, PR, RP)
 PAIRS = list(itertools.product(KINDS, KINDS))

@@ -13,7 +13,7 @@ from burmester.functions.found_generator import found_generators
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import KeptRequirements
 from burmester.functions.nearest_generators import FurtherStarts
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import concatenate
 from burmester.requirements.links import LINK_RATIO
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.requirements.types import TYPE

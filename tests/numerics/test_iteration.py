@@ -7,8 +7,17 @@ import numpy as np
 import pytest
 from scipy.optimize import approx_fprime, least_squares, minimize
 
-from burmester.numerics.arrays import shares, unique_rows, weights_of_mean_one, weights_or_ones
-from burmester.numerics.bundles import concatenate, copied, put, take, where
+from burmester.numerics.arrays import (
+    concatenate,
+    copied,
+    put,
+    shares,
+    take,
+    unique_rows,
+    weights_of_mean_one,
+    weights_or_ones,
+    where,
+)
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.iteration import iterate, shortened
 from burmester.numerics.least_squares import Attempt, damped_descent

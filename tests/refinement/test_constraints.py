@@ -9,9 +9,8 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.instantaneous import transmission_angle
 from burmester.fourbar.linkage import Linkage, Links, grashof
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.linkage_batch import LeastTransmission, LinkageBatch, Transmission
 from burmester.fourbar.loop_closure import DrivenLoop
-from burmester.fourbar.transmission import LeastTransmission, Transmission
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Polygon, Segment
 from burmester.refinement.constraints import (

@@ -6,7 +6,7 @@ import pytest
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.regions import Point, Polygon, Segment, box
-from burmester.refinement.kept_rail import RailConstraint
+from burmester.refinement.kept_limits import RailConstraint
 from burmester.tasks.limits import Limits
 from burmester.tasks.rails import Rail
 

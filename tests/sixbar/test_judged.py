@@ -11,8 +11,7 @@ from burmester.mechanisms.branches import branches_of
 from burmester.mechanisms.circuits import circuits_of
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.sixbar.watt import WattLinkage
-from burmester.synthesis.six_bar_judgement import judge_six_bar, judged_at_poses
-from burmester.synthesis.six_bars import synthesize_six_bars
+from burmester.synthesis.six_bars import judge_six_bar, judged_at_poses, synthesize_six_bars
 from burmester.tasks.limits import Limits
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.pose_tolerances import PoseTolerances

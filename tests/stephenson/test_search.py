@@ -14,8 +14,7 @@ from burmester.sixbar.chain_search import search
 from burmester.sixbar.judged import judged_six_bar
 from burmester.sixbar.search_space import SearchSpace
 from burmester.sixbar.six_bars import CHOICES, SixBarOptions
-from burmester.synthesis.six_bar_judgement import judge_six_bar
-from burmester.synthesis.six_bars import synthesize_six_bars
+from burmester.synthesis.six_bars import judge_six_bar, synthesize_six_bars
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
 from tests.sixbar.tasks import REACH, TURNING, task, wandering

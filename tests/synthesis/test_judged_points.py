@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from burmester.errors import InputError
-from burmester.fourbar.cognates import cognates
 from burmester.fourbar.dyad import RR
-from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage import Linkage, cognates
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.given_linkage import OpenLink
 from burmester.synthesis.judgement import judge_linkage

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from burmester.curves.crank_linkages import linkages_of_five_points
-from burmester.describe.digits import worst_errors
-from burmester.fourbar.cognates import cognates
+from burmester.describe.dimensions import worst_errors
+from burmester.fourbar.linkage import cognates
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon

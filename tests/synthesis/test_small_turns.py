@@ -7,7 +7,7 @@ from benchmarks.small_turns import judged
 
 from burmester import Displacement, Task, synthesize
 from burmester.dyads import local_minima
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import take
 from burmester.synthesis import motion_generation
 from tests.oracles.small_turns import any_four_bar, driven, small_turn
 from tests.samples import samples

@@ -7,8 +7,7 @@ from burmester import synthesize
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point
-from burmester.tasks.frames import frames_of
-from burmester.tasks.limits import Limits
+from burmester.tasks.limits import Limits, frames_of
 from burmester.tasks.motion_task import Task, characteristic_length
 from tests.oracles.witness import random_four_bar, random_poses
 from tests.samples import samples

@@ -19,7 +19,7 @@ from burmester.io import linkage_data
 from burmester.io.result import synthesis_data
 from burmester.io.saved import read_result
 from burmester.synthesis.motion_generation import synthesize as whole_synthesis
-from burmester.verdicts.clearance_check import too_close
+from burmester.verdicts.limit_check import too_close
 from tests.oracles.clearance_sweep import Moved, sweep
 
 SCHEMA = Path(linkage_data.__file__).parent / "synthesis.schema.json"

@@ -15,7 +15,7 @@ from burmester.io.result import synthesis_data
 from burmester.synthesis.judgement import judge_linkage
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.degeneracy import degenerate_defects
+from burmester.verdicts.requirement_check import degenerate_defects
 
 # Boxes and a tolerance; the closest linkages had links of 0.05 and 0.1 mm, and were called usable.
 CONVEYOR = [

@@ -23,7 +23,7 @@ from burmester.sixbar.found import FoundSixBar
 from burmester.sixbar.watt import WattLinkage
 from burmester.synthesis.given_linkage import GivenDyad, OpenLink
 from burmester.synthesis.judgement import judge_linkage
-from burmester.synthesis.six_bar_judgement import SixBar, judge_six_bar
+from burmester.synthesis.six_bars import SixBar, judge_six_bar
 from burmester.tasks.motion_task import AngleUnit, Task
 from burmester.tasks.option_table import Norm
 from burmester.tasks.options import SynthesisOptions

@@ -7,8 +7,7 @@ from collections.abc import Container, Sequence
 from html import escape
 
 from burmester.describe.decimals import decimals_of_linkage
-from burmester.describe.digits import angle_error, degrees
-from burmester.describe.dimensions import dimensions_of
+from burmester.describe.dimensions import angle_error, degrees, dimensions_of
 from burmester.describe.quality_words import in_short
 from burmester.numerics.arrays import ROUNDING
 from burmester.tasks.length_per_radian import default_length_per_radian

@@ -11,11 +11,11 @@ if TYPE_CHECKING:
     from typing import Any
 
     from burmester.batch.job import run as run
+    from burmester.batch.manifest import Summary as Summary
+    from burmester.batch.manifest import read_summary as read_summary
     from burmester.batch.sample import Sample as Sample
-    from burmester.batch.summary import Summary as Summary
-    from burmester.batch.summary import read_summary as read_summary
 
-_ROOMS = {"Sample": "sample", "Summary": "summary", "read_summary": "summary", "run": "job"}
+_ROOMS = {"Sample": "sample", "Summary": "manifest", "read_summary": "manifest", "run": "job"}
 
 __all__ = ["Sample", "Summary", "read_summary", "run"]
 

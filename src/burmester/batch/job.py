@@ -17,12 +17,11 @@ from typing import TYPE_CHECKING, Any, final
 
 from burmester.batch.dispatch import Dispatch
 from burmester.batch.engines import Cluster, Engine, Processes, usual_workers
-from burmester.batch.manifest import Manifest, PartRecord
+from burmester.batch.manifest import Manifest, PartRecord, Summary, read_summary
 from burmester.batch.options import DEPTHS, BatchOptions, Depth
 from burmester.batch.out_folder import OutFolder
 from burmester.batch.parts import Part
 from burmester.batch.sources import Source, open_source
-from burmester.batch.summary import Summary, read_summary
 from burmester.errors import InputError
 
 if TYPE_CHECKING:

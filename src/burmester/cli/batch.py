@@ -103,7 +103,7 @@ def batch(
     Stopped at any time and started again by the same command, it goes on and ends with the same
     files.
     """
-    from burmester.batch.summary import read_summary
+    from burmester.batch.manifest import read_summary
 
     if show is not None:
         if tasks is not None or output is not None:

@@ -14,7 +14,7 @@ from burmester.wording import count
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from burmester.batch.summary import Summary
+    from burmester.batch.manifest import Summary
 
 SHOWN = 10  # failed tasks
 

@@ -428,7 +428,7 @@ def run_judgement(
         else:
             given_one = read_linkage(linkage, id, task.length_unit)
             if isinstance(given_one, Mechanism):
-                from burmester.synthesis.six_bar_judgement import judge_six_bar
+                from burmester.synthesis.six_bars import judge_six_bar
 
                 _refuse_options(("improve", "norm", "manufacturing_tolerance"), "take a four-bar")
                 return judge_six_bar(task, given_one, options)

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.curves.crank_linkages import SIZE, A, C, CrankLinkages, R
-from burmester.numerics.arrays import ComplexArray, FloatArray, pairs_of
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import ComplexArray, FloatArray, pairs_of, take
 from burmester.numerics.counted_draws import uniform_draws
 
 SEED = 20

@@ -23,11 +23,12 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import (
     FloatArray,
     complex_of,
+    concatenate,
     even_numbers,
     pairs_of,
+    take,
     weights_of_mean_one,
 )
-from burmester.numerics.bundles import concatenate, take
 from burmester.progress import goes_on, step
 from burmester.tasks.pose_sample import PoseSample
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from burmester.describe.digits import degrees
+from burmester.describe.dimensions import degrees
 from burmester.fourbar.dyad import PR
 from burmester.linkages.nearby_linkages import Move, greatest_move, moves
 from burmester.synthesis.result import JUDGED, Synthesis

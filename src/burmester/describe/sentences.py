@@ -8,16 +8,15 @@ from typing import Final
 
 from burmester.describe import quality_words, six_bar_words
 from burmester.describe.decimals import decimals_of_dyad
-from burmester.describe.digits import degrees, worst_errors
-from burmester.describe.dimensions import certain, decimals_of, sides_of
+from burmester.describe.dimensions import certain, decimals_of, degrees, sides_of, worst_errors
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks import notation
 from burmester.verdicts import explanation
 from burmester.verdicts.built_linkages import DRAWS
-from burmester.verdicts.clearance_check import clearance_in_words
+from burmester.verdicts.explanation import most_used
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.price_list import price_list
+from burmester.verdicts.limit_check import clearance_in_words
 from burmester.verdicts.quality import enough_transmission, rule
 from burmester.verdicts.ranking import (
     TRADE_GAIN,
@@ -26,8 +25,7 @@ from burmester.verdicts.ranking import (
     is_trade,
     states_tolerance,
 )
-from burmester.verdicts.tolerance_words import most_used
-from burmester.verdicts.tracing import Tracing
+from burmester.verdicts.tracing import Tracing, price_list
 from burmester.verdicts.uncertainty import pose_sigma
 from burmester.wording import figure, in_unit, least_angle, listed, spans, with_article
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from burmester.describe.digits import degrees
+from burmester.describe.dimensions import degrees
 from burmester.describe.load_words import load_notes
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
@@ -16,8 +16,7 @@ from burmester.tasks.notation import (
     length_of,
     pose_labels,
 )
-from burmester.verdicts.explanation import meets_exactly, worst_miss
-from burmester.verdicts.tolerance_words import percent
+from burmester.verdicts.explanation import meets_exactly, percent, worst_miss
 from burmester.wording import figure, least_angle, listed, with_article
 
 if TYPE_CHECKING:

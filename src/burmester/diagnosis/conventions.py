@@ -37,8 +37,7 @@ from burmester.diagnosis.sampson_fits import (
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ROUNDING, FloatArray, even_numbers
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import ROUNDING, FloatArray, concatenate, even_numbers
 from burmester.progress import time_for
 from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task

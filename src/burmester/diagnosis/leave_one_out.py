@@ -25,8 +25,7 @@ from burmester.fourbar.dyad import PP, Dyad
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch, row_of
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, median
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import FloatArray, concatenate, median, take
 
 MAX_POSES_ALL_LEFT_OUT = 30  # poses; of more only the suspects are left out, one at a time
 SAMPLE_SIZE = 60  # poses; the first fits to many poses are to a sample of about as many

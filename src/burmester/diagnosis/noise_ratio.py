@@ -30,8 +30,7 @@ from burmester.diagnosis.sampson_fits import (
 )
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import ROUNDING, FloatArray, concatenate, take
 from burmester.numerics.linear_algebra import matvec
 
 RATIOS = np.geomspace(0.05, 50.0, 13)  # radians per extent; every step counts the same beforehand

@@ -48,8 +48,7 @@ from burmester.fourbar.foot_points import newton_steps, rows_of
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
-from burmester.numerics.arrays import ROUNDING, FloatArray, even_numbers, median
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import ROUNDING, FloatArray, concatenate, even_numbers, median
 from burmester.progress import time_for
 from burmester.tasks.motion_class import MotionClass, classify_motion
 from burmester.tasks.motion_task import Task

@@ -17,8 +17,7 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.foot_points import foot_points, places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, median, weights_of_mean_one
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, median, take, weights_of_mean_one
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec, solve
 from burmester.refinement.least_error import refine

@@ -34,8 +34,7 @@ from burmester.diagnosis.sampson_fits import (
 )
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, median
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import FloatArray, concatenate, median
 
 FACTORS = np.array([each for factor in UNIT_FACTORS for each in (factor, 1 / factor)])  # (14,)
 USUAL_FACTOR_CHANCE = 0.75  # that a unit error is one of the first three factors, either way

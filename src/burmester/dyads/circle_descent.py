@@ -20,8 +20,7 @@ from burmester.dyads.geometric_fit import DIVISOR_FLOOR, NEGLIGIBLE_GAIN, circle
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, unique_index
-from burmester.numerics.bundles import where
+from burmester.numerics.arrays import FloatArray, unique_index, where
 from burmester.numerics.iteration import iterate, shortened
 from burmester.numerics.linear_algebra import matvec
 from burmester.progress import goes_on

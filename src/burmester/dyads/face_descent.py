@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from burmester.dyads.geometric_fit import DistanceFunction, GeometricFit, Point
 from burmester.dyads.limited_block import Block, face_numbers
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import put, take
+from burmester.numerics.arrays import FloatArray, put, take
 from burmester.numerics.iteration import iterate
 from burmester.numerics.linear_algebra import matvec
 

@@ -21,8 +21,7 @@ from burmester.dyads.least_powers import (
     pseudo_inverse,
 )
 from burmester.dyads.limited_block import Block
-from burmester.numerics.arrays import FloatArray, unique_rows
-from burmester.numerics.bundles import Bundle, concatenate, put, where
+from burmester.numerics.arrays import Bundle, FloatArray, concatenate, put, unique_rows, where
 from burmester.numerics.iteration import iterate
 from burmester.numerics.linear_algebra import matvec
 from burmester.polynomials.bilinear_fit import Parameters, Shape

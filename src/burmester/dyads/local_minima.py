@@ -22,8 +22,7 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray, shares
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import ComplexArray, FloatArray, concatenate, shares, take
 from burmester.tasks.limits import Limits
 from burmester.tasks.option_table import Norm
 from burmester.tasks.pose_sample import PoseSample

@@ -27,8 +27,7 @@ from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Face, Region
-from burmester.numerics.arrays import FloatArray, shares
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import FloatArray, concatenate, shares
 from burmester.numerics.linear_algebra import matvec
 from burmester.polynomials.bilinear_fit import (
     Condition,
@@ -38,8 +37,7 @@ from burmester.polynomials.bilinear_fit import (
     line_shape,
 )
 from burmester.polynomials.stationary_points import StationaryPoints
-from burmester.tasks.frames import frames_of, limits_in
-from burmester.tasks.limits import Limits
+from burmester.tasks.limits import Limits, frames_of, limits_in
 from burmester.tasks.option_table import Norm
 from burmester.tasks.rails import Rail
 from burmester.tasks.thin_regions import without_thin_regions

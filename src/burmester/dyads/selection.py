@@ -23,8 +23,7 @@ from burmester.fourbar.dyad import PP, PR, RP, RR, Dyad
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, dyads_of, row_of
 from burmester.geometry import constraint_manifold
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import ROUNDING, FloatArray, concatenate, take
 from burmester.tasks.motion_task import COARSE, Task, characteristic_length
 
 Fit: TypeAlias = Pencil | FivePoseDyads | BestDyads

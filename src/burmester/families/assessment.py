@@ -23,14 +23,12 @@ from burmester.fourbar.traversal import (
 )
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.pose_order import REPEATED_POSE_STEP, OrderTolerance
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take
-from burmester.requirements.figures import Figures
+from burmester.numerics.arrays import FloatArray, take
 from burmester.requirements.footprint import FOOTPRINT
+from burmester.requirements.requirement import Figures
 from burmester.requirements.table import excess
-from burmester.verdicts.degeneracy import MAX_SENSITIVITY
 from burmester.verdicts.quality import proportions
-from burmester.verdicts.requirement_check import figures_of, outside
+from burmester.verdicts.requirement_check import MAX_SENSITIVITY, figures_of, outside
 from burmester.verdicts.tolerances import sensitivity_bound
 
 FRAMES: Final = 17  # number of places along the range at which pivots are held against a footprint

@@ -18,8 +18,7 @@ from burmester.families.open_task import DyadFreedom, OpenTask, Trials
 from burmester.families.projection import projected
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import FloatArray, concatenate, take
 
 FEW: Final = 0.3  # share of the draws; where fewer arrive, their neighbours are drawn too
 NEAR: Final = 0.1  # lengths; how far such a neighbour starts from a dyad that arrived

@@ -21,8 +21,7 @@ from burmester.families.assessment import Assessment, assessed, costs
 from burmester.families.open_task import OpenTask, Trials
 from burmester.families.projection import projected
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, replaced, take
+from burmester.numerics.arrays import FloatArray, concatenate, replaced, take
 from burmester.progress import goes_on
 
 CHILDREN: Final = 12  # number of children of each population in a generation

@@ -26,8 +26,7 @@ from burmester.families.family import (
     spread_out,
 )
 from burmester.families.open_task import OpenTask, Trials
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import FloatArray, concatenate, take
 from burmester.progress import time_for
 from burmester.refinement.target import Target
 from burmester.requirements.table import without

@@ -28,8 +28,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.mechanisms.pose_order import BoolArray, OrderTolerance
 from burmester.mechanisms.transmission import DEAD_POINT_ANGLE
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import FloatArray, concatenate, take
 from burmester.requirements.footprint import FOOTPRINT
 from burmester.requirements.requirement import Bounds
 from burmester.requirements.table import keeps

@@ -16,7 +16,7 @@ from burmester.following.linkage_strands import LinkageStrands, NewLinkages
 from burmester.fourbar.dyad import PP
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import target_of
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import take
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.motion_class import classify_motion
 from burmester.tasks.motion_task import Task

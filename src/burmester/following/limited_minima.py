@@ -32,8 +32,7 @@ from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.fourbar.linkage_batch import row_of
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, shares
-from burmester.tasks.frames import limits_in
-from burmester.tasks.limits import Limits
+from burmester.tasks.limits import Limits, limits_in
 
 EXACT_ROUNDING = 1e-9  # relative; an exact pose that is missed by less is met
 

@@ -19,8 +19,7 @@ from burmester.dyads.limited_block import (
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.frames import limits_in
-from burmester.tasks.limits import Limits
+from burmester.tasks.limits import Limits, limits_in
 
 OUTSIDE = 1e-9  # lengths; a pivot that is farther outside its region has left it
 KEPT_BLOCKS = 16  # limits that are remembered with their faces

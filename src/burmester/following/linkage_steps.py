@@ -11,8 +11,7 @@ from burmester.dyads.limited_block import FaceConditions
 from burmester.following.minimum_step import saddle_system
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take, where
+from burmester.numerics.arrays import FloatArray, take, where
 from burmester.numerics.linear_algebra import matvec, solve_or_shortest
 from burmester.refinement.residuals import SIZE, Linearisation, Problem, State, linearised, secant
 

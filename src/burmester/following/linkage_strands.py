@@ -37,8 +37,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, replaced, take
+from burmester.numerics.arrays import FloatArray, concatenate, replaced, take
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.residuals import SIZE, Problem
 from burmester.refinement.target import Target

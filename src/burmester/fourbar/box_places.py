@@ -20,8 +20,7 @@ from burmester.fourbar.foot_points import places_of, wrapped
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.fourbar.nearest_places import Bracket, bracketed_least, places_at, sampled
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, take
 
 SAMPLES: Final = 128  # of each circuit, at least
 POSES_PER_BLOCK: Final = 64  # number of poses searched for at once; bounds the memory

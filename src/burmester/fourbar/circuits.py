@@ -40,8 +40,7 @@ from burmester.fourbar.loop_closure import (
     with_trailing_axes,
 )
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.numerics.bundles import put
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, put
 
 PLACES_PER_BLOCK = 8192  # places computed at once; their arrays fit the processor's cache
 # Step of the parameter (radians or a length) away from a change point, where a place is undefined.

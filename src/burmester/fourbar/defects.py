@@ -44,8 +44,7 @@ from burmester.mechanisms.pose_order import (
     OrderTolerance,
 )
 from burmester.mechanisms.transmission import DEAD_POINT_ANGLE
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import FloatArray, concatenate
 
 # Degrees.  A smaller distance from a dead point is not worth a number in a message.
 SHOWN_ANGLE: Final = 1e-4

@@ -20,17 +20,16 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.box_places import Boxes
 from burmester.fourbar.circuits import Circuits
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.linkage_batch import LinkageBatch, Transmission
 from burmester.fourbar.nearest_places import Bracket, bracketed_least, places_at, sampled
-from burmester.fourbar.transmission import Transmission
 from burmester.numerics.arrays import (
     ComplexArray,
     FloatArray,
     complex_of,
     even_numbers,
+    take,
     weights_or_ones,
 )
-from burmester.numerics.bundles import take
 
 SAMPLES: Final = 160  # of each circuit, at least
 MOST_LAID: Final = 60  # points that are laid by the shortest path; others go between these

@@ -34,8 +34,7 @@ from burmester.mechanisms.pose_order import (
     tolerated_step,
 )
 from burmester.mechanisms.transmission import DEAD_POINT_ANGLE
-from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
-from burmester.numerics.bundles import where
+from burmester.numerics.arrays import FloatArray, complex_of, where, wrapped_angle
 
 # Radians, and fractions of the greatest coordinate.  A place farther off the circuit than this is
 # not on it; near a change point rounding reaches 2e-8.

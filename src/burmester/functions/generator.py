@@ -18,8 +18,7 @@ from numpy.typing import NDArray
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.instantaneous import crossing_angle
 from burmester.fourbar.linkage import Linkage
-from burmester.numerics.arrays import FloatArray, wrapped_angle
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, take, wrapped_angle
 
 
 @final

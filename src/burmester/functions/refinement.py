@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from burmester.functions.generator import Generator
 from burmester.functions.kept_requirements import MOST_SIZE, SPARE, KeptRequirements
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import put, take
+from burmester.numerics.arrays import FloatArray, put, take
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.quadratic_program import SoftProgram

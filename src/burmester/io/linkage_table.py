@@ -16,8 +16,7 @@ from rich.text import Text
 from burmester.describe import sentences
 from burmester.describe.cognates import cognate_lines
 from burmester.describe.decimals import Decimals
-from burmester.describe.digits import links, worst_errors
-from burmester.describe.dimensions import certain, decimals_of, dimensions
+from burmester.describe.dimensions import certain, decimals_of, dimensions, links, worst_errors
 from burmester.describe.load_words import load_notes
 from burmester.describe.quality_words import in_short, quality_note
 from burmester.errors import Advice
@@ -27,8 +26,8 @@ from burmester.scene.linkage_scene import scene_at
 from burmester.synthesis.result import Synthesis
 from burmester.tasks import notation
 from burmester.verdicts import explanation
+from burmester.verdicts.explanation import share_texts
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.tolerance_words import share_texts
 from burmester.wording import count, figure, in_unit, least_angle
 
 LINKS = ("ground", "driver", "coupler", "follower")

@@ -37,8 +37,7 @@ from burmester.tasks.motion_class import MotionClass
 from burmester.tasks.motion_task import Task
 from burmester.tasks.rails import Rail
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.price_list import price_list
-from burmester.verdicts.tracing import Tracing
+from burmester.verdicts.tracing import Tracing, price_list
 
 if TYPE_CHECKING:  # few results hold any of these
     from burmester.certificates.certificate import Certificate

@@ -234,7 +234,7 @@ def _six_bars(
     """The six-bars of a result, judged anew, and where the file says otherwise."""
     from burmester.io.six_bar_file import six_bar_of
     from burmester.sixbar.six_bars import SixBarOptions, SixBars
-    from burmester.synthesis.six_bar_judgement import judged_at_poses
+    from burmester.synthesis.six_bars import judged_at_poses
 
     every = _by_id(tree, "found", "six_bars.")
     out: list[FoundSixBar] = []

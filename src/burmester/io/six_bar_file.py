@@ -32,7 +32,7 @@ import numpy as np
 from burmester.io.linkage_values import fault, number, pair
 from burmester.mechanisms.skeleton import Skeleton
 from burmester.printable import printable
-from burmester.synthesis.six_bar_judgement import KINDS
+from burmester.synthesis.six_bars import KINDS
 from burmester.values import shown
 from burmester.wording import listed
 

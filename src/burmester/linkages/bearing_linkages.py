@@ -20,8 +20,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import replaced
+from burmester.numerics.arrays import FloatArray, replaced
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import ConstraintSlopes, ConstraintValues

@@ -20,8 +20,7 @@ from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.further_pairs import MAX_POSES_SEARCHED
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import FloatArray, concatenate, take
 from burmester.refinement.defect_free_search import driving_sides, refined_on_branch
 from burmester.refinement.target import Target
 from burmester.verdicts.found_linkage import FoundLinkage, Pair

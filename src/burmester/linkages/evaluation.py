@@ -22,8 +22,7 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.judged_places import NearestPlaces, best_places
 from burmester.linkages.misses import Misses
-from burmester.numerics.arrays import FloatArray, even_numbers, weights_or_ones
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, even_numbers, take, weights_or_ones
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.target import Target
@@ -37,8 +36,7 @@ from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.clearance_check import clearance_of, too_close
-from burmester.verdicts.degeneracy import degenerate_defects
+from burmester.verdicts.explanation import in_words_of_tolerances
 from burmester.verdicts.found_linkage import (
     FoundLinkage,
     Pair,
@@ -46,17 +44,17 @@ from burmester.verdicts.found_linkage import (
     numbered_pair,
     with_driver_first,
 )
-from burmester.verdicts.limit_check import limit_violations
+from burmester.verdicts.limit_check import clearance_of, limit_violations, too_close
 from burmester.verdicts.quality import Quality
 from burmester.verdicts.ranking import ranked
 from burmester.verdicts.requirement_check import (
+    degenerate_defects,
     mistimed,
     places_between,
     standard_of,
     timing_error,
     violations,
 )
-from burmester.verdicts.tolerance_words import in_words_of_tolerances
 from burmester.verdicts.tolerances import sensitivity_bound, spread
 from burmester.verdicts.tracing import stray_defects, stray_shortcomings
 from burmester.verdicts.uncertainty import (

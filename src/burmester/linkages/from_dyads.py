@@ -30,8 +30,7 @@ from burmester.linkages.further_pairs import (
 )
 from burmester.linkages.judged_places import NearestPlaces, at_nearest
 from burmester.linkages.sound_linkages import sound_linkages, trade_offs
-from burmester.numerics.arrays import ROUNDING, FloatArray
-from burmester.numerics.bundles import replaced, take
+from burmester.numerics.arrays import ROUNDING, FloatArray, replaced, take
 from burmester.progress import goes_on, step, time_for
 from burmester.refinement.constraints import AllConstraints, Constraints
 from burmester.refinement.defect_free_search import (
@@ -40,14 +39,12 @@ from burmester.refinement.defect_free_search import (
     defect_free_linkages,
     on_more_poses,
 )
-from burmester.refinement.kept_limits import DyadLimitsConstraint
-from burmester.refinement.kept_rail import RailConstraint
+from burmester.refinement.kept_limits import DyadLimitsConstraint, RailConstraint
 from burmester.refinement.kept_timing import TimingConstraint
 from burmester.refinement.target import Target
 from burmester.refinement.tolerance_boxes import ToleranceBoxes
 from burmester.tasks.pose_sample import PoseSample
 from burmester.tasks.problem import SynthesisProblem, driving_side
-from burmester.verdicts.degeneracy import least_links
 from burmester.verdicts.explanation import by_nearness
 from burmester.verdicts.found_linkage import FoundLinkage, Pair
 from burmester.verdicts.ranking import (
@@ -58,6 +55,7 @@ from burmester.verdicts.ranking import (
     ranked,
     states_tolerance,
 )
+from burmester.verdicts.requirement_check import least_links
 from burmester.wording import count
 
 MAX_POSES_INTO_BOXES = 60  # refine on at most so many poses, evenly thinned

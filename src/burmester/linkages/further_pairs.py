@@ -21,8 +21,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.judged_places import at_nearest
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import FloatArray, concatenate
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.starts import (
     best_sliders,

@@ -15,8 +15,8 @@ from burmester.loads.equilibria import equilibria
 from burmester.loads.loaded_motion import LOOKS, LoadedLinkage, LoadedMotion
 from burmester.loads.peaks import with_peaks
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.figures import Figures
 from burmester.requirements.loads import OF_LOADS
+from burmester.requirements.requirement import Figures
 from burmester.requirements.table import violations
 from burmester.tasks.loads import Drive, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
@@ -82,7 +82,7 @@ class LoadFigures:
     pins: the greatest force of each, in N.
     stays: the poses, from 0, at which friction holds it, or nothing needs to.
     findings: springs that are longer or shorter than they allow.
-    measures: what is held to requirements, fields of `requirements.figures`.
+    measures: what is held to requirements, fields of `requirements.requirement`.
     """
 
     motion: LoadedMotion

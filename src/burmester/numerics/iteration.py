@@ -9,8 +9,7 @@ from typing import TypeAlias, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import Bundle, copied, put, row_count, take
+from burmester.numerics.arrays import Bundle, FloatArray, copied, put, row_count, take
 from burmester.progress import goes_on
 
 MAX_QUARTERINGS = 20  # trials of a step before it is given up, each a quarter of the one before

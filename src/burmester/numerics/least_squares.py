@@ -9,8 +9,7 @@ from typing import Generic, NamedTuple, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import Bundle, row_count, where
+from burmester.numerics.arrays import Bundle, FloatArray, row_count, where
 from burmester.numerics.iteration import iterate
 from burmester.numerics.linear_algebra import solve
 

@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from burmester.describe.digits import short
+from burmester.describe.dimensions import short
 from burmester.io.linkage_table import new_table
 from burmester.io.message import print_trimmed
 from burmester.paper.comparison import Section, Verdict

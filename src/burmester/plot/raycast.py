@@ -17,8 +17,7 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, take
 from burmester.plot.camera import Camera
 
 BLOCK = 1 << 13  # rays at a time, so that their data stay in the cache

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, concatenate, take
 from burmester.points.alt_burmester import UNKNOWNS, Positions, cognates, distinct, point_turns
 from burmester.points.path_tracking import ACCURACY, polished, tracked
 from burmester.points.start_systems import CASES, Case, start_system

@@ -10,8 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import ComplexArray, FloatArray, take
 from burmester.polynomials.bilinear_fit import Parameters, Shape
 from burmester.polynomials.elimination_template import Chart, chart, isotropic, template
 from burmester.polynomials.macaulay import column_ratio

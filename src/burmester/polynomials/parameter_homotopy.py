@@ -15,8 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import ComplexArray, FloatArray, take
 from burmester.numerics.linear_algebra import solve_or_shortest
 from burmester.polynomials.bilinear_fit import Parameters, Shape, equations, jacobian, newton_step
 

@@ -14,8 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, pin_distances
-from burmester.fourbar.transmission import LeastTransmission, Transmission
+from burmester.fourbar.linkage_batch import (
+    DIMENSIONS,
+    LeastTransmission,
+    LinkageBatch,
+    Transmission,
+    pin_distances,
+)
 from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray, complex_of, wrapped_angle
 from burmester.numerics.differences import DifferenceQuotients

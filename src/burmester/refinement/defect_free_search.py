@@ -17,12 +17,10 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.foot_points import foot_points, rows_of
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.linkage_batch import LinkageBatch, Transmission
 from burmester.fourbar.nearest_places import on_circuits
-from burmester.fourbar.transmission import Transmission
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, wrapped_angle
-from burmester.numerics.bundles import concatenate, replaced, take
+from burmester.numerics.arrays import FloatArray, concatenate, replaced, take, wrapped_angle
 from burmester.refinement.constraints import (
     CLEARANCE_ANGLE,
     SHORTEST_LINK,

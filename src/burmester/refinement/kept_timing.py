@@ -8,9 +8,8 @@ from typing import ClassVar, Self, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.linkage_batch import LinkageBatch
+from burmester.fourbar.linkage_batch import LinkageBatch, Transmission
 from burmester.fourbar.loop_closure import DrivenLoop
-from burmester.fourbar.transmission import Transmission
 from burmester.numerics.arrays import FloatArray, wrapped_angle
 from burmester.refinement.constraints import ConstraintSlopes, ConstraintValues
 from burmester.tasks.crank_timing import CrankTiming

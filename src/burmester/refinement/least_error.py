@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 from burmester.fourbar.foot_points import rows_of
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, take
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec, solve
 from burmester.refinement.constraints import Constraints

@@ -17,8 +17,7 @@ from burmester.fourbar.coupler_kernel import normal_parts
 from burmester.fourbar.foot_points import newton_steps, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, weights_of_mean_one
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, take, weights_of_mean_one
 from burmester.numerics.linear_algebra import matvec
 from burmester.refinement.constraints import Constraints
 

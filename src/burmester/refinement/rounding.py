@@ -23,11 +23,15 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.circuits import circuit_of
 from burmester.fourbar.foot_points import foot_points, rows_of
-from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
+from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch, Transmission
 from burmester.fourbar.nearest_places import on_circuits
-from burmester.fourbar.transmission import Transmission
-from burmester.numerics.arrays import FloatArray, weights_of_mean_one, weights_or_ones
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import (
+    FloatArray,
+    concatenate,
+    take,
+    weights_of_mean_one,
+    weights_or_ones,
+)
 from burmester.numerics.differences import DifferenceQuotients
 from burmester.numerics.integer_least_squares import closest_numbers, firmest_last
 from burmester.refinement.constraints import (

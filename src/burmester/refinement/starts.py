@@ -22,8 +22,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Point, Polygon, Region
 from burmester.numerics.arrays import FloatArray, shares, weights_of_mean_one
-from burmester.tasks.frames import limits_in
-from burmester.tasks.limits import Limits
+from burmester.tasks.limits import Limits, limits_in
 
 PROJECTION_STEPS = 12  # number of Newton's steps from the poses onto a linkage
 ON_LINKAGE = 1e-9  # residual, in lengths, of a place on the linkage

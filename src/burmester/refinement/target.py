@@ -16,8 +16,7 @@ from burmester.fourbar.nearest_places import on_circuits
 from burmester.fourbar.timed_places import places_at_turns
 from burmester.fourbar.traced_places import places_along
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, even_numbers, shares
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, even_numbers, shares, take
 from burmester.numerics.linear_algebra import matvec
 from burmester.refinement.constraints import (
     Constraints,

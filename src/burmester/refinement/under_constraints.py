@@ -13,8 +13,7 @@ from typing import NamedTuple, TypeAlias, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import put, take, where
+from burmester.numerics.arrays import FloatArray, put, take, where
 from burmester.numerics.least_squares import Attempt, damped_descent
 from burmester.numerics.linear_algebra import matvec
 from burmester.numerics.quadratic_program import SoftProgram

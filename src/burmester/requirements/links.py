@@ -17,7 +17,7 @@ from burmester.requirements.requirement import (
 from burmester.wording import figure
 
 if TYPE_CHECKING:
-    from burmester.requirements.figures import Figures
+    from burmester.requirements.requirement import Figures
 
 
 def _said(figures: Figures, bound: float, _unit: str) -> str:

@@ -23,7 +23,7 @@ from burmester.wording import listed
 
 if TYPE_CHECKING:
     from burmester.numerics.arrays import FloatArray
-    from burmester.requirements.figures import Figures
+    from burmester.requirements.requirement import Figures
 
 
 def _most(

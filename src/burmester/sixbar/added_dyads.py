@@ -19,8 +19,7 @@ from burmester.dyads.five_poses import dyads_of_five
 from burmester.fourbar.dyad import RR
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.circles import meeting
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, take
 from burmester.sixbar.watt import WattLinkage
 
 

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Line, Point, Region, Segment
-from burmester.numerics.arrays import FloatArray, complex_of
-from burmester.numerics.bundles import concatenate, take, where
+from burmester.numerics.arrays import FloatArray, complex_of, concatenate, take, where
 from burmester.progress import goes_on, time_for
 from burmester.requirements.table import excess, keeps, standard
 from burmester.requirements.transmission import TRANSMISSION

@@ -47,9 +47,8 @@ from burmester.sixbar.requirement_check import least_bars, shortcomings, violati
 from burmester.tasks.motion_task import Task
 from burmester.tasks.pose_tolerances import PoseTolerances
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.degeneracy import too_short
-from burmester.verdicts.explanation import too_far_from
-from burmester.verdicts.tolerance_words import outside
+from burmester.verdicts.explanation import outside, too_far_from
+from burmester.verdicts.requirement_check import too_short
 
 ALIKE = 1e-6  # sizes of the motion; errors that differ by less are one
 MERIT_DIGITS = 6  # decimals of a degree by which branches are compared

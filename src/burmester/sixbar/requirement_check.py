@@ -10,7 +10,7 @@ from burmester.errors import Finding
 from burmester.geometry.regions import Polygon, Region
 from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.figures import Figures
+from burmester.requirements.requirement import Figures
 from burmester.requirements.table import shortcomings as falls_short
 from burmester.requirements.table import standard
 from burmester.requirements.table import violations as violations_of
@@ -19,8 +19,8 @@ from burmester.tasks.limits import Limits
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of
 from burmester.tasks.problem import SynthesisProblem
-from burmester.verdicts.degeneracy import least_cranks, least_link
 from burmester.verdicts.limit_check import LIMIT_TOLERANCE, off_region, outside, wrong_length
+from burmester.verdicts.requirement_check import least_cranks, least_link
 
 
 def violations(linkage: SixBar, figures: Figures, task: Task, size: float) -> tuple[Finding, ...]:
@@ -80,7 +80,7 @@ def shortcomings(figures: Figures, size: float, task: Task) -> tuple[str, ...]:
 def least_bars(problem: SynthesisProblem, skeleton: Skeleton) -> FloatArray:
     """The least distances (b,) between joints of one link, in the order of the skeleton's bars.
 
-    A six-bar with a shorter one is degenerate (`verdicts.degeneracy`).
+    A six-bar with a shorter one is degenerate (`verdicts.requirement_check`).
     """
     least = dict.fromkeys(skeleton.bars, least_link(problem))
     arms = [skeleton.arm(pivot) for pivot in skeleton.drivers]

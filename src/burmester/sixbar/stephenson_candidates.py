@@ -22,8 +22,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.circles import meeting
 from burmester.mechanisms.transmission import least_transmission_angle
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, concatenate, take
 from burmester.sixbar.added_dyads import ThreeRChain, dyads_but, size_of, with_first_dyad
 from burmester.sixbar.candidates import Candidates, Conditions, box_diagonal, steps_along
 from burmester.sixbar.travel import along

@@ -16,8 +16,7 @@ from burmester.mechanisms.contract import drive_of
 from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.mechanisms.pose_order import PoseOrder, along_interval, around_circuit, smallest_arc
 from burmester.mechanisms.transmission import least_transmission_angle
-from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.bundles import take, where
+from burmester.numerics.arrays import ComplexArray, FloatArray, take, where
 from burmester.sixbar.watt import (
     WATT_I,
     Sides,

@@ -27,8 +27,7 @@ from burmester.mechanisms.circles import arccos_or_nan, meeting, side_of
 from burmester.mechanisms.contract import Locked, drive_of
 from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, take
 
 
 class Sides(NamedTuple):

@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.fourbar.linkage import TYPES
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import FloatArray, concatenate
 
 Codes = NDArray[np.int8]
 Indices = NDArray[np.intp]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from burmester.dyads.selection import CIRCLE, FIXED_LINE, KINDS, MOVING_LINE, Found
 from burmester.fourbar.dyad import PP, PR, line_direction_deg
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import concatenate, take
 from burmester.stacked.answers import Depth, DyadRows, LinkageRows, StackedAnswers, joined
 from burmester.stacked.dyads_of_stack import SOLVED, groups_of
 from burmester.stacked.pair_linkages import USABLE, Scales, pair_linkages

@@ -23,7 +23,7 @@ from burmester.dyads.sliders import OUT_OF_SIGHT, nearly_sliders
 from burmester.errors import InputError
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import RR
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import take
 from burmester.stacked.answers import Depth, DyadRows, Outcome, StackedAnswers, Status
 from burmester.stacked.task_stack import TaskStack
 from burmester.synthesis.dyad_search import (

@@ -19,13 +19,12 @@ from burmester.fourbar.linkage_batch import DYAD_KINDS, LinkageBatch, pin_distan
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import sizable
 from burmester.linkages.judged_places import NearestPlaces
-from burmester.numerics.arrays import FloatArray, shares, wrapped_angle
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import FloatArray, concatenate, shares, take, wrapped_angle
 from burmester.stacked.answers import LinkageRows
 from burmester.tasks.length_per_radian import lengths_per_radian
-from burmester.verdicts.degeneracy import MAX_SENSITIVITY, MIN_LINK_SHARE
 from burmester.verdicts.quality import reached
 from burmester.verdicts.ranking import DEFAULT_TOLERANCE
+from burmester.verdicts.requirement_check import MAX_SENSITIVITY, MIN_LINK_SHARE
 from burmester.verdicts.tolerances import sensitivity_bound
 
 PLACES_AT_ONCE = 1500  # of linkages computed together; their samples fit a cache

@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 from burmester.errors import InputError
 from burmester.fourbar.linkage import TYPES, Links, grashof_numbers
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
-from burmester.numerics.arrays import ComplexArray, FloatArray
-from burmester.numerics.bundles import put, take
+from burmester.numerics.arrays import ComplexArray, FloatArray, put, take
 from burmester.numerics.counted_draws import normal_draws, uniform_draws
 from burmester.stacked.task_stack import TaskStack
 from burmester.wording import listed

@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, take
 from burmester.tasks.motion_task import MOST, MOST_RATIO, MOST_TURN, Task
 from burmester.values import real_numbers
 

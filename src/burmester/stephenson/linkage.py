@@ -14,8 +14,7 @@ import numpy as np
 
 from burmester.mechanisms.contract import Locked
 from burmester.mechanisms.skeleton import Frames, Skeleton, distance, seen_along
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of, take
 from burmester.stephenson.chain import EXCHANGED, JOINTS, TURNED_OVER, Chain, inserted
 from burmester.stephenson.standstill import standstill
 

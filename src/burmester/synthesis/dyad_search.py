@@ -30,7 +30,7 @@ from burmester.dyads.selection import (
     same_dyads,
 )
 from burmester.errors import InputError
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import take
 from burmester.tasks.limits import Limits
 from burmester.tasks.motion_kinds import MotionKind
 from burmester.tasks.motion_task import CONDITIONS, Task

@@ -17,8 +17,14 @@ from burmester.cures import Cure, Help
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.regions import Polygon
 from burmester.requirements.footprint import FOOTPRINT
-from burmester.synthesis.cleared_region import cleared
-from burmester.synthesis.wider_region import DIGITS, plain, region_text, wider, wider_all_around
+from burmester.synthesis.wider_region import (
+    DIGITS,
+    cleared,
+    plain,
+    region_text,
+    wider,
+    wider_all_around,
+)
 from burmester.tasks.limits import KINDS
 from burmester.tasks.motion_task import Task
 from burmester.tasks.stated_limits import PIVOTS, StatedLimit, with_limits

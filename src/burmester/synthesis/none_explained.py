@@ -22,9 +22,9 @@ from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.progress import time_for
 from burmester.requirements.table import without as looser
-from burmester.synthesis.cleared_region import bars_clear
 from burmester.synthesis.loosening import Loosening, loosened, loosened_all_around
 from burmester.synthesis.result import Synthesis
+from burmester.synthesis.wider_region import bars_clear
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import poses_in_words
 from burmester.tasks.options import SynthesisOptions

@@ -21,8 +21,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.linkages.bearing_linkages import bearing_linkages
 from burmester.linkages.evaluation import Candidates, Evaluation, with_own_dyads
 from burmester.linkages.from_dyads import target_of
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, take
 from burmester.progress import step
 from burmester.requirements.poses import ANY_ORDER, WITHIN
 from burmester.requirements.requirement import above
@@ -46,7 +45,6 @@ from burmester.tasks.requirements import Requirements
 from burmester.tasks.traced_path import TracedPath
 from burmester.verdicts.explanation import hints, in_short
 from burmester.verdicts.found_linkage import FoundLinkage, numbered_pair
-from burmester.verdicts.price_list import MET, price_list
 from burmester.verdicts.ranking import (
     DEFAULT_TOLERANCE,
     ERROR_RATIO,
@@ -54,7 +52,7 @@ from burmester.verdicts.ranking import (
     only_too_far,
     ranked,
 )
-from burmester.verdicts.tracing import Tracing, nearest_both_ways, strays
+from burmester.verdicts.tracing import MET, Tracing, nearest_both_ways, price_list, strays
 from burmester.wording import count, figure
 
 # A sound linkage sets it if it misses by no more than that share of the path's span, or by no more

@@ -17,14 +17,19 @@ from numpy.typing import NDArray
 from burmester.curves.crank_linkages import CrankLinkages, linkages_of_five_points
 from burmester.curves.curve_descent import CurveFit
 from burmester.curves.path_fit import PathSearch
-from burmester.fourbar.cognates import cognates
-from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.linkage import Linkage, cognates
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Evaluation
 from burmester.linkages.from_dyads import target_of
-from burmester.numerics.arrays import FloatArray, complex_of, even_numbers, pairs_of
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import (
+    FloatArray,
+    complex_of,
+    concatenate,
+    even_numbers,
+    pairs_of,
+    take,
+)
 from burmester.points.point_sets import line_or_circle
 from burmester.points.real_linkages import linkages_through
 from burmester.progress import goes_on, step, time_for

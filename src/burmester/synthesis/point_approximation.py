@@ -21,8 +21,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.linkages.from_dyads import target_of
-from burmester.numerics.arrays import FloatArray, even_numbers
-from burmester.numerics.bundles import concatenate
+from burmester.numerics.arrays import FloatArray, concatenate, even_numbers
 from burmester.points.real_linkages import linkages_through
 from burmester.points.start_systems import CASES
 from burmester.progress import step

@@ -16,7 +16,7 @@ from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses, with_own_dyads
 from burmester.linkages.from_dyads import target_of
-from burmester.numerics.bundles import where
+from burmester.numerics.arrays import where
 from burmester.points.point_sets import MOST_MET, PointSet, point_set
 from burmester.points.real_linkages import PointLinkages, linkages_through
 from burmester.progress import step

@@ -15,8 +15,7 @@ from burmester.geometry.regions import Polygon
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import printable
 from burmester.tasks.crank_timing import CrankTiming
-from burmester.tasks.frames import frames_of
-from burmester.tasks.limits import Limits
+from burmester.tasks.limits import Limits, frames_of
 from burmester.tasks.loads import Loads, require_possible_loads
 from burmester.tasks.pose_tolerances import COMPONENTS, PoseTolerances, kept, nominal_rows
 from burmester.tasks.requirements import Requirements, require_loads, require_possible

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import take
+from burmester.numerics.arrays import FloatArray, take
 from burmester.tasks.motion_class import MAX_COUNTED_POSES
 from burmester.tasks.motion_task import CONDITIONS
 from burmester.tasks.rotation_fit import RotationFit, residual_of_turn

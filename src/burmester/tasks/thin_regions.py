@@ -9,8 +9,7 @@ import numpy as np
 
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.geometry.regions import Region, narrowed
-from burmester.tasks.frames import frames_of
-from burmester.tasks.limits import Limits
+from burmester.tasks.limits import Limits, frames_of
 from burmester.tasks.motion_task import CONDITIONS, Task
 
 # Characteristic lengths, or a share of the way to a farther corner.  Four times the distance at

@@ -23,8 +23,7 @@ from burmester.fourbar.foot_points import foot_points, places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, DYAD_KINDS, LinkageBatch
 from burmester.fourbar.nearest_places import on_circuits
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import FloatArray, concatenate, take
 from burmester.verdicts.uncertainty import line_middle
 
 DRAWS = 1000  # number of linkages built at random

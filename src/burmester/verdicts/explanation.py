@@ -4,29 +4,37 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from burmester.cures import Cure, Help, for_command
 from burmester.errors import Finding
+from burmester.fourbar.defects import Verdict
 from burmester.fourbar.pose_error import PoseError
-from burmester.numerics.arrays import ROUNDING
+from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.requirements.loads import KINDS_OF_LOADS
 from burmester.requirements.poses import ANY_ORDER, WITHIN, WITHIN_ANGLE
 from burmester.requirements.requirement import above
 from burmester.requirements.table import cured
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.tasks.motion_task import CONDITIONS, Task
-from burmester.tasks.notation import length_of, poses_in_words
+from burmester.tasks.notation import length_of, pose_labels, poses_in_words
+from burmester.tasks.pose_tolerances import COMPONENTS
 from burmester.tasks.problem import SynthesisProblem
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.judged_linkage import LinkageAtPoses
-from burmester.wording import figure
+from burmester.wording import figure, listed
 
 MAX_NAMED_POSES = 3  # number of poses that a reason names; more are counted
 MOST_TURN = math.pi / 2  # radians; a crank that is off by more is no crank at these angles
 SPRING_HELP = "let a spring help: burmester balance looks for one"
 MAX_HINTS = 2  # number of linkages, with options that would make them usable, in one hint
+
+
+SHARE_DIGITS = 6  # decimals by which shares are compared: of equal ones the first is named
+MAX_NAMED = 3  # number of poses that a reason names; more are counted
 
 
 def meets_exactly(found: LinkageAtPoses, size: float) -> bool:
@@ -225,3 +233,73 @@ def below(value: float) -> str:
         return "0"
     step = 10.0 ** (math.floor(math.log10(value)) - 2)
     return f"{math.floor(value / step) * step:.3g}"
+
+
+def in_words_of_tolerances(verdict: Verdict, shares: FloatArray, names: Sequence[str]) -> Verdict:
+    """The verdict, its assembly defects said by the tolerances that are exceeded.
+
+    shares: (N, 3), of the tolerances that are used; names: of the poses.
+    """
+    defects = tuple(
+        replace(each, message=outside(each.poses, shares, names))
+        if each.kind == "assembly" and np.isfinite(shares[list(each.poses)]).all()
+        else each
+        for each in verdict.defects
+    )
+    return Verdict(defects, verdict.first, verdict.second)
+
+
+def outside(poses: Sequence[int], shares: FloatArray, names: Sequence[str]) -> str:
+    """Of which poses tolerances are exceeded, the most exceeded one by how much.
+
+    shares: (N, 3), of the tolerances that are used; names: of all poses.
+    """
+    shares = np.round(shares, SHARE_DIGITS)
+    poses = sorted(poses, key=lambda pose: -shares[pose].max())
+    worst, component = poses[0], int(shares[poses[0]].argmax())
+    text = f"outside the tolerance of pose {names[worst]} ({COMPONENTS[component]} is off by "
+    text += f"{figure(float(shares[worst, component]))} times its tolerance)"
+    if not (others := [names[pose] for pose in sorted(poses[1:])]):
+        return text
+    if len(others) > MAX_NAMED:
+        return f"{text}, and of {len(others)} more"
+    return f"{text}, and of pose{'s' * (len(others) > 1)} {listed(others)}"
+
+
+def most_used(found: FoundLinkage, task: Task) -> str:
+    """How much of the tolerances a linkage uses: "at most 83 % (x at pose 3)"."""
+    assert found.within_tolerance is not None
+    shares = np.where(_exact(task), 0.0, found.within_tolerance)
+    most = int(np.round(shares, SHARE_DIGITS).argmax())
+    pose, component = np.unravel_index(most, shares.shape)
+    noun = "point" if task.free_angles[pose] else "pose"
+    at = f"{noun} {pose_labels(task, [int(pose)])[0]}"
+    return f"at most {percent(float(shares.max()))} ({COMPONENTS[component]} at {at})"
+
+
+def share_texts(found: FoundLinkage, task: Task) -> list[tuple[str, str, str]]:
+    """What each pose uses of its tolerances, x, y and angle: "83 %", "exact", "free"."""
+    assert found.within_tolerance is not None
+    assert task.tolerances is not None
+    free, exact = task.tolerances.free, _exact(task)
+    out = []
+    for k, shares in enumerate(found.within_tolerance.tolist()):
+        x, y, angle = (
+            "free" if free[k, c] else "exact" if exact[k, c] and share <= 1 else percent(share)
+            for c, share in enumerate(shares)
+        )
+        out.append((x, y, angle))
+    return out
+
+
+def percent(share: float) -> str:
+    """A share in per cent, rounded up, so that 100 % is inside and 101 % is not."""
+    if not math.isfinite(share):
+        return "-"
+    whole = math.ceil(100 * share - 1e-6)
+    return f"{whole} %" if whole < 1000 else f"{figure(share)} times"
+
+
+def _exact(task: Task) -> NDArray[np.bool_]:
+    assert task.tolerances is not None
+    return task.tolerances.exact

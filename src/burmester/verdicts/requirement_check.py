@@ -1,9 +1,10 @@
-"""The figures of four-bars by which they are held to what is asked, and to the standard."""
+"""The figures of four-bars for what is asked and for the standard; degenerate ones."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -13,22 +14,28 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.defects import Driven
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import GRASHOF_SUMS, TYPES, Linkage, grashof_numbers
+from burmester.fourbar.linkage_batch import LinkageBatch, pin_distances
 from burmester.geometry.displacement import Displacement
-from burmester.geometry.regions import Polygon
+from burmester.geometry.regions import Point, Polygon
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.figures import Figures
 from burmester.requirements.links import CHANGE_POINT, EXTENT
-from burmester.requirements.requirement import Bounds, Requirement
+from burmester.requirements.requirement import Bounds, Figures, Requirement
 from burmester.requirements.table import standard
 from burmester.requirements.table import violations as violations_of
 from burmester.tasks.motion_task import Task
-from burmester.tasks.notation import span
+from burmester.tasks.notation import length_of, span
+from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.tasks.requirements import Requirements
 from burmester.wording import figure
 
 SAME_ANGLE = 1e-9  # radians; a body that turns by less has nothing but parallelograms
 FOOTPRINT_SAMPLES = 181  # number of places between the poses checked against the footprint
+
+
+MIN_LINK_SHARE: Final = 1 / 200  # spans of the motion; a shorter link makes no usable linkage
+# Position error at a pose per unit of error in all dimensions; a linkage above it is not usable.
+MAX_SENSITIVITY: Final = 100.0
 
 
 def figures_of(linkage: Linkage, transmission: ArrayLike, turns: ArrayLike) -> Figures:
@@ -133,3 +140,64 @@ def mistimed(inputs: FloatArray, task: Task, numbers: list[int]) -> tuple[Findin
     told = f"is {figure(away)}° off" if math.isfinite(away) else "is not at"
     text = f"its crank {told} its angle at pose {numbers[at] + 1}{given}"
     return (Finding("timing", f"{text}; {figure(math.degrees(timing.bound))}° is allowed"),)
+
+
+def least_link(problem: SynthesisProblem) -> float:
+    """The length of the shortest link of a usable linkage, in the task's unit."""
+    return MIN_LINK_SHARE * (span(problem.given) or problem.motion_size)
+
+
+def least_cranks(problem: SynthesisProblem) -> tuple[float, float]:
+    """The same of the dyads' own links: shorter where their limits state lengths as short."""
+    least, limits = least_link(problem), problem.given.limits
+    lengths = [each.length for each in (limits * 2)[:2]] or [(0.0, np.inf)] * 2
+    one, two = (min(least, low) if low > 0 or high < least else least for low, high in lengths)
+    return one, two
+
+
+def least_links(problem: SynthesisProblem) -> FloatArray:
+    """The least lengths (4,) of links as `pin_distances` has them.
+
+    Two pivots at points that the task states are as near to each other as it says.
+    """
+    limits = (problem.given.limits * 2)[:2]
+    fixed, moving = (
+        0.0 if pivots and all(isinstance(at, Point) for at in pivots) else least_link(problem)
+        for pivots in (
+            [each.fixed_pivot for each in limits],
+            [each.moving_pivot for each in limits],
+        )
+    )
+    return np.array([*least_cranks(problem), fixed, moving])
+
+
+def degenerate_defects(
+    batch: LinkageBatch, sensitivity: FloatArray, problem: SynthesisProblem
+) -> list[tuple[Finding, ...]]:
+    """For each of linkages (k,), in the task's own frames, why it is degenerate; () is sound.
+
+    sensitivity: (k,), as `quality.Quality` has it; nan where there is none.
+    """
+    lengths, least = pin_distances(batch), least_links(problem)
+    out = []
+    for length, each in zip(lengths, sensitivity, strict=True):
+        reasons = list(too_short(length, least, problem.given))
+        if each > MAX_SENSITIVITY:
+            # At a change point it is infinite but for rounding, and its digits say nothing.
+            times = f"up to {figure(each)}" if each < 1e6 else "over a million"
+            reasons.append(f"magnifies errors of its pivots and lengths {times} times at a pose")
+        out.append(tuple(Finding("degenerate", reason, ()) for reason in reasons))
+    return out
+
+
+def too_short(lengths: FloatArray, least: FloatArray, task: Task) -> Iterator[str]:
+    """That of links (b,) some are shorter than the least lengths, the shortest of these; or not."""
+    with np.errstate(invalid="ignore"):
+        short = np.where(lengths < least, lengths, np.inf)
+    if np.isfinite(short).any():
+        at = int(short.argmin())
+        share = f"1/{1 / MIN_LINK_SHARE:.0f}"
+        yield (
+            f"has a link of {length_of(float(lengths[at]), task)}, shorter than {share} of the "
+            f"motion's span ({length_of(float(least[at]), task)})"
+        )

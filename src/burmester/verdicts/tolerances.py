@@ -29,8 +29,7 @@ from burmester.fourbar.foot_points import (
 )
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray
-from burmester.numerics.bundles import concatenate, take
+from burmester.numerics.arrays import FloatArray, concatenate, take
 from burmester.progress import goes_on
 from burmester.verdicts.built_linkages import (
     DRAWS,

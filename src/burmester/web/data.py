@@ -13,8 +13,16 @@ from typing import Any
 import numpy as np
 
 from burmester.cures import Face, for_command, for_page
-from burmester.describe import digits, quality_words, sentences
-from burmester.describe.dimensions import decimals_of, dimensions, dyad_in_words
+from burmester.describe import quality_words, sentences
+from burmester.describe.dimensions import (
+    angle_error,
+    decimals_of,
+    dimensions,
+    dyad_in_words,
+    position_error,
+    worst_errors,
+)
+from burmester.describe.dimensions import links as links_of
 from burmester.describe.load_words import load_notes
 from burmester.describe.quality_words import improvements
 from burmester.dyads.selection import FoundDyad
@@ -30,8 +38,8 @@ from burmester.tasks import notation
 from burmester.tasks.motion_task import Task
 from burmester.tasks.requirements import Requirements
 from burmester.verdicts import explanation
+from burmester.verdicts.explanation import share_texts
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.verdicts.tolerance_words import share_texts
 from burmester.web.branches import Branches, branches_of
 from burmester.web.family_map import family_map
 from burmester.web.image_space import chart_of, space_of
@@ -172,17 +180,17 @@ def _linkage(
     task = synthesis.task
     tolerance = synthesis.options.manufacturing_tolerance
     branches = branches_of(found, task.poses, scene, frames)
-    worst, angle = digits.worst_errors(synthesis, found)
+    worst, angle = worst_errors(synthesis, found)
     first, second = found.dyads_driver_first
     data = linkage_data(found, tolerance)
     unit = f" {task.length_unit}" if task.length_unit else ""
     reasons = [] if found.usable else explanation.reasons(found, task)
     free = task.angles_are_free
-    turn = "free" if free else digits.angle_error(float(np.sqrt((found.error.angle**2).mean())))
-    rms = digits.position_error(synthesis, found.error.rms)
+    turn = "free" if free else angle_error(float(np.sqrt((found.error.angle**2).mean())))
+    rms = position_error(synthesis, found.error.rms)
     least = least_angle(found.driven.least_over_range)
     quality = quality_words.facts(found, task)
-    texts = digits.links(found, decimals_of(synthesis, found))
+    texts = links_of(found, decimals_of(synthesis, found))
     links = None if found.linkage.links is None else dict(zip(LINKS, texts, strict=True))
     freedom = _freedom(synthesis, found)
     verdict = "✓ usable" if found.usable else "✕ not usable"
@@ -328,8 +336,8 @@ def _pose_errors(
     for pose, at in enumerate(branches.at):
         turned, least = float(error.angle[pose]), transmission[pose]
         said = {
-            "position": digits.position_error(synthesis, float(error.position[pose])),
-            "turned": "free" if task.free_angles[pose] else digits.angle_error(turned),
+            "position": position_error(synthesis, float(error.position[pose])),
+            "turned": "free" if task.free_angles[pose] else angle_error(turned),
             "transmission": f"{least:.1f}°" if math.isfinite(least) else "-",
         }
         if used is not None:

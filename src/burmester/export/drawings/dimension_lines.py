@@ -15,8 +15,7 @@ from typing import Literal, Self, TypeAlias, final
 
 import numpy as np
 
-from burmester.export.parts.outlines import distances, points_on
-from burmester.export.parts.plate import Plate, moved
+from burmester.export.parts.plate import Plate, distances, moved, points_on
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 

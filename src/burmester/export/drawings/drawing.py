@@ -29,8 +29,7 @@ from burmester.export.drawings.sheet import (
     sheet_of,
 )
 from burmester.export.options import Options
-from burmester.export.parts.outlines import slot_outline
-from burmester.export.parts.plate import Plate, moved
+from burmester.export.parts.plate import Plate, moved, slot_outline
 from burmester.export.parts.plates import Assembly, assembly_of, pivots_of
 from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement

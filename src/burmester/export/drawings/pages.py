@@ -18,8 +18,7 @@ import numpy as np
 from burmester.cures import Cure, Help
 from burmester.errors import InputError
 from burmester.export.drawings.sheet import Laid, laid_lengthwise
-from burmester.export.parts.outlines import distances
-from burmester.export.parts.plate import outline_points
+from burmester.export.parts.plate import distances, outline_points
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import INCH, stock_for
 from burmester.numerics.arrays import FloatArray

@@ -27,8 +27,7 @@ from burmester.export.models.bodies import (
     shapes,
 )
 from burmester.export.options import Options
-from burmester.export.parts.outlines import slot_outline
-from burmester.export.parts.plate import SLOT_RUN_OUT
+from burmester.export.parts.plate import SLOT_RUN_OUT, slot_outline
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.export.reference import PRECISION, Reference, require_equal
 from burmester.geometry.outlines import outline_moments, rounded_hull

@@ -21,8 +21,7 @@ from burmester.errors import InputError
 from burmester.export.options import Options, unit_of
 from burmester.export.parts.dimensions import WALL, Dimensions, dimensions_of
 from burmester.export.parts.links import Arrangement, Links
-from burmester.export.parts.outlines import distances
-from burmester.export.parts.plate import Pin, Plate, plate_of
+from burmester.export.parts.plate import Pin, Plate, distances, plate_of
 from burmester.export.parts.stock import stock_for
 from burmester.export.reference import Reference
 from burmester.geometry.displacement import Displacement

@@ -12,8 +12,7 @@ from typing import Any, Final, NamedTuple
 
 import numpy as np
 
-from burmester.export.parts.outlines import slot_outline
-from burmester.export.parts.plate import Plate
+from burmester.export.parts.plate import Plate, slot_outline
 from burmester.export.parts.plates import Assembly
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.outlines import outline_moments, rounded_hull
