@@ -132,8 +132,11 @@ def test_the_outline_is_drawn_by_clicks_and_seen_at_every_pose(page):
     section(page, "body")
     page.locator("[data-do=delete-body]").click()
     assert page.locator(".bs-ghost").count() == 0
-    page.locator('[data-row="8"] .bs-index').click()  # it is drawn where the body is at pose 8
+    page.locator("[data-key=reference]").select_option(label="open")
+    page.locator('[data-row="2"] .bs-index').click()  # which is not where it is drawn
     page.locator("[data-draw=body]").click()
+    assert page.locator(".bs-line").inner_text().startswith("Drawn at pose open.")
+    assert page.locator(".bs-pose-name.bs-reference").text_content() == "open: drawn here"
     x, y, angle = pose(page, 8)
     c, s = math.cos(math.radians(angle)), math.sin(math.radians(angle))
     corners = [(20, 10), (120, 10), (120, 60), (70, 90)]

@@ -4,11 +4,12 @@ import { put } from "../widget/dom.mjs";
 
 const KEY = "burmester.studio", TAB = "burmester.studio.tab";
 const SOON = 400; // milliseconds of rest before it is kept
+const ROOM = 1_000_000; // characters of undo entries that a tab keeps
 
 export class Autosave {
   constructor(store) {
     this.store = store;
-    store.on("document", () => this.soon());
+    store.on("document chosen pinned filters picture", () => this.soon());
     store.connection.on("open", () => this.isOpen && this.soon()); // what the server missed
     addEventListener("pagehide", () => this.keep());
     document.addEventListener("visibilitychange", () => document.visibilityState === "hidden" && this.keep());
@@ -25,10 +26,10 @@ export class Autosave {
     if (!this.isOpen) return;
     this.isOpen = false;
     clearTimeout(this.timer);
-    const { document: task, options, name, settings, connection } = this.store, text = { document: task, options, name, settings };
+    const { document: task, options, name, settings, picture, filters, choice, history, connection } = this.store, text = { document: task, options, name, settings, picture };
     document.documentElement.dataset.kept = "true";
     try {
-      sessionStorage.setItem(KEY, JSON.stringify(text));
+      sessionStorage.setItem(KEY, JSON.stringify({ ...text, filters, choice, history: history.kept(ROOM) }));
     } catch {
       // a tab that keeps nothing, or is full: the server keeps it
     }

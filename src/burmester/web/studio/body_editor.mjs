@@ -4,7 +4,7 @@ import { put, s } from "../widget/dom.mjs";
 import { transform } from "../widget/drawing.mjs";
 import { hasGhost } from "../widget/outlines.mjs";
 import { px, radians } from "../widget/numbers.mjs";
-import { bodyOf, setBody, standing } from "./document.mjs";
+import { bodyOf, limitRegions, poseName, setBody, standing } from "./document.mjs";
 import { isOther } from "./pacing.mjs";
 import { Kept } from "./scene.mjs";
 import { ShapeHandles } from "./shape_handles.mjs";
@@ -12,20 +12,16 @@ import { ShapeTool } from "./shape_tool.mjs";
 
 const PALEST = 0.4; // how strong the first ghost is, of the last one
 
-/** The pose at which frame M is drawn on: the selected one, or the first. */
-export function referenceIndex(store) {
-  const { selection, document } = store;
-  if (selection?.kind === "pose" && selection.index < document.poses.length) store.reference = selection.index;
-  return Math.min(store.reference ?? 0, document.poses.length - 1);
-}
-
-/** The place of M at that pose. */
+/** The place of M at the pose at which it is drawn on. */
 export function referencePlace(store) {
-  const k = referenceIndex(store);
+  const k = store.referenceIndex;
   if (k < 0) return { x: 0, y: 0, a: 0 };
   const { x, y, angle } = standing(store.document, k);
   return { x, y, a: radians(angle) };
 }
+
+/** Where what belongs to the body is drawn, in words. */
+export const atReference = (store) => `Drawn at pose ${poseName(store.document, Math.max(0, store.referenceIndex))}`;
 
 export class BodyEditor {
   constructor(store, scene) {
@@ -41,15 +37,27 @@ export class BodyEditor {
       select: () => store.select({ kind: "body", index: 0 }),
       abandon: (gesture) => store.abandon(gesture),
     });
-    store.on("document selection", () => this.draw());
+    store.on("document selection reference", () => this.draw());
     scene.on("view", () => this.draw());
+    store.on("document selection", () => this.watch());
+    scene.on("tool", () => this.watch());
     this.draw();
   }
 
-  /** Of many poses the first, the last and the selected one have a ghost; the body itself moves with the linkage. */
+  /** While something of the body is drawn, or has its handles, the pose where that is stands out. */
+  watch() {
+    const { store, scene } = this, { selection, document } = store;
+    const isOfBody = selection?.kind === "body" || (selection?.kind === "limit" && limitRegions(document)[selection.index]?.key === "moving_pivot"), isOn = Boolean(scene.tool?.isOfBody || isOfBody);
+    if (isOn === store.isOnBody) return;
+    store.isOnBody = isOn;
+    scene.svg.classList.toggle("bs-on-body", isOn);
+    store.emit("reference");
+  }
+
+  /** Of many poses the first, the last and the selected ones have a ghost, and the one that is drawn at; the body itself moves with the linkage. */
   indices() {
-    const { document: { poses }, selection } = this.store, chosen = selection?.kind === "pose" ? selection.index : null;
-    return poses.map((_, k) => k).filter((k) => hasGhost(k, poses.length) || k === chosen);
+    const { document: { poses }, selectedPoses, referenceIndex } = this.store;
+    return poses.map((_, k) => k).filter((k) => hasGhost(k, poses.length) || selectedPoses.includes(k) || (k === referenceIndex && this.store.isOnBody));
   }
 
   draw() {
@@ -63,16 +71,17 @@ export class BodyEditor {
 
   showGhost(path, k) {
     const { view } = this.scene, { x, y, angle } = standing(this.store.document, k), last = Math.max(1, this.store.document.poses.length - 1);
+    path.classList.toggle("bs-reference", k === this.store.referenceIndex);
     if (!isOther(path, [view, x, y, angle, k / last, this.path])) return;
     put(path, "d", this.path);
     put(path, "opacity", (PALEST + ((1 - PALEST) * k) / last).toFixed(3));
     put(path, "transform", transform(view.X(x), view.Y(y), radians(angle)));
   }
 
-  /** Draw an outline by clicks, at the pose that is selected or the first one. */
+  /** Draw an outline by clicks, at the pose that was chosen for it. */
   tool() {
     return new ShapeTool(this.scene, {
-      shape: "polygon", name: "body", place: () => referencePlace(this.store),
+      shape: "polygon", name: "body", place: () => referencePlace(this.store), at: atReference(this.store),
       done: (points) => {
         this.store.edit((document) => setBody(document, points));
         this.store.select({ kind: "body", index: 0 });

@@ -81,6 +81,9 @@ export const addPose = (document, pose, index = document.poses.length) =>
 export const removePose = (document, index) =>
   settled(withCrank(withKeys(document, { poses: without(document.poses, index) }), (angles) => without(angles, index)));
 
+/** Several poses taken away at once. */
+export const removePoses = (document, indices) => [...indices].sort((a, b) => b - a).reduce(removePose, document);
+
 /** The angle of a pose; none makes it a point, whose angle is free. */
 export function setAngle(document, index, angle) {
   const free = angle === undefined, same = isPoint(document.poses[index]) === free;
@@ -187,7 +190,7 @@ export function standing({ poses }, index) {
 }
 
 /** What a pose is called: its name, or its number. */
-export const poseName = ({ poses }, index) => poses[index]?.name ?? String(index + 1);
+export const poseName = ({ poses }, index) => (poses[index]?.name ?? String(index + 1)).replace(/[\r\n\u2028\u2029]+/g, " ");
 
 /** The keys among these that the pose states: what is free is not set by moving it. */
 export const statedOf = (pose, changes) => Object.fromEntries(Object.entries(changes).filter(([key]) => Number.isFinite(pose[key])));

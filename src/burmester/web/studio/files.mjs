@@ -163,7 +163,7 @@ export class Files {
       const old = this.store.document;
       const { document, notes = [] } = await (await this.server.post("/read", { name: "pasted", text, columns, length_unit: old.length_unit, angle_unit: "deg" })).json();
       const beside = Object.fromEntries(BESIDE.filter((key) => old[key] !== undefined && document[key] === undefined).map((key) => [key, old[key]]));
-      this.store.replace({ document: withKeys(document, { length_unit: document.length_unit ?? old.length_unit }), options: this.store.options });
+      this.store.replace({ document: withKeys(document, { length_unit: document.length_unit ?? old.length_unit }), options: this.store.options, picture: this.store.picture });
       this.store.select(null);
       this.opened?.();
       this.banners.close("refused");

@@ -6,6 +6,9 @@ import { button } from "./fields.mjs";
 const KEYS = [
   ["Tab", "from handle to handle, field to field"],
   ["arrow keys", "move what has the focus by a step: a pose, the tip that turns it, a corner, a shape, a number; Shift: ten steps, Alt: a tenth"],
+  ["Shift, Alt", "while a hand drags: Shift holds an axis or steps of 15°, Alt frees it from what it snaps to"],
+  ["Shift and a click or a box", "selects several poses, which are moved, turned and deleted together"],
+  ["a digit", "after a drag: the number is typed beside the handle"],
   ["Delete", "removes the pose, the corner or the shape"],
   ["Enter", "closes an outline; puts a shape in the middle while it is drawn"],
   ["Escape", "gives up what is under way: a drag, a drawing, a selection"],

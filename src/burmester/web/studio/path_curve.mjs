@@ -96,8 +96,9 @@ export class PathTool {
     const { store, scene } = this, { view } = scene;
     const there = points.map(([X, Y]) => [scene.rounded(view.x(X)), scene.rounded(view.y(Y))]);
     const { document, options } = store;
-    if (isPath(document)) store.replace({ document: pathDocument(document, there, closed), options });
-    else store.replace({ document: pathDocument({ length_unit: document.length_unit, angle_unit: "deg", poses: [] }, there, closed), options, name: "path" });
+    const { picture } = store; // which may be what was drawn over
+    if (isPath(document)) store.replace({ document: pathDocument(document, there, closed), options, picture });
+    else store.replace({ picture, document: pathDocument({ length_unit: document.length_unit, angle_unit: "deg", poses: [] }, there, closed), options, name: "path" });
     store.select(null);
     scene.use(null);
     this.done?.(points.length, closed);

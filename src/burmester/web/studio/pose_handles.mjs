@@ -5,11 +5,12 @@ import { axes, transform } from "../widget/drawing.mjs";
 import { LETTER } from "../widget/mechanism.mjs";
 import { clamp, degrees, px, radians } from "../widget/numbers.mjs";
 import { shortened } from "../widget/tables.mjs";
-import { addPose, isPath, isPoint, poseName, removePose, setAngle, setPose, standing, statedOf } from "./document.mjs";
+import { addPose, isPath, isPoint, poseName, removePoses, setAngle, setPose, standing, statedOf } from "./document.mjs";
 import { stepOf, stepped } from "./fields.mjs";
 import { around } from "./name_places.mjs";
 import { isOther } from "./pacing.mjs";
 import { Kept } from "./scene.mjs";
+import { about, withPosesMoved } from "./task_transform.mjs";
 
 const LONGEST_ARM = 46; // pixels from the origin of a pose to the handle that turns it
 const SHORTEST_ARM = 27; // the same where poses are crowded
@@ -19,8 +20,6 @@ const ROOM = 14; // pixels from a handle to the next
 const NAME = 14; // pixels from the origin of a pose to its name
 const LONGEST_NAME = 18; // characters of a name that the drawing has room for
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-const tenths = (angle) => Number(angle.toFixed(1)) + 0;
-
 /** The angle nearest to another one that points the same way. */
 const unwrapped = (angle, near) => angle + 360 * Math.round((near - angle) / 360);
 
@@ -34,8 +33,8 @@ const strideOf = ({ poses }, scale) => {
 export function drawnPoses({ document, selection }, scale) {
   const { poses } = document, count = poses.length, all = [...poses.keys()];
   if (count <= FEW) return all;
-  const stride = strideOf(document, scale), chosen = selection?.kind === "pose" ? selection.index : -1;
-  return all.filter((k) => k % stride === 0 || k === count - 1 || k === chosen);
+  const stride = strideOf(document, scale), chosen = selection?.kind === "pose" ? selection.indices ?? [selection.index] : [];
+  return all.filter((k) => k % stride === 0 || k === count - 1 || chosen.includes(k));
 }
 
 export class PoseHandles {
@@ -46,8 +45,13 @@ export class PoseHandles {
     this.names = scene.layer("labels");
     this.kept = new Kept(this.element, (k) => this.make(k), (group, k) => this.show(group, k));
     this.labels = new Kept(this.names, () => s("text", { class: "bs-pose-name" }), (text, k) => this.showName(text, k));
-    store.on("document selection", () => this.draw());
+    store.on("document selection reference", () => this.draw());
     scene.on("view", () => this.draw());
+    scene.on("marquee", ([x, y, u, v]) => store.selectPoses([...store.document.poses.keys()].filter((k) => {
+      const at = standing(store.document, k);
+      return at.x >= x && at.x <= u && at.y >= y && at.y <= v;
+    })));
+    scene.on("key", (event) => store.selectedPoses.length > 0 && this.key(event, store.selection.index, false));
     scene.hold(() => store.document.poses.map((_, k) => standing(store.document, k)).map(({ x, y }) => [x, y]));
     scene.on("click", () => store.select(null));
     scene.names.avoid(() => this.obstacles());
@@ -79,7 +83,7 @@ export class PoseHandles {
     const group = s("g", { class: "bs-pose" }, s("path", { class: "bs-axes" }), origin, turn);
     this.dragOrigin(origin, k);
     this.dragTurn(turn, k);
-    for (const part of [origin, turn]) part.addEventListener("focus", () => this.store.select({ kind: "pose", index: k }));
+    for (const part of [origin, turn]) part.addEventListener("focus", () => this.touch(k));
     origin.addEventListener("keydown", (event) => this.key(event, k, false));
     turn.addEventListener("keydown", (event) => this.key(event, k, true));
     return group;
@@ -87,9 +91,9 @@ export class PoseHandles {
 
   show(group, k) {
     const { store, scene: { view } } = this, { x, y, angle } = standing(store.document, k), pose = store.document.poses[k];
-    const selected = store.selection?.kind === "pose" && store.selection.index === k, unit = store.document.length_unit ?? "", name = poseName(store.document, k);
+    const selected = store.selectedPoses.includes(k), isReference = store.referenceIndex === k, unit = store.document.length_unit ?? "", name = poseName(store.document, k);
     const point = isPoint(pose);
-    if (!isOther(group, [view, this.length, x, y, angle, Boolean(pose.exact), pose.name, name, unit, selected, point])) return;
+    if (!isOther(group, [view, this.length, x, y, angle, Boolean(pose.exact), pose.name, name, unit, selected, isReference, point])) return;
     const [arrow, origin, turn] = group.children;
     put(group, "transform", transform(view.X(x), view.Y(y), point ? 0 : radians(angle)));
     for (const part of [arrow, turn]) put(part, "display", point ? "none" : "inline");
@@ -97,6 +101,7 @@ export class PoseHandles {
     put(arrow, "d", axes(this.length - 8));
     put(turn, "transform", `translate(${px(this.length)} 0)`);
     group.classList.toggle("bs-selected", selected);
+    group.classList.toggle("bs-reference", isReference);
     group.classList.toggle("bs-exact", Boolean(pose.exact));
     const what = point ? "Point" : "Pose", called = pose.name ? `${what} ${k + 1}, ${name}` : `${what} ${k + 1}`;
     put(origin, "aria-label", `${called}: x ${x} ${unit}, y ${y} ${unit}, ${point ? "angle free" : `angle ${angle}°`}. Drag, or use the arrow keys; Delete removes it.`);
@@ -124,7 +129,9 @@ export class PoseHandles {
 
   /** Names stand behind the origin, away from the x axis, where there is room. */
   showName(text, k) {
-    const { store, scene } = this, { view } = scene, { x, y, angle } = standing(store.document, k), name = shortened(poseName(store.document, k), LONGEST_NAME);
+    const { store, scene } = this, { view } = scene, { x, y, angle } = standing(store.document, k), isHere = store.isOnBody && k === store.referenceIndex;
+    const name = `${shortened(poseName(store.document, k), LONGEST_NAME)}${isHere ? ": drawn here" : ""}`;
+    text.classList.toggle("bs-reference", k === store.referenceIndex);
     if (!isOther(text, [view, x, y, angle, name])) return;
     say(text, name);
     scene.names.put(text, view.X(x), view.Y(y), name, around(name, radians(angle + 215), NAME, scene.names.areMany));
@@ -135,19 +142,65 @@ export class PoseHandles {
     this.store.edit((document) => setPose(document, k, statedOf(document.poses[k], changes)), { gesture });
   }
 
+  /** A pose has the focus: it is selected, with those that were selected with it; Shift adds it when it is let go. */
+  touch(k) {
+    const { store, scene } = this;
+    if (scene.pressed?.shiftKey) return;
+    if (store.selectedPoses.includes(k)) store.selectPoses(store.selectedPoses, k);
+    else store.select({ kind: "pose", index: k });
+  }
+
+  /** A press that moved nothing. */
+  click(event, k) {
+    if (event.shiftKey) return this.store.selectAlso(k);
+    this.store.select({ kind: "pose", index: k });
+    return this.openField(k);
+  }
+
+  /** The poses that go along when one is taken hold of. */
+  heldWith(k) {
+    const { store } = this;
+    if (!store.selectedPoses.includes(k)) store.select({ kind: "pose", index: k });
+    return store.selectedPoses;
+  }
+
+  /** Its numbers beside it. */
+  openField(k) {
+    const { store, scene } = this, isThere = () => store.selectedPoses.includes(k), point = isPoint(store.document.poses[k]);
+    scene.field.open({
+      name: `pose ${k + 1}`, kind: "pose", at: () => isThere() && Object.values(standing(store.document, k)).slice(0, 2), values: () => standing(store.document, k),
+      fields: [["x", "x", "length"], ["y", "y", "length"], ...(point ? [] : [["angle", "angle °", "angle"]])], set: (changes) => this.set(k, changes, null),
+    });
+  }
+
+  /** Several poses moved as one, from where they were; what cannot be turned so stays. */
+  moveAll(before, indices, by, gesture) {
+    const next = withPosesMoved(before, indices, by);
+    if (next) this.store.edit((document) => ({ ...document, poses: next.poses }), { gesture });
+  }
+
   dragOrigin(element, k) {
     const { store, scene } = this;
-    let gesture, off, before, reach;
+    let gesture, off, before, reach, start, held;
     scene.drag(element, {
       start: (from) => {
         const { x, y } = standing(store.document, k);
         gesture = Symbol("move a pose");
+        start = [x, y];
         off = [x - from.x, y - from.y];
         before = store.document;
         reach = isPath(before) ? strideOf(before, scene.view.scale) : 1;
+        held = this.heldWith(k);
+        this.openField(k);
       },
-      move: (point) => reach > 1 ? this.bend(before, k, reach, [point.x + off[0] - before.poses[k].x, point.y + off[1] - before.poses[k].y], gesture) : this.set(k, { x: scene.rounded(point.x + off[0]), y: scene.rounded(point.y + off[1]) }, gesture),
+      move: (point, event) => {
+        const to = scene.snap.point([point.x + off[0], point.y + off[1]], { event, from: start, skip: (of) => held.some((each) => of.endsWith(`pose ${each}`)) });
+        if (held.length > 1) this.moveAll(before, held, { turn: 0, scale: 1, mirror: false, x: to[0] - start[0], y: to[1] - start[1] }, gesture);
+        else if (reach > 1) this.bend(before, k, reach, [to[0] - start[0], to[1] - start[1]], gesture);
+        else this.set(k, { x: to[0], y: to[1] }, gesture);
+      },
       cancel: () => store.abandon(gesture),
+      click: (event) => this.click(event, k),
     });
   }
 
@@ -163,7 +216,7 @@ export class PoseHandles {
 
   dragTurn(element, k) {
     const { store, scene } = this;
-    let gesture, off;
+    let gesture, off, before, held;
     const angleTo = (point) => {
       const { x, y } = standing(store.document, k);
       return degrees(Math.atan2(point.y - y, point.x - x));
@@ -171,30 +224,41 @@ export class PoseHandles {
     scene.drag(element, {
       start: (from) => {
         gesture = Symbol("turn a pose");
-        off = standing(store.document, k).angle - angleTo(from);
+        before = store.document;
+        held = this.heldWith(k);
+        off = standing(before, k).angle - angleTo(from);
+        this.openField(k);
       },
-      move: (point) => this.set(k, { angle: tenths(unwrapped(angleTo(point) + off, standing(store.document, k).angle)) }, gesture),
+      move: (point, event) => {
+        const { x, y, angle: now } = standing(store.document, k), angle = scene.snap.angle(unwrapped(angleTo(point) + off, now), [point.x, point.y], { event, skip: k });
+        if (held.length > 1) this.moveAll(before, held, about([x, y], { turn: angle - standing(before, k).angle }), gesture);
+        else this.set(k, { angle }, gesture);
+      },
       cancel: () => store.abandon(gesture),
+      click: (event) => this.click(event, k),
     });
   }
 
   key(event, k, turning) {
-    const { store, scene } = this, arrow = ARROWS[event.key];
-    if (event.ctrlKey || event.metaKey) return;
+    const { store, scene } = this, arrow = ARROWS[event.key], held = store.selectedPoses.includes(k) ? store.selectedPoses : [k];
+    if (event.ctrlKey || event.metaKey) return false;
     if (arrow) {
       if (!event.repeat) this.keyed = Symbol("keys"); // a key that is held is one gesture
       const { x, y, angle } = standing(store.document, k), by = stepOf(event, turning ? 1 : scene.step);
-      if (turning) this.set(k, { angle: stepped(angle, by * (arrow[0] === 0 ? arrow[1] : -arrow[0])) }, this.keyed);
+      if (held.length > 1 && turning) this.moveAll(store.document, held, about([x, y], { turn: by * (arrow[0] === 0 ? arrow[1] : -arrow[0]) }), this.keyed);
+      else if (held.length > 1) this.moveAll(store.document, held, { turn: 0, scale: 1, mirror: false, x: by * arrow[0], y: by * arrow[1] }, this.keyed);
+      else if (turning) this.set(k, { angle: stepped(angle, by * (arrow[0] === 0 ? arrow[1] : -arrow[0])) }, this.keyed);
       else this.set(k, { x: stepped(x, by * arrow[0]), y: stepped(y, by * arrow[1]) }, this.keyed);
     } else if (event.key === "Delete" || event.key === "Backspace") {
-      store.edit((document) => removePose(document, k));
-      const left = store.document.poses.length;
-      store.select(left ? { kind: "pose", index: Math.min(k, left - 1) } : null);
-      this.focus(Math.min(k, left - 1));
+      store.edit((document) => removePoses(document, held));
+      const left = store.document.poses.length, next = Math.min(held.length > 1 ? held[0] : k, left - 1);
+      store.select(left ? { kind: "pose", index: next } : null);
+      this.focus(next);
     } else {
-      return;
+      return false;
     }
     event.preventDefault();
+    return true;
   }
 
   focus(k) {
@@ -211,9 +275,9 @@ export class PointTool {
     this.hint = "Click where the body's point is to pass; how the body turns there is free. Escape ends.";
   }
 
-  click({ x, y }) {
-    const { store, scene } = this, index = store.document.poses.length;
-    store.edit((document) => setAngle(addPose(document, { x: scene.rounded(x), y: scene.rounded(y) }), index, undefined));
+  click(point, event) {
+    const { store, scene } = this, index = store.document.poses.length, [x, y] = scene.snap.point([point.x, point.y], { event });
+    store.edit((document) => setAngle(addPose(document, { x, y }), index, undefined));
     store.select({ kind: "pose", index });
   }
 
@@ -234,28 +298,30 @@ export class PoseTool {
     this.hint = "Click where the pose is to stand, and click again to turn it. Escape ends.";
   }
 
-  click(point) {
+  click(point, event) {
     const { store, scene } = this;
     if (this.gesture) {
-      this.turn(point);
+      this.turn(point, event);
       this.gesture = null;
       return;
     }
+    const [x, y] = scene.snap.point([point.x, point.y], { event });
     this.gesture = Symbol("add a pose");
     const angle = store.document.poses.findLast((pose) => Number.isFinite(pose.angle))?.angle ?? 0;
-    store.edit((document) => addPose(document, { x: scene.rounded(point.x), y: scene.rounded(point.y), angle }), { gesture: this.gesture });
+    store.edit((document) => addPose(document, { x, y, angle }), { gesture: this.gesture });
     store.select({ kind: "pose", index: store.document.poses.length - 1 });
   }
 
-  hover(point) {
-    if (this.gesture && point) this.turn(point);
+  hover(point, event) {
+    if (this.gesture && point) this.turn(point, event);
+    else if (point) this.scene.snap.point([point.x, point.y], { event });
   }
 
-  turn(point) {
+  turn(point, event) {
     const { store, gesture } = this, k = store.document.poses.length - 1, { x, y, angle } = standing(store.document, k);
     const away = Math.hypot(point.x - x, point.y - y) * this.scene.view.scale;
     if (away < 6) return; // a second click on the origin leaves the angle
-    const next = tenths(unwrapped(degrees(Math.atan2(point.y - y, point.x - x)), angle));
+    const next = this.scene.snap.angle(unwrapped(degrees(Math.atan2(point.y - y, point.x - x)), angle), [point.x, point.y], { event, skip: k });
     store.edit((document) => setPose(document, k, { angle: next }), { gesture });
   }
 

@@ -70,7 +70,7 @@ export class PoseTable {
   makeRow(place) {
     const row = { index: place, fields: {} };
     const change = (changes) => this.store.edit((document) => setPose(document, row.index, changes));
-    row.number = h("button", { type: "button", class: "bs-index", onclick: () => this.store.select(row.index === this.selected ? null : { kind: "pose", index: row.index }) });
+    row.number = h("button", { type: "button", class: "bs-index", onclick: (event) => (event.shiftKey || event.ctrlKey || event.metaKey ? this.store.selectAlso(row.index) : this.store.select(row.index === this.selected && this.store.selectedPoses.length === 1 ? null : { kind: "pose", index: row.index })) });
     row.name = textField("Name", (text) => change({ name: text.trim() || undefined }), { class: "bs-text bs-name", placeholder: "–" });
     const cells = NUMBERS.map(([key, kind]) => {
       const field = new NumberField({
@@ -93,7 +93,7 @@ export class PoseTable {
   }
 
   showRow(row, index) {
-    const pose = this.store.document.poses[index], moved = row.index !== index, selected = index === this.selected;
+    const pose = this.store.document.poses[index], moved = row.index !== index, selected = this.store.selectedPoses.includes(index);
     row.index = index;
     if (!isOther(row.tr, [index, pose, selected]) && document.activeElement?.closest("tr") !== row.tr) return;
     put(row.tr, "data-row", index + 1);

@@ -3,7 +3,7 @@
 import { put, s, say } from "../widget/dom.mjs";
 import { act } from "../widget/kinematics.mjs";
 import { shortened } from "../widget/tables.mjs";
-import { referencePlace } from "./body_editor.mjs";
+import { atReference, referencePlace } from "./body_editor.mjs";
 import { currentLinkage, limitsMissed, missedSentence, regionsTouched } from "./conditions.mjs";
 import { addRegion, bodyOf, limitRegions, limitsOf, regionsOf, removeRegion, setLimit, setRegion, setRequirement, shapeOf } from "./document.mjs";
 import { along } from "./name_places.mjs";
@@ -46,7 +46,7 @@ export class Regions {
     scene.layer("limits").append(this.limits.group);
     scene.layer("labels").append(this.names.group);
     store.on("document", () => this.judge(store.state === "dragging" && !this.isOther()));
-    store.on("selection", () => this.draw());
+    store.on("selection reference", () => this.draw());
     store.on("solved followed chosen placed", () => this.judge());
     scene.on("view", () => this.draw());
     scene.hold(() => limitRegions(store.document).filter(({ shape }) => shape !== "line").flatMap((each) => this.corners(each)));
@@ -204,7 +204,7 @@ export class Regions {
   limitTool(table, key, shape) {
     const { store } = this;
     return new ShapeTool(this.scene, {
-      shape, name: `limit ${table} ${key} ${shape}`, place: () => this.place({ key }),
+      shape, name: `limit ${table} ${key} ${shape}`, place: () => this.place({ key }), at: key === "moving_pivot" ? atReference(store) : "",
       done: (points) => {
         store.edit((document) => setLimit(document, table, { [key]: shapeOf(shape, points) }));
         store.select({ kind: "limit", index: limitRegions(store.document).findIndex((each) => each.table === table && each.key === key) });

@@ -3,7 +3,9 @@
 import { h, put, s } from "../widget/dom.mjs";
 import { bounds, fitted, viewOf } from "../widget/framing.mjs";
 import { clamp, px, ticks } from "../widget/numbers.mjs";
+import { HandleField } from "./handle_field.mjs";
 import { NamePlaces } from "./name_places.mjs";
+import { Snapping } from "./snapping.mjs";
 
 const LAYERS = ["grid", "regions", "ghosts", "map", "curves", "paths", "mechanism", "limits", "pivots", "poses", "labels", "tool"];
 const MARGIN = 46; // pixels around what a fit shows
@@ -18,11 +20,13 @@ const RAW = 8; // milliseconds: so often a hand is followed between two pictures
  */
 export class Scene {
   /** @type {any} */ view;
+  /** @type {any} */ pressed = null;
+  /** @type {any} */ field;
 
   constructor(store, { zoomKey = false } = {}) {
     this.store = store;
     this.zoomKey = zoomKey;
-    this.listeners = { view: [], click: [], tool: [], dropped: [], closer: [] };
+    this.listeners = { view: [], click: [], tool: [], dropped: [], closer: [], marquee: [], key: [] };
     this.tool = null;
     this.dragged = null;
     this.layers = new Map(LAYERS.map((name) => [name, s("g", { class: `bs-layer bs-layer-${name}` })]));
@@ -35,8 +39,11 @@ export class Scene {
     this.pointers = new Map(); // on the empty plane: one pans, two pinch
     this.boxes = []; // functions that say what a fit has to hold
     this.names = new NamePlaces(this);
+    this.marquee = s("rect", { class: "bs-marquee" });
+    this.snap = new Snapping(store, this);
     this.update();
     this.listen();
+    this.field = new HandleField(store, this);
     store.on("document", () => this.unit === store.document.length_unit || this.grid());
     new ResizeObserver(() => this.resize()).observe(this.element);
     addEventListener("scroll", () => (this.box = null), { capture: true, passive: true });
@@ -47,7 +54,7 @@ export class Scene {
   }
 
   /** "view": after it changes; "click": on the empty plane, with a point and the event; "tool": another tool, or none; "dropped": a hand let go;
-   * "closer": what is selected is to be seen closer. */
+   * "closer": what is selected is to be seen closer; "marquee": a box of F was drawn with Shift; "key": on the plane, true where it had a use. */
   on(name, fn) {
     this.listeners[name].push(fn);
   }
@@ -190,7 +197,9 @@ export class Scene {
       if (event.button !== 0 || this.tool || this.dragged) return;
       event.preventDefault();
       event.stopPropagation();
+      this.pressed = event; // the focus tells a selection, and Shift adds to it
       element.focus?.({ preventScroll: true });
+      this.pressed = null;
       const from = this.at(event), ended = new AbortController(), { signal } = ended;
       let begun = false;
       /** @param {() => void} finish */
@@ -262,7 +271,7 @@ export class Scene {
   press(event) {
     if (event.button !== 0 && event.button !== 1) return;
     const { X, Y } = this.at(event);
-    this.pointers.set(event.pointerId, { X, Y, from: { X, Y }, button: event.button });
+    this.pointers.set(event.pointerId, { X, Y, from: { X, Y }, button: event.button, isMarquee: event.shiftKey && !this.tool });
     if (this.pointers.size > 1) for (const each of this.pointers.values()) each.panned = true;
     this.capture(event);
   }
@@ -270,7 +279,7 @@ export class Scene {
   moved(event) {
     const point = this.at(event), held = this.pointers.get(event.pointerId);
     if (!held) {
-      if (!this.dragged) this.tool?.hover?.(point);
+      if (!this.dragged) this.tool?.hover?.(point, event);
       return;
     }
     const before = { X: held.X, Y: held.Y };
@@ -283,7 +292,8 @@ export class Scene {
     }
     held.panned ||= Math.hypot(point.X - held.from.X, point.Y - held.from.Y) > CLICK;
     if (!held.panned) return;
-    if (this.tool?.drag?.(point, held)) return;
+    if (held.isMarquee) return void this.stretch(held);
+    if (this.tool?.drag?.(point, held, event)) return;
     this.svg.classList.add("bs-grasped");
     this.pan(point.X - before.X, point.Y - before.Y);
   }
@@ -295,12 +305,25 @@ export class Scene {
     this.svg.classList.remove("bs-grasped");
     const point = this.at(event);
     if (event.type === "pointercancel") this.tool?.hover?.(null);
+    else if (held.panned && held.isMarquee) this.caught(held);
     else if (held.panned) this.tool?.release?.(point, held);
     else if (held.button === 0) this.tool ? this.tool.click(point, event) : this.emit("click", point, event);
   }
 
+  /** A box that a hand draws with Shift. */
+  stretch({ X, Y, from }) {
+    for (const [key, value] of Object.entries({ x: Math.min(X, from.X), y: Math.min(Y, from.Y), width: Math.abs(X - from.X), height: Math.abs(Y - from.Y) })) put(this.marquee, key, value);
+    this.layer("tool").append(this.marquee);
+  }
+
+  caught({ X, Y, from }) {
+    const { view } = this;
+    this.marquee.remove();
+    this.emit("marquee", bounds([[view.x(X), view.y(Y)], [view.x(from.X), view.y(from.Y)]]));
+  }
+
   key(event) {
-    if (event.target !== this.svg || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.target !== this.svg || event.ctrlKey || event.metaKey || this.emit("key", event) || event.altKey) return;
     const by = event.shiftKey ? 160 : 40, { width, height } = this.size;
     const steps = { ArrowLeft: [by, 0], ArrowRight: [-by, 0], ArrowUp: [0, by], ArrowDown: [0, -by] };
     if (steps[event.key]) this.pan(...steps[event.key]);

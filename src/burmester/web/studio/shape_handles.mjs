@@ -86,22 +86,42 @@ export class ShapeHandles {
     return { cx: px(this.scene.view.X(u)), cy: px(this.scene.view.Y(v)) };
   }
 
-  /** A point of an event in the frame of the shape, as a hand sets it. */
-  point({ x, y }) {
-    return back(this.now.place, [x, y]).map((each) => this.scene.rounded(each));
+  /** A point of an event in the frame of the shape, as a hand sets it; from: where it was in that frame. */
+  point({ x, y }, event, from) {
+    const { place } = this.now, of = this.handles.dataset.handles ?? "", at = this.scene.snap.point([x, y], { event, from: from && act(place, from), skip: (each) => each.startsWith(of) });
+    return this.inFrame(at);
+  }
+
+  /** A point of F in the frame of the shape; of that of the body to what a pixel tells. */
+  inFrame(at) {
+    const { place } = this.now;
+    return place.x || place.y || place.a ? back(place, at).map((each) => this.scene.rounded(each)) : at;
+  }
+
+  /** The numbers of a corner beside it. */
+  openField(k) {
+    const { now: { name, place } } = this, corner = () => outlineOf(this.now.shape, this.now.points)[k];
+    this.scene.field.open({
+      name: `corner ${k + 1} of ${name}`, kind: this.scene.store.selection?.kind, fields: [["x", "x", "length"], ["y", "y", "length"]],
+      at: () => corner() && this.element.isConnected && act(place, corner()), values: () => ({ x: corner()[0], y: corner()[1] }),
+      set: ({ x = corner()[0], y = corner()[1] }) => this.set(withCorner(this.now.shape, this.now.points, k, [x, y]), null),
+    });
   }
 
   dragWhole() {
-    let gesture, from, before;
+    let gesture, off, before, corner;
     this.scene.drag(this.area, {
       start: (point) => {
+        const away = (each) => Math.hypot(...act(this.now.place, each).map((value, k) => value - [point.x, point.y][k]));
         gesture = Symbol("move a shape");
-        from = back(this.now.place, [point.x, point.y]);
         before = this.now.points;
+        corner = before.reduce((one, other) => (away(other) < away(one) ? other : one)); // it snaps, and the others go along
+        const [x, y] = act(this.now.place, corner);
+        off = [x - point.x, y - point.y];
       },
-      move: (point) => {
-        const to = back(this.now.place, [point.x, point.y]), by = [to[0] - from[0], to[1] - from[1]];
-        this.set(before.map(([x, y]) => [this.scene.rounded(x + by[0]), this.scene.rounded(y + by[1])]), gesture);
+      move: (point, event) => {
+        const to = this.point({ x: point.x + off[0], y: point.y + off[1] }, event, corner), by = [to[0] - corner[0], to[1] - corner[1]];
+        this.set(before.map(([x, y]) => [stepped(x, by[0]), stepped(y, by[1])]), gesture);
       },
       cancel: () => this.abandon(gesture),
       click: () => this.select(),
@@ -110,11 +130,16 @@ export class ShapeHandles {
 
   makeCorner(k) {
     const circle = s("circle", { class: "bs-corner", r: 6, tabindex: 0, role: "button", "data-corner": k + 1 });
-    let gesture;
+    let gesture, from;
     this.scene.drag(circle, {
-      start: () => (gesture = Symbol("move a corner")) && true,
-      move: (point) => this.set(withCorner(this.now.shape, this.now.points, k, this.point(point)), gesture),
+      start: () => {
+        gesture = Symbol("move a corner");
+        from = outlineOf(this.now.shape, this.now.points)[k];
+        this.openField(k);
+      },
+      move: (point, event) => this.set(withCorner(this.now.shape, this.now.points, k, this.point(point, event, from)), gesture),
       cancel: () => this.abandon(gesture),
+      click: () => this.openField(k),
     });
     circle.addEventListener("keydown", (event) =>
       this.keys(event, (points, by) => {
@@ -139,7 +164,7 @@ export class ShapeHandles {
         gesture = Symbol("add a corner");
         this.set([...this.now.points.slice(0, k + 1), this.now.points[k], ...this.now.points.slice(k + 1)], gesture);
       },
-      move: (point) => this.set(withCorner("polygon", this.now.points, k + 1, this.point(point)), gesture),
+      move: (point, event) => this.set(withCorner("polygon", this.now.points, k + 1, this.point(point, event)), gesture),
       cancel: () => this.abandon(gesture),
     });
     return circle;

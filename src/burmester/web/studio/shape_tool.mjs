@@ -21,9 +21,9 @@ const ordered = ([[a, b], [c, d]]) => [[Math.min(a, c), Math.min(b, d)], [Math.m
 /** @type {(points: number[][]) => boolean} */
 const isFlat = ([[a, b], [c, d]]) => a === c && b === d;
 
-/** shape: what is drawn; place: of the frame that its points are in, a function; done(points). */
+/** shape: what is drawn; place: of the frame that its points are in, a function; done(points); at: of what belongs to the body where it is drawn, in words. */
 export class ShapeTool {
-  constructor(scene, { shape, place, done, name }) {
+  constructor(scene, { shape, place, done, name, at = "" }) {
     this.scene = scene;
     this.shape = shape;
     this.place = place;
@@ -31,19 +31,21 @@ export class ShapeTool {
     this.name = name;
     this.points = [];
     this.next = null;
-    this.hint = HINTS[shape];
+    this.hint = at ? `${at}. ${HINTS[shape]}` : HINTS[shape];
+    this.isOfBody = Boolean(at);
     this.path = s("path", { class: "bs-draft" });
     this.dots = s("g");
     this.element = s("g", {}, this.path, this.dots);
     scene.layer("tool").append(this.element);
   }
 
-  point({ x, y }) {
-    return back(this.place(), [x, y]).map((each) => this.scene.rounded(each));
+  point({ x, y }, event) {
+    const place = this.place(), last = this.points.at(-1), at = this.scene.snap.point([x, y], { event, from: last && act(place, last) });
+    return place.x || place.y || place.a ? back(place, at).map((each) => this.scene.rounded(each)) : at;
   }
 
   click(point, event) {
-    const next = this.point(point);
+    const next = this.point(point, event);
     if (this.shape === "polygon") {
       if (this.points.length > 2 && (this.isFirst(point) || event?.detail > 1)) return this.finish(this.points);
       if (this.points.length && isFlat([this.points.at(-1), next])) return undefined;
@@ -58,15 +60,15 @@ export class ShapeTool {
     return Math.hypot(view.X(x) - X, view.Y(y) - Y) < CLOSE;
   }
 
-  hover(point) {
-    this.next = point && this.point(point);
+  hover(point, event) {
+    this.next = point && this.point(point, event);
     this.draw();
   }
 
   /** Two points are drawn by a drag as well; of a polygon a drag moves the plane. */
-  drag(point, held) {
+  drag(point, held, event) {
     if (!PAIRS.has(this.shape) || this.points.length) return false;
-    this.dragging = [this.point(this.inPlane(held.from)), this.point(point)];
+    this.dragging = [this.point(this.inPlane(held.from), event), this.point(point, event)];
     this.draw();
     return true;
   }

@@ -19,14 +19,14 @@ const PLACED = "placed"; // chosen: the linkage whose pivots were put down by ha
 /** What decides whether a task can be followed from another one: how many poses it has, what is free, and whether it is a path. */
 const kindOf = ({ poses, path }) => `${poses.map(({ free }) => free?.join("") ?? "-").join()} ${path ? path.closed : ""}`;
 
-/** Events: document, solved, followed, state, chosen, pinned, placed, selection, messages. */
+/** Events: document, solved, followed, state, chosen, pinned, filters, placed, selection, reference, picture, history, messages. */
 export class Store {
   /** @type {any} */ solving;
   /** @type {any} */ placing;
   /** @type {any} */ solved;
 
-  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object, mostFlying?: number }} start */
-  constructor({ connection, document, options = {}, name = "task", settings = {}, mostFlying = MOST_FLYING }) {
+  /** @param {{ connection: import("./connection.mjs").Connection, document: object, options?: object, name?: string, settings?: object, filters?: object, choice?: any, picture?: any, history?: any, mostFlying?: number }} start */
+  constructor({ connection, document, options = {}, name = "task", settings = {}, filters = {}, choice = null, picture = null, history = undefined, mostFlying = MOST_FLYING }) {
     this.connection = connection;
     this.mostFlying = mostFlying;
     this.renamed = new Map(); // of the last whole answer: old id, new id
@@ -35,7 +35,11 @@ export class Store {
     this.options = options;
     this.name = name;
     this.settings = settings; // of exports: options of `burmester export`
-    this.history = new History();
+    this.filters = filters; // of cards, by the names of their fields
+    this.picture = picture; // behind the plane: where it is, and how strong
+    this.wanted = choice && { ...choice, document }; // what is chosen again when there is an answer to that document
+    this.history = new History(history);
+    this.history.onchange = () => this.emit("history");
     this.solved = null;
     this.solvedFor = null;
     this.followed = null;
@@ -50,6 +54,8 @@ export class Store {
     this.task = 0; // another number for another task, which is no change of this one
     this.solvedTask = 0;
     this.selection = null;
+    this.reference = 0; // the pose at which what belongs to the body is drawn
+    this.isOnBody = false; // whether such a thing is drawn now, or has its handles
     this.messages = [];
     this.listeners = new Map();
     this.basis = null; // the number of the solve that `solved` answers
@@ -116,19 +122,35 @@ export class Store {
     this.emit("document");
   }
 
+  /** Which cards are shown, and in what order. */
+  filter(name, value) {
+    this.history.record(this.version, name);
+    this.filters = { ...this.filters, [name]: value };
+    this.emit("filters");
+  }
+
+  /** Where the picture behind the plane is, and how strong; null: none. */
+  setPicture(changes, gesture = null) {
+    this.history.record(this.version, gesture);
+    this.picture = changes && { ...this.picture, ...changes };
+    this.emit("picture");
+  }
+
   /** Another task in place of this one: one entry, too. */
-  replace({ document, options = {}, name = this.name, settings = this.settings }) {
+  replace({ document, options = {}, name = this.name, settings = this.settings, picture = null }) {
     this.history.record(this.version, null);
     this.tasks = (this.tasks ?? 0) + 1;
     this.document = document;
     this.options = options;
     this.name = name;
     this.settings = settings;
+    this.picture = picture;
     this.selection = null;
+    this.reference = 0;
     this.placed = null;
     this.task = this.tasks;
     this.changed();
-    this.emit("selection", "placed");
+    this.emit("selection", "placed", "reference", "picture");
   }
 
   undo() {
@@ -145,15 +167,27 @@ export class Store {
   }
 
   get version() {
-    return { document: this.document, options: this.options, name: this.name, settings: this.settings, task: this.task };
+    const { document, options, name, settings, task, filters, picture, choice } = this;
+    return { document, options, name, settings, task, filters, picture, choice };
+  }
+
+  /** The linkages that are chosen, compared and pinned. */
+  get choice() {
+    return { chosen: this.chosen, compared: this.compared, pinned: [...this.pinned] };
   }
 
   goTo(version) {
     if (!version) return;
-    const isSame = version.document === this.document && version.options === this.options;
-    Object.assign(this, version);
-    if (isSame) this.emit("document"); // another name, or another setting: the answers stay
-    else this.changed();
+    const { choice, ...task } = version, isSame = task.document === this.document && task.options === this.options;
+    Object.assign(this, task);
+    this.emit("filters", "picture");
+    this.wanted = { ...choice, document: task.document };
+    if (!isSame) return this.changed();
+    if (this.solvedFor === task.document) {
+      this.takeWanted();
+      this.showChosen();
+    }
+    return this.emit("document"); // the answers stay
   }
 
   /** After any change: follow it, and solve when the hand rests. */
@@ -361,9 +395,19 @@ export class Store {
     this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
     this.compared = carried(this.compared);
     this.pinned = new Set([...this.pinned].map(carried).filter(Boolean));
+    if (this.wanted?.document === document) this.takeWanted();
     this.messages = [];
     this.emit("solved", "chosen", "pinned", "messages");
     if (document !== this.document) this.follow();
+  }
+
+  /** What was chosen of this task before it was left, as far as it is there. */
+  takeWanted() {
+    const { chosen, compared, pinned = [] } = this.wanted, isThere = (id) => (id === PLACED ? Boolean(this.placed) : this.solved.linkages.some((each) => each.id === id));
+    if (isThere(chosen)) this.chosen = chosen;
+    this.compared = isThere(compared) ? compared : null;
+    this.pinned = new Set(pinned.filter(isThere));
+    this.wanted = null;
   }
 
   /** Show a cognate in place of the linkage whose curve it traces. */
@@ -413,25 +457,59 @@ export class Store {
 
   choose(id) {
     if (id === this.chosen) return;
+    this.history.record(this.version, "choose"); // going through the cards is one entry
     this.chosen = id;
-    this.emit("chosen");
+    this.showChosen();
+  }
+
+  showChosen() {
+    this.emit("chosen", "pinned");
     if (this.state === "dragging" || this.document !== this.solvedFor) this.follow();
   }
 
   pin(id) {
+    this.history.record(this.version, null);
     if (!this.pinned.delete(id)) this.pinned.add(id);
     this.emit("pinned");
   }
 
   compare(id) {
+    this.history.record(this.version, "compare");
     this.compared = id === this.compared ? null : id;
     this.emit("chosen");
   }
 
-  /** { kind: "pose" | "limit" | "region" | "body", index }, or null. */
+  /** { kind: "pose" | "limit" | "region" | "body", index }, or null; of several poses all are in `indices`. */
   select(selection) {
-    if (selection?.kind === this.selection?.kind && selection?.index === this.selection?.index) return;
+    if (["kind", "index", "indices"].every((key) => String(selection?.[key]) === String(this.selection?.[key]))) return;
     this.selection = selection;
     this.emit("selection");
+  }
+
+  /** The poses that are selected: none, one or several. */
+  get selectedPoses() {
+    const { selection, document } = this;
+    return selection?.kind === "pose" ? (selection.indices ?? [selection.index]).filter((k) => k < document.poses.length) : [];
+  }
+
+  /** Select several poses, of which one is the last that was touched. */
+  selectPoses(indices, index = indices.at(-1)) {
+    this.select(indices.length ? { kind: "pose", index: indices.includes(index) ? index : indices.at(-1), indices: indices.length > 1 ? indices : undefined } : null);
+  }
+
+  /** Take a pose into the selection, or out of it. */
+  selectAlso(index) {
+    const before = this.selectedPoses;
+    this.selectPoses(before.includes(index) ? before.filter((k) => k !== index) : [...before, index], index);
+  }
+
+  /** The pose at which what belongs to the body is drawn. */
+  get referenceIndex() {
+    return Math.min(this.reference, this.document.poses.length - 1);
+  }
+
+  setReference(index) {
+    this.reference = index;
+    this.emit("reference");
   }
 }

@@ -69,7 +69,7 @@ function head(store, files, settings, banners, keys) {
     give(undo, "disabled", !store.history.canUndo);
     give(redo, "disabled", !store.history.canRedo);
   };
-  store.on("document", show);
+  store.on("document history", show);
   show();
   const stop = button("Stop", () => store.cancel(), { "data-do": "cancel", hidden: true, "aria-label": "Stop solving" });
   // Offered only where solving is not over at once.
@@ -89,12 +89,17 @@ function stageBar(store, scene, drawn) {
     scene.on("tool", () => put(made, "aria-pressed", scene.tool?.name === name));
     return made;
   };
+  const snap = button("Snap", () => {
+    scene.snap.isOn = !scene.snap.isOn;
+    put(snap, "aria-pressed", scene.snap.isOn);
+  }, { "data-do": "snap", "aria-pressed": "true", title: "Snap to the grid, pivots, corners and other poses; Alt frees, Shift holds an axis" });
   const zoom = (text, label, factor) => button(text, () => scene.zoom(factor, scene.size.width / 2, scene.size.height / 2), { "aria-label": label, title: label });
   const bar = h("div", { class: "bs-bar", role: "toolbar", "aria-label": "Tools of the plane" },
     toggle("Add poses", "pose", () => new PoseTool(store, scene), "add-poses"),
     toggle("Add points", "point", () => new PointTool(store, scene), "add-points"),
     toggle("Draw a path", "path", () => new PathTool(store, scene, drawn), "draw-path"),
     h("span", { class: "bs-gap" }),
+    snap,
     button("Fit", () => scene.fitAgain(), { "data-do": "fit", title: "Show the poses; once more: all of the body and the regions, too (0)" }),
     zoom("+", "Zoom in", 1.25), zoom("−", "Zoom out", 0.8));
   walkByArrows(bar, "button").first();

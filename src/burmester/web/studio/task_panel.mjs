@@ -1,12 +1,13 @@
 // What the linkage must be, in fields: limits of dyads, regions, requirements, options.
 
 import { give, h, put, say } from "../widget/dom.mjs";
-import { limitsOf, regionsOf, setBody, setLimit, setRegion, setRequirement, setSurrounding, shapeOf, splitLimits, bodyOf, limitRegions, withKeys } from "./document.mjs";
+import { limitsOf, regionsOf, setBody, setLimit, setRegion, setRequirement, setSurrounding, shapeOf, splitLimits, bodyOf, limitRegions, poseName, withKeys } from "./document.mjs";
 import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
 import { PointFields } from "./point_fields.mjs";
 
 const SHAPES = ["point", "line", "segment", "box", "polygon"];
 const SIGMA = [["position", "position", "length"], ["angle_deg", "angle", "angle"]];
+const MOST_NAMES = 200; // poses that are offered to be drawn at
 const UNITS = ["", "mm", "cm", "m", "in", "ft"];
 
 const section = (name, title, open, ...content) => h("details", { class: "bs-section", "data-section": name, open }, h("summary", {}, title), ...content);
@@ -35,7 +36,7 @@ export class TaskPanel {
     this.form = form;
     this.element = h("div", { class: "bs-task" });
     this.element.append(this.makeRequirements(), this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeSigma(), this.makeOptions());
-    store.on("document selection", () => this.draw());
+    store.on("document selection reference", () => this.draw());
     regions.onjudged = () => this.drawVerdicts();
     this.draw();
   }
@@ -188,15 +189,20 @@ export class TaskPanel {
     this.bodyNumbers = this.points("the outline", (change) => this.edit((document) => setBody(document, change(bodyOf(document)))));
     this.bodyCount = h("summary", {});
     this.bodyBox = h("details", {}, this.bodyCount, this.bodyNumbers.element);
+    this.reference = choice("Draw at", [], (value) => this.store.setReference(Number(value)), { "data-key": "reference" });
     this.noBody = button("Delete the outline", () => this.edit((document) => setBody(document, [])), { "data-do": "delete-body" });
     return section("body", "Outline of the body", false,
       h("p", { class: "bs-hint" }, "It is seen at every pose, moves with the linkage, and says what an angle error counts as."),
+      labelled("draw what belongs to the body at pose", this.reference),
       h("div", { class: "bs-tools" }, this.toolButton("Draw it", () => this.body.tool(), { "data-draw": "body" }), button("From a drawing (SVG, DXF)…", () => this.files.chooseOutline(), { "data-do": "outline-file" }), this.noBody),
       this.bodyBox);
   }
 
   drawBody() {
-    const { document: task } = this.store, corners = bodyOf(task);
+    const { document: task, referenceIndex } = this.store, corners = bodyOf(task), names = task.poses.slice(0, MOST_NAMES).map((_, k) => poseName(task, k));
+    if (names.join("\n") !== this.poseNames) this.reference.replaceChildren(...names.map((name, k) => h("option", { value: k }, name)));
+    this.poseNames = names.join("\n");
+    this.reference.value = String(referenceIndex);
     give(this.noBody, "hidden", !task.body);
     give(this.bodyBox, "hidden", !corners.length);
     if (!corners.length) return;
@@ -311,8 +317,8 @@ export class TaskPanel {
 
   /** While poses are dragged nothing here is another. */
   draw() {
-    const { document: { limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma }, options, selection } = this.store;
-    const now = [limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma, options, selection];
+    const { document: { limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma, poses }, options, selection, reference } = this.store;
+    const now = [limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma, options, selection, reference, poses.length];
     if (now.every((each, k) => each === this.drawn?.[k]) && this.drawn) return;
     if (!this.drawn || pose_sigma !== this.drawn[6]) this.drawSigma(); // a half that was typed stays
     this.drawn = now;
