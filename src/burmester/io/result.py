@@ -213,9 +213,14 @@ def task_data(task: Task) -> dict[str, Any]:
     data |= _around(task)
     if task.requirements.has_any:
         data["requirements"] = requirements_data(task.requirements)
-    position, angle = (given / math.sqrt(3) for given in task.resolution)
-    data["pose_sigma"] = {"position": position, "angle_deg": math.degrees(angle)}
+    data["pose_sigma"] = pose_sigma_data(task)
     return data
+
+
+def pose_sigma_data(task: Task) -> dict[str, float]:
+    """The standard deviations of the poses of a task, as files hold them."""
+    position, angle = (given / math.sqrt(3) for given in task.resolution)
+    return {"position": position, "angle_deg": math.degrees(angle)}
 
 
 def _around(task: Task) -> dict[str, Any]:

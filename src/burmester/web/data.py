@@ -30,6 +30,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.outlines import inner_point
 from burmester.io.linkage_data import dyad_data, linkage_data, number
 from burmester.io.pose_data import poses_data
+from burmester.io.result import pose_sigma_data
 from burmester.linkages.evaluation import transmission_at_given_poses
 from burmester.refinement.tolerance_boxes import poses_counted
 from burmester.requirements.transmission import TRANSMISSION
@@ -79,6 +80,7 @@ def report_data(synthesis: Synthesis, face: Face = for_command) -> dict[str, Any
         "warnings": [each.to_dict(face) for each in synthesis.warnings],
         "method": synthesis.method,
         "unit": task.length_unit,
+        "pose_sigma": pose_sigma_data(task),
         "poses": poses_report(task),
         "path": None if task.path is None else {"closed": task.path.closed},
         "body": None if task.body is None else task.body.vertices.tolist(),

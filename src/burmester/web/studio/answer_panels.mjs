@@ -9,6 +9,7 @@ import { Charts, LoadCharts } from "./charts.mjs";
 import { Compare } from "./compare.mjs";
 import { isOfPoints, isPoint } from "./document.mjs";
 import { CouplerCurves } from "./coupler_curve.mjs";
+import { Dimensions } from "./dimensions.mjs";
 import { FactsTable } from "./facts_table.mjs";
 import { listenToSpace } from "./keyboard.mjs";
 import { LiveLinkage } from "./live_linkage.mjs";
@@ -26,6 +27,7 @@ export function addResults(store, scene, { player, results, drawer }) {
   const answers = new Answers(store), playing = new Playing(store, answers);
   const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
   const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
+  const dimensions = new Dimensions(store, scene, playing, answers);
   const cards = new Results(store, answers), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
   const cognates = new CognatePanel(store, answers), loads = new LoadCharts(answers, playing);
   const compare = new Compare(store, answers, playing, () => drawer.open("compare")), facts = new FactsTable(store, answers, playing, curves);
@@ -48,5 +50,5 @@ export function addResults(store, scene, { player, results, drawer }) {
   listenToSpace(playing);
   playOnce(store, answers, playing);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
-  return { answers, playing, live, surface, centrodes, curves, cards, charts, loads, space, cognates, compare, facts };
+  return { dimensions, answers, playing, live, surface, centrodes, curves, cards, charts, loads, space, cognates, compare, facts };
 }

@@ -46,9 +46,14 @@ function missed(table, dyad, slack) {
 export function limitsMissed(document, linkage, size) {
   const tables = limitsOf(document), slack = ROUNDING * size, [one, other] = linkage.led;
   if (tables.length < 2) return tables.map((table) => [...missed(table, one, slack), ...missed(table, other, slack)]);
-  const pairings = [[one, other], [other, one]].map((dyads) => dyads.map((dyad, k) => missed(tables[k], dyad, slack)));
-  const total = (lists) => lists.flat().length;
-  return total(pairings[1]) < total(pairings[0]) ? pairings[1] : pairings[0];
+  return limitedDyads(document, linkage, size).map((dyad, k) => missed(tables[k], dyad, slack));
+}
+
+/** The dyads of a linkage in the order of the tables of limits, as far as there are two. */
+export function limitedDyads(document, { led: [one, other] }, size) {
+  const tables = limitsOf(document), slack = ROUNDING * size;
+  const [straight, crossed] = [[one, other], [other, one]].map((dyads) => tables.length > 1 && dyads.flatMap((dyad, k) => missed(tables[k], dyad, slack)).length);
+  return crossed < straight ? [other, one] : [one, other];
 }
 
 /** What is missed, in a sentence. */

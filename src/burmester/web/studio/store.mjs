@@ -91,13 +91,15 @@ export class Store {
 
   // The task
 
-  /** Change the document; `gesture` is the same value for all edits that are undone as one. */
-  edit(change, { gesture = null } = {}) {
+  /** Change the document, and with it what is given; `gesture` is the same value for all edits that are undone as one. */
+  edit(change, { gesture = null, options = this.options, picture = this.picture } = {}) {
     const next = change(this.document);
     if (next === this.document) return;
     this.history.record(this.version, gesture);
-    this.document = next;
+    const hasMoved = picture !== this.picture;
+    Object.assign(this, { document: next, options, picture });
     this.changed();
+    if (hasMoved) this.emit("picture");
   }
 
   /** An option of `burmester synthesize`; undefined takes it away. */

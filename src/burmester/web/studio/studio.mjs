@@ -23,6 +23,7 @@ import { addResults } from "./answer_panels.mjs";
 import { Scene } from "./scene.mjs";
 import { Store } from "./store.mjs";
 import { TaskPanel } from "./task_panel.mjs";
+import { TransformPanel } from "./transform_panel.mjs";
 
 const EMPTY = "An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";
 const CURVE = "Drag a point of the curve, or draw another one: the linkages are looked for anew.";
@@ -40,7 +41,7 @@ function layOut(root, store, start) {
   const curve = new PathCurve(store, scene), path = new PathPanel(store, scene);
   const player = h("div", { id: "bs-player" }), cards = h("div", { id: "bs-results" }), drawer = new Drawer();
   const poses = h("details", { class: "bs-section bs-section-poses", "data-section": "poses", open: true }, h("summary", {}, "Poses"), table.element, path.element);
-  const left = sidePanel("left", "The task", h("div", { class: "bs-left" }, poses, panel.element));
+  const left = sidePanel("left", "The task", h("div", { class: "bs-left" }, poses, panel.element, new TransformPanel(store, scene, start.form.options.filter(({ form }) => form === "length").map(({ key }) => key)).element));
   const right = sidePanel("right", "Linkages", cards);
   root.replaceChildren(
     h("a", { class: "bs-skip", href: "#plane", onclick: (event) => (event.preventDefault(), scene.svg.focus()) }, "Skip to the plane"),
@@ -53,7 +54,8 @@ function layOut(root, store, start) {
       right, drawer.element),
   );
   scene.resize();
-  addResults(store, scene, { player, results: cards, drawer });
+  const { dimensions } = addResults(store, scene, { player, results: cards, drawer });
+  root.querySelector(".bs-bar")?.append(dimensions.element);
   listenToKeys(store, scene, files);
   new Autosave(store);
   files.opened = refitWhenSolved(store, scene);
@@ -178,15 +180,15 @@ async function main() {
   }
 }
 
-function offerSaved(store, { banners, files }, saved) {
+/** Work of last time, in a quiet line above the task. */
+function offerSaved(store, { files }, saved) {
   const when = typeof saved.when === "number" ? new Date(1000 * saved.when).toLocaleString() : saved.when;
-  banners.say("saved", `Your task of last time, ${saved.name}${when ? ` (${when})` : ""}, was kept.`, [], {
-    actions: [button("Go on with it", () => {
-      banners.close("saved");
-      store.replace(saved);
-      files.opened();
-    }, { "data-do": "restore" })],
-  });
+  const line = h("p", { class: "bs-quiet-line", "data-saved": "" }, h("span", {}, "Last time: ", h("bdi", {}, saved.name), when ? `, ${when}` : ""), button("Go on with it", () => {
+    line.remove();
+    store.replace(saved);
+    files.opened();
+  }, { "data-do": "restore" }));
+  document.querySelector(".bs-left")?.prepend(line);
 }
 
 main();

@@ -33,6 +33,12 @@ export function moved(by, point) {
   return [tidy(x + by.x), tidy(y + by.y)];
 }
 
+/** What two similarities do, one after the other. */
+export function composed(by, before) {
+  const [x, y] = moved(by, [before.x, before.y]);
+  return { turn: direction(by, before.turn), scale: by.scale * before.scale, mirror: by.mirror !== before.mirror, x, y };
+}
+
 const direction = (by, angle) => tidy(by.turn + (by.mirror ? -angle : angle));
 
 /** What a similarity does to the frame M of the body. */
