@@ -1,4 +1,4 @@
-"""A whole task moved, turned, mirrored and scaled: a linkage taken along is judged the same in it."""
+"""A whole task moved, turned, mirrored and scaled: linkages taken along are judged the same."""
 
 import cmath
 import json
