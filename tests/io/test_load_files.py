@@ -14,17 +14,8 @@ from burmester import cli, synthesize
 from burmester.io.result import synthesis_data
 from burmester.io.saved import read_result
 from burmester.live.document import document_of, task_file, task_of
-from burmester.tasks.loads import (
-    NEEDED,
-    POSSIBLE,
-    Drive,
-    End,
-    Force,
-    Loads,
-    Mass,
-    Plates,
-    Spring,
-)
+from burmester.tasks.load_table import NEEDED, POSSIBLE
+from burmester.tasks.loads import Drive, End, Force, Loads, Mass, Plates, Spring
 from tests.oracles.marked import carets, marked
 from tests.oracles.stated_requirements import reader, refused
 

@@ -5,7 +5,8 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.loads.spring_laws import SpringLaw
-from burmester.tasks.loads import NEEDED, POSSIBLE, End, Mass, Plates, Spring, SpringKind
+from burmester.tasks.load_table import NEEDED, POSSIBLE, SpringKind
+from burmester.tasks.loads import End, Mass, Plates, Spring
 
 ENDS = (End("ground", (0, 0)), End("body", (0, 0)))
 

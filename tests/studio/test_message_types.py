@@ -4,7 +4,7 @@ import re
 from importlib import resources
 from typing import get_args
 
-from burmester.studio.session import HAND, SEARCH, Kind
+from burmester.studio.session import HAND, LOOK, SEARCH, Kind
 
 TYPES = resources.files("burmester.web") / "widget" / "types.d.ts"
 
@@ -17,7 +17,7 @@ def named(interface, key):
 
 
 def test_a_page_asks_what_the_server_does():
-    assert named("Asked", "do") == {*HAND, *SEARCH}
+    assert named("Asked", "do") == {*HAND, *SEARCH, *LOOK}
 
 
 def test_a_page_knows_what_the_server_tells():

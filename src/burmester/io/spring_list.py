@@ -19,7 +19,8 @@ import numpy as np
 from burmester.errors import InputError
 from burmester.loads.balance import Offer, filled
 from burmester.tasks.length_units import MILLIMETRES
-from burmester.tasks.loads import NEEDED, POSSIBLE, malformed
+from burmester.tasks.load_table import NEEDED, POSSIBLE
+from burmester.tasks.loads import malformed
 from burmester.wording import listed
 
 DIAMETER = "diameter"  # the column of how wide springs are

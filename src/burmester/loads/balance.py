@@ -22,7 +22,8 @@ from burmester.loads.spring_clearance import SpringClearance
 from burmester.loads.spring_laws import NOMINAL, SpringLaw
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.loads import CLOSES_FROM, STAYS_AT
-from burmester.tasks.loads import BODY, GROUND, End, Spring, SpringKind
+from burmester.tasks.load_table import SpringKind
+from burmester.tasks.loads import BODY, GROUND, End, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 
 PLACES: Final = 61  # along the motion, at which a grid is looked at

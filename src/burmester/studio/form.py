@@ -8,6 +8,15 @@ from typing import Any
 from burmester.requirements.loads import OF_LOADS, STAYS_AT
 from burmester.requirements.requirement import Number, Requirement
 from burmester.requirements.table import ASKED
+from burmester.tasks.load_table import (
+    DENSITIES,
+    NEEDED,
+    POSSIBLE,
+    PROFILE_WORDS,
+    SPRING_NUMBERS,
+    SPRING_WORDS,
+    SpringKind,
+)
 from burmester.tasks.option_table import LIMIT_OPTIONS, STUDIO_OPTIONS
 
 
@@ -33,7 +42,22 @@ def form_data() -> dict[str, Any]:
             for each in LIMIT_OPTIONS
             if each.label
         ],
+        "loads": {
+            "materials": [*DENSITIES],
+            "profiles": [*PROFILE_WORDS.items()],
+            "springs": [
+                {"kind": kind, "label": label, "numbers": _spring_numbers(kind)}
+                for kind, label in SPRING_WORDS.items()
+            ],
+        },
     }
+
+
+def _spring_numbers(kind: SpringKind) -> list[dict[str, Any]]:
+    return [
+        {"key": key, "needed": key in NEEDED[kind], **SPRING_NUMBERS[key]._asdict()}
+        for key in (*NEEDED[kind], *POSSIBLE[kind])
+    ]
 
 
 def _field(

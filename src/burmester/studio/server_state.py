@@ -149,18 +149,26 @@ class ServerState:
             self.answers.keep(key, Answer(result, answer[1]))
         return answer
 
-    async def desk(self, head: dict[str, Any], body: bytes, key: str | None = None) -> Message:
-        """What is asked over HTTP; raises TimeoutError and WorkerEndedError.
+    async def desk(
+        self,
+        head: dict[str, Any],
+        body: bytes,
+        key: str | None = None,
+        piece: Callable[[Message], object] | None = None,
+        limit_s: float = DESK_S,
+    ) -> Message:
+        """What is done with a task at rest; raises TimeoutError and WorkerEndedError.
 
         key: of the task whose answer is wanted, if one is: it is not found twice.
+        piece: what takes the pieces of the answer before the last.
         """
         if key is not None:
-            head = {**head, "time_limit": SOFT * self.limit_s}
+            head = {**head, "time_limit": SOFT * self.limit_s, "look_limit": SOFT * limit_s}
             if (known := self.answers.get(key)) is not None:
                 head["known"] = [len(known.result), len(known.report)]
                 body = known.result + known.report + body
-        async with self.workers.lent() as worker, asyncio.timeout(DESK_S):
-            return await worker.ask(head, body)
+        async with self.workers.lent() as worker, asyncio.timeout(limit_s):
+            return await worker.ask(head, body, piece)
 
     def limit_of(self, given: dict[str, Any]) -> float:
         """Seconds after which the search for a task is killed."""
@@ -173,8 +181,12 @@ class ServerState:
 
     @staticmethod
     def key_of(given: dict[str, Any]) -> str:
-        """The key of a task: the same for the same numbers, however they are written."""
+        """The key of a task: the same for the same numbers, however they are written.
+
+        "kind": of what was found besides four-bars, such as "six_bars".
+        """
         both = [plain(given.get("document")), plain(given.get("options") or {})]
+        both += [given["kind"]] if given.get("kind") else []
         return hashlib.sha256(json.dumps(both, sort_keys=True).encode()).hexdigest()
 
     def later(self, what: Coroutine[Any, Any, Any]) -> asyncio.Task[Any]:

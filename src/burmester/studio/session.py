@@ -1,8 +1,8 @@
 """One tab: what its page asks over its websocket, and the answers.
 
-Two things go on at once: what the hand asks for (follow, place, curve, cognates), where only
-the newest of each counts, and the whole search, which a new one replaces.  Every message has one
-last answer.
+Three things go on at once: what the hand asks for (follow, place, curve, cognates), where only
+the newest of each counts; the whole search, which a new one replaces; and what is looked for
+besides (springs, six-bars), which a new one replaces as well.  Every message has one last answer.
 """
 
 from __future__ import annotations
@@ -18,17 +18,19 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 from burmester.errors import InputError
 from burmester.studio.access import PROTOCOL
 from burmester.studio.message import as_json, from_json
-from burmester.studio.server_state import ServerState
+from burmester.studio.server_state import Answer, ServerState
 from burmester.studio.workers import Message, Worker, WorkerEndedError
 
 HAND_S = 5.0  # for one follow; whoever takes longer is stuck
 MOST_N = 2**53
 HAND = ("follow", "place", "curve", "cognates")
 SEARCH = ("solve", "cancel")
+LOOK = ("balance", "six_bars", "stop")
+LOOK_S = 120.0  # for springs and six-bars, which a person waits for and can stop
 # What a page is told; `web/widget/types.d.ts` says the same to the page.
 Kind: TypeAlias = (
     Literal["solving", "waiting", "progress", "solved", "limit", "ended", "cancelled"]
-    | Literal["superseded", "refused", "followed", "placed", "curve", "cognates"]
+    | Literal["superseded", "refused", "followed", "placed", "curve", "cognates", "looked"]
 )
 
 
@@ -42,6 +44,7 @@ class Session:
         self._newest: dict[str, tuple[int, str]] = {}  # of the hand: the newest of each kind
         self._hand: asyncio.Task[None] | None = None
         self._solving: tuple[int, asyncio.Task[None]] | None = None
+        self._looking: tuple[int, asyncio.Task[None]] | None = None
 
     async def run(self) -> None:
         """Serve the tab until it is closed."""
@@ -55,7 +58,8 @@ class Session:
         except WebSocketDisconnect:
             return
         finally:
-            for task in (self._hand, self._solving and self._solving[1]):
+            under_way = (each[1] for each in (self._solving, self._looking) if each)
+            for task in (self._hand, *under_way):
                 if task is not None:
                     task.cancel()
             if self._live is not None and self._live.holder is self:
@@ -90,8 +94,20 @@ class Session:
                 key = self._state.key_of(given)
                 limit_s = self._state.limit_of(given)
                 self._solving = n, self._state.later(self._solve(n, key, text, limit_s))
+        elif do in LOOK:
+            await self._take_look(n, do, given, text)
         else:
             await self._refuse(n, "this is no message of the page")
+
+    async def _take_look(self, n: int, do: str, given: dict[str, Any], text: str) -> None:
+        """Look for what is asked in place of what was looked for, or only stop that."""
+        if self._looking is not None and not self._looking[1].done():
+            self._looking[1].cancel()
+            await self._tell(self._looking[0], "cancelled", message="called off")
+        if do == "stop":
+            await self._tell(n, "cancelled", message="called off")
+        else:
+            self._looking = n, self._state.later(self._look(n, do, given, text.encode()))
 
     async def _follow_hand(self) -> None:
         """Answer the newest messages of the hand, until there are none; follow comes first."""
@@ -162,6 +178,30 @@ class Session:
             await self._tell(n, "limit", message=message)
         except WorkerEndedError as error:
             await self._tell(n, "ended", messages=[error.data])
+
+    async def _look(self, n: int, do: str, given: dict[str, Any], body: bytes) -> None:
+        """What is looked for besides, in a worker that is nobody's."""
+        state = self._state
+        key = state.key_of(given)
+        result = b""
+
+        def piece(message: Message) -> None:
+            nonlocal result
+            if message[0]["kind"] == "result":
+                result = message[1]
+            else:
+                state.later(self._tell(n, "progress", text=message[1].decode()))
+
+        try:
+            head, data = await state.desk({"do": do}, body, key, piece, LOOK_S)
+        except TimeoutError:
+            await self._tell(n, "limit", message=f"stopped after {LOOK_S:g} s, the limit")
+        except WorkerEndedError as error:
+            await self._tell(n, "ended", messages=[error.data])
+        else:
+            if result:
+                state.answers.keep(state.key_of({**given, "kind": do}), Answer(result, data))
+            await self._send(n, "refused" if head["kind"] == "failed" else "looked", data)
 
     async def _snapshot(self, live: Worker, text: str) -> bytes | None:
         """Where the linkages of the page are at a task."""

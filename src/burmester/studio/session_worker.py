@@ -17,6 +17,7 @@ from burmester.errors import BurmesterError, InputError
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.result import json_line, synthesis_data
 from burmester.io.saved import read_result
+from burmester.io.spring_list import usual_springs
 from burmester.live.answers import FRAMES, LiveAnswers
 from burmester.live.document import (
     TaskReader,
@@ -35,6 +36,7 @@ from burmester.studio.exports import dyads_of, exported, formats, report_page
 from burmester.studio.message import as_json
 from burmester.studio.opening import template
 from burmester.studio.placed import placed
+from burmester.synthesis.balanced import springs_for
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.result import Synthesis
@@ -164,6 +166,35 @@ class SessionWorker:
         return _json(
             report_data(judge_linkage(task, chosen.driver_first, options, improve=True), for_page)
         )
+
+    def springs(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The springs of usual sizes, in a unit of length."""
+        single = (each for each in usual_springs(given.get("length_unit")) if each.many == 1)
+        return _json([{"name": e.name, "kind": e.kind, **e.numbers} for e in single])
+
+    def balance(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """Springs of usual sizes for one linkage of the result, the best first."""
+        from burmester.io.balance_table import balance_data  # noqa: PLC0415  loads rich
+
+        linkage = given.get("linkage")
+        with shown(job.listen):
+            saved = read_result("-", data=self._result(head, given))
+            found = saved.choose(linkage if isinstance(linkage, str) else None)
+            springs = springs_for(found, usual_springs(found.task.length_unit))
+        assert isinstance(saved.synthesis, Synthesis)
+        return _json(balance_data(saved.synthesis, springs))
+
+    def six_bars(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """Six-bars for the poses: the result as a file holds it first, then what the page draws."""
+        from burmester.synthesis.six_bars import synthesize_six_bars  # noqa: PLC0415
+        from burmester.web.six_bar_data import six_bar_report  # noqa: PLC0415
+
+        task = task_of(given.get("document"))
+        with shown(job.listen):
+            options = options_of(given.get("options"), head["look_limit"])
+            found = synthesize_six_bars(task, options=options)
+        job.send({"kind": "result"}, json_line(synthesis_data(found)).encode())
+        return _json(six_bar_report(found))
 
     def solve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """The whole search: the result as a file holds it first, then what the page draws."""

@@ -32,6 +32,7 @@ from burmester.verdicts.ranking import digits_leave_open, farthest_recommended
 
 MOST_LINKAGES = 6  # of an answer, the best first
 EACH = 3  # springs that are told of a linkage
+MOST_SPRINGS = 6  # the same of one that is chosen
 MOST_MOVED = 2  # linkages whose pivots are moved
 TURNS = 6  # at which pivots are moved, then the spring
 LESS, MOST_SHARE = 0.7, 0.95  # of the force that is left, at first and at most the next aim
@@ -62,11 +63,7 @@ def balance(
     Raises InputError E134 where the task has no loads.
     """
     if task.loads is None:
-        raise InputError(
-            "E134",
-            "there is nothing to balance: the task has no loads",
-            help="state the mass of the body and where the hand is, in the table loads",
-        )
+        raise nothing_to_balance()
     asked = task.requirements
     free = {each.name: each.default for each in OF_LOADS}
     answer = synthesize(
@@ -76,7 +73,7 @@ def balance(
     for found in [each for each in answer.linkages if each.usable][:MOST_LINKAGES]:
         step(f"looking at springs for {found.id}")
         own = replace(found, task=replace(found.task, requirements=asked))
-        out += _balanced(own, offers, regions, EACH)
+        out += springs_for(own, offers, regions, EACH)
     out.sort(key=_order)
     if with_linkage:
         first = {each.found.id: each for each in reversed(out)}
@@ -87,14 +84,28 @@ def balance(
     return answer, out
 
 
+def nothing_to_balance() -> InputError:
+    """E134: a task without loads."""
+    return InputError(
+        "E134",
+        "there is nothing to balance: the task has no loads",
+        help="state the mass of the body and where the hand is, in the table loads",
+    )
+
+
 def _order(balanced: Balanced) -> tuple[bool, float]:
     return not balanced.keeps, balanced.worst
 
 
-def _balanced(
-    found: LinkageAtPoses, offers: Sequence[Offer], regions: BalanceRegions | None, most: int
+def springs_for(
+    found: LinkageAtPoses,
+    offers: Sequence[Offer],
+    regions: BalanceRegions | None = None,
+    most: int = MOST_SPRINGS,
 ) -> list[Balanced]:
-    """The best springs for a linkage, in the regions."""
+    """The best springs for one linkage, in the regions; raises InputError E134 without loads."""
+    if found.task.loads is None:
+        raise nothing_to_balance()
     ground, body = (
         usual if given is None else given
         for given, usual in zip(regions or BalanceRegions(), usual_regions(found), strict=True)
@@ -128,7 +139,7 @@ def _moved(
         better = list[Balanced]()
         for each in _refined(found, answer.problem):
             own = replace(each, id=f"{given.id}'", task=bare)
-            better += _balanced(own, offers, regions, 1)
+            better += springs_for(own, offers, regions, 1)
         one = min(better, key=_order, default=best)
         gains = one.keeps > best.keeps or one.worst < ENOUGH * best.worst
         if gains and one.keeps >= best.keeps:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Final, Literal, TypeAlias, final, get_args
+from typing import Any, Final, Literal, final, get_args
 
 import numpy as np
 
@@ -19,23 +19,20 @@ from burmester.errors import InputError
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.length_units import MILLIMETRES
+from burmester.tasks.load_table import (
+    DENSITIES,
+    NEEDED,
+    POSSIBLE,
+    PROFILES,
+    SIGNED,
+    Profile,
+    SpringKind,
+)
 from burmester.values import real_numbers, shown
 from burmester.wording import listed
 
 STANDARD_GRAVITY: Final = 9.80665  # m/s²
-DENSITIES: Final[Mapping[str, float]] = {  # kg/m³
-    "steel": 7850.0,
-    "aluminium": 2700.0,
-    "stainless": 7900.0,
-    "acrylic": 1190.0,
-    "plywood": 680.0,
-}
-Profile: TypeAlias = Literal["constant", "3-4-5", "trapezoid", "table"]
-PROFILES: Final = ("3-4-5", "trapezoid", "constant")  # those that a duration is enough for
 MOST_TIMES: Final = 2000  # rows of a table of times
-SpringKind: TypeAlias = Literal[
-    "extension", "compression", "gas", "constant", "torsion", "counterweight"
-]
 ROOM_CELSIUS: Final = 20.0  # at which makers measure gas springs
 SLACK: Final = 1e-9  # relative; lengths that differ by less are the same
 GROUND: Final = "ground"
@@ -149,26 +146,6 @@ class End:
 
     link: str
     point: tuple[float, float]
-
-
-# Which numbers a kind of spring needs, and which it may have besides; all are 0 or more.
-NEEDED: Final[Mapping[SpringKind, tuple[str, ...]]] = {
-    "extension": ("rate_N_per_mm", "free_length"),
-    "compression": ("rate_N_per_mm", "free_length"),
-    "gas": ("force_N", "compressed_force_N", "stroke", "length"),
-    "constant": ("force_N",),
-    "torsion": ("rate_Nm_per_deg",),
-    "counterweight": ("mass_kg",),
-}
-POSSIBLE: Final[Mapping[SpringKind, tuple[str, ...]]] = {
-    "extension": ("initial_N", "greatest_length"),
-    "compression": ("least_length", "greatest_length"),
-    "gas": ("friction_N",),
-    "constant": ("least_length", "greatest_length"),
-    "torsion": ("free_deg",),
-    "counterweight": (),
-}
-SIGNED: Final = ("free_deg",)
 
 
 @final

@@ -11,6 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from burmester.describe.load_words import load_notes
 from burmester.loads.load_curves import LoadCurves, MovingCurves, curves_in_time, load_curves
 from burmester.loads.loaded_motion import LoadedLinkage, letter
 from burmester.numerics.arrays import FloatArray
@@ -53,11 +54,11 @@ def loads_of(
 ) -> dict[str, Any] | None:
     """The curves of a linkage, if it has loads; at: the way and the frame of each pose.
 
-    way: on which they are.  panels: over the driver.  timed: over time, where there is a drive,
-    with the time for each place of the driver.  hand: the direction in which the hand pushes, in
-    radians, and its force as a share of the greatest.  moved: ends of springs on links that are
-    neither the ground nor the body.  pins: where each pin is, and the force of the ground or of the
-    link that holds it on the other link.
+    way: on which they are.  said: its figures in sentences.  panels: over the driver.  timed: over
+    time, where there is a drive, with the time for each place of the driver.  hand: the direction
+    in which the hand pushes, in radians, and its force as a share of the greatest.  moved: ends of
+    springs on links that are neither the ground nor the body.  pins: where each pin is, and the
+    force of the ground or of the link that holds it on the other link.
     """
     if found.loads is None:
         return None
@@ -76,6 +77,7 @@ def loads_of(
     over = _Over(curves.driver + turn)
     out = {
         "way": way,
+        "said": load_notes(found.loads, found.task),
         "panels": [over.panel(*each) for each in _still(curves)],
         "hand": _hand(linkage, curves, over),
         "moved": _moved(found, linkage, over),

@@ -1,6 +1,23 @@
 """Loads in the studio: their panel, springs in the picture, and both while a hand drags."""
 
-from tests.oracles.studio_page import choose, drag, drop, has_poses, open_tab, solved
+import pytest
+
+from burmester import synthesize
+from burmester.describe.load_words import load_notes
+from burmester.io.spring_list import usual_springs
+from burmester.live.document import task_of
+from burmester.synthesis.balanced import springs_for
+from tests.oracles.studio_page import (
+    choose,
+    drag,
+    drop,
+    has_poses,
+    kept,
+    open_tab,
+    see_all,
+    solved,
+    view,
+)
 
 LID = """length_unit = "mm"
 angle_unit = "deg"
@@ -80,7 +97,71 @@ def test_fields_for_what_is_asked_of_loads(page):
     has_poses(page, 3)
     solved(page)
     assert (least.input_value(), greatest.input_value()) == ("", "400")
-    least.fill("-50")
-    least.press("Enter")
+    enter(page, "hand_force_N-least", "-50")
     solved(page)
     assert (least.input_value(), greatest.input_value()) == ("−50", "400")
+    # A least force without a greatest stays where it is, and says what it waits for.
+    enter(page, "hand_force_N-least", "")
+    enter(page, "hand_force_N-greatest", "")
+    enter(page, "hand_force_N-least", "-40")
+    assert "Write the greatest as well" in page.locator("label", has=least).inner_text()
+    enter(page, "hand_force_N-greatest", "300")
+    assert kept(page)["requirements"] == {"hand_force_N": [-40, 300]}
+
+
+# Of a chest's lid, driven by a four-bar: five poses leave few linkages, found at once.
+FIVE = """length_unit = "mm"
+angle_unit = "deg"
+poses = [
+  { x = 0, y = 0, angle = 0 },
+  { x = 2.91, y = -17.171, angle = 22.5 },
+  { x = 10.949, y = -41.071, angle = 45 },
+  { x = 23.907, y = -67.224, angle = 67.5 },
+  { x = 43.763, y = -92.311, angle = 90 },
+]
+"""
+
+
+def enter(page, key, text):
+    field = page.locator(f'[data-key="{key}"]')
+    field.fill(text)
+    field.press("Enter")
+
+
+def test_a_lid_gets_its_weight_a_hand_and_the_spring_that_makes_it_light(page):
+    """From bare poses to a balanced lid by fields and the mouse; Python finds the same spring."""
+    drop(page, "lid.toml", FIVE)
+    has_poses(page, 5)
+    page.locator("[data-section=loads] > summary").click()
+    enter(page, "mass_kg", "4")
+    page.locator("[data-do=add-hand]").click()
+    for axis, value in zip("xy", ("420", "0"), strict=True):
+        enter(page, f"loads.hand.at.{axis}", value)
+    solved(page)
+    page.locator('[data-row="1"] .bs-index').click()
+    see_all(page)
+    before = kept(page)["loads"]["body"]["center"]
+    drag(page, "[data-load=centre]", 40, 0)
+    solved(page)
+    document = kept(page)
+    moved = [before[0] + 40 / view(page)["scale"], before[1]]
+    assert document["loads"]["body"]["center"] == pytest.approx(moved, abs=1)
+    bare = synthesize(task_of(document)).best
+    expected, *_ = springs_for(bare, usual_springs("mm"))
+    page.locator("[data-do=find-spring]").click()
+    first = page.locator("[data-spring-name]").first
+    assert first.get_attribute("data-spring-name") == expected.offer.name
+    first.click()
+    solved(page)
+    document = kept(page)
+    (spring,) = document["springs"]
+    assert spring["ground_point"] == pytest.approx(expected.spring.ends[0].point, abs=1e-9)
+    # The answer follows: what the page says of the hand is what Python says of the sprung lid.
+    sprung = synthesize(task_of(document)).best
+    assert sprung.loads.hand.magnitude < 0.5 * bare.loads.hand.magnitude
+    (said,) = (each for each in load_notes(sprung.loads, sprung.task) if "A hand moves it" in each)
+    assert said in page.locator(".bs-load-notes").text_content()
+    # What the fields cannot read stays in them, and what they do not show is not lost.
+    enter(page, "spring-0-body_point-x", "far")
+    assert "not a number" in page.locator("[data-spring='0']").inner_text()
+    assert kept(page)["springs"] == [spring]

@@ -15,11 +15,10 @@ import { listenToSpace } from "./keyboard.mjs";
 import { LiveLinkage } from "./live_linkage.mjs";
 import { catchUpForPrint } from "./pacing.mjs";
 import { PivotSurface } from "./pivot_surface.mjs";
+import { hasLoads } from "./loads.mjs";
 import { Playing, playOnce } from "./playing.mjs";
 import { Results } from "./results.mjs";
 import { SpacePanel } from "./space_panel.mjs";
-
-const LOADS = ["loads", "springs", "drive"]; // what a task states of them
 
 /** Make every part that shows answers, and put it in its place.
  * @param {object} store @param {object} scene @param {{ player: Element, results: Element, drawer: import("./arrangement.mjs").Drawer }} places */
@@ -36,7 +35,7 @@ export function addResults(store, scene, { player, results, drawer }) {
   results.append(cards.element);
   const ofAngles = () => !store.document.poses.some(isPoint); // points leave angles free
   drawer.add("charts", "Errors and transmission", charts.element);
-  drawer.add("loads", "Loads", loads.element, () => LOADS.some((key) => store.document[key]));
+  drawer.add("loads", "Loads", loads.element, () => hasLoads(store.document));
   drawer.add("motion", "Driver and curves", h("div", {}, ways, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element)));
   drawer.add("cognates", "Cognates", cognates.element, () => isOfPoints(store.document));
   drawer.add("pivots", "Pivots", surface.element, ofAngles);

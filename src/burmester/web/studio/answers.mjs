@@ -7,6 +7,7 @@ import { figure, fixed, radians } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
 import { isPath, isPoint } from "./document.mjs";
 import { Events } from "./events.mjs";
+import { drawnLoads } from "./loads.mjs";
 
 const LONGEST_NAME = 5; // characters of a pose's name that a drawing has room for
 const FOLLOWED = 1e-7; // scenes; the same of what is followed, whose places are single floats
@@ -62,7 +63,7 @@ export class Answers extends Events {
 
   takePoses() {
     const poses = posesOf(this.store.document);
-    Object.assign(this.data, { poses, isPath: isPath(this.store.document), ...surroundingsOf(this.store.document, this.data) });
+    Object.assign(this.data, { poses, isPath: isPath(this.store.document), loads: drawnLoads(this.store.document), ...surroundingsOf(this.store.document, this.data) });
     this.emit("poses");
   }
 
@@ -71,7 +72,7 @@ export class Answers extends Events {
     const { renamed: names, moved } = this.store;
     const was = new Map([...names].map(([old, id]) => [id, this.byId.get(old)]));
     const { poses, body, keep_out, ...rest } = solved;
-    Object.assign(this.data, { body, keep_out, ...rest, poses: posesOf(document) });
+    Object.assign(this.data, { body, keep_out, ...rest, poses: posesOf(document), loads: drawnLoads(document) });
     this.gone = this.store.isEmpty || this.store.isAnother ? [] : before.filter((each) => !names.has(each.id)).map((each) => each.id);
     this.byId = new Map();
     this.linkages = solved.linkages.map((fresh) => {

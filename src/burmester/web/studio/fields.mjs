@@ -9,7 +9,8 @@ let made = 0; // ids of fields and their sentences are unique on the page
 /** A field for a number.
  *
  * label: its name for a screen reader; options: as `quantity` takes them, as a function, for the task's unit may change;
- * commit: called with the value where it is new; step: how far the arrow keys go, a function.
+ * commit: called with the value where it is new; a sentence that it returns says why it is not taken.
+ * step: how far the arrow keys go, a function.
  */
 export class NumberField {
   constructor({ label, options, commit, step = () => 1, attributes = {} }) {
@@ -59,11 +60,20 @@ export class NumberField {
     const { value, fault } = quantity(this.input.value, this.options());
     this.say(fault ?? null);
     if (fault) return;
-    const isNew = value !== this.value;
+    const isNew = value !== this.value, before = this.value;
     this.value = value;
-    if (document.activeElement !== this.input || !isNew) this.input.value = written(value);
-    if (isNew) this.commit(value);
-    this.input.value = written(this.value);
+    const refused = isNew ? this.commit(value) : null;
+    if (typeof refused === "string") {
+      this.value = before; // the text stays, and waits for what it lacks
+      this.say(refused);
+    } else {
+      this.input.value = written(this.value);
+    }
+  }
+
+  /** The number that is typed, whether it was taken or not. */
+  get typed() {
+    return quantity(this.input.value, this.options()).value;
   }
 
   /** The arrow keys: a step, ten with Shift, a tenth with Alt. */
@@ -89,6 +99,30 @@ export class NumberField {
       put(this.input, "aria-describedby", this.fault.id);
     }
   }
+}
+
+/** Two fields whose numbers are one value: `both` makes it of them, or says in a sentence what it lacks. */
+export class PairField {
+  /** @param {{ labels: string[], options: () => object, commit: (value: any) => void, both?: (one: any, other: any) => any, step?: () => number, attributes?: object[] }} what */
+  constructor({ labels, options, commit, both = pointOf, step, attributes = [] }) {
+    const read = () => {
+      const value = both(this.fields[0].typed, this.fields[1].typed);
+      return typeof value === "string" ? value : commit(value);
+    };
+    this.fields = labels.map((label, k) => new NumberField({ label, options: () => ({ ...options(), optional: true }), commit: read, step, attributes: attributes[k] }));
+    this.element = h("span", { class: "bs-pair" }, this.fields.map((field) => field.element));
+  }
+
+  /** @param {any[] | undefined} values */
+  show(values) {
+    this.fields.forEach((field, k) => field.show(values?.[k]));
+  }
+}
+
+/** Both numbers of a point, or neither. */
+function pointOf(x, y) {
+  if (x === undefined && y === undefined) return undefined;
+  return x === undefined || y === undefined ? "Both numbers make the point: write the other one, too." : [x, y];
 }
 
 /** How far a key goes: a step, ten with Shift, a tenth with Alt. */

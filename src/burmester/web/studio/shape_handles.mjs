@@ -7,7 +7,7 @@ import { stepOf, stepped } from "./fields.mjs";
 import { boxCorners, outlineOf } from "./region_geometry.mjs";
 import { Kept } from "./scene.mjs";
 
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+export const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const LEAST_CORNERS = 3;
 const CLOSED = new Set(["box", "polygon"]);
 export const GROUND = { x: 0, y: 0, a: 0 }; // the place of F in F

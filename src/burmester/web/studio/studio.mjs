@@ -14,6 +14,8 @@ import { button } from "./fields.mjs";
 import { Files } from "./files.mjs";
 import { decodeFrame } from "./frames.mjs";
 import { keyList, listenToKeys } from "./keyboard.mjs";
+import { LoadHandles } from "./load_handles.mjs";
+import { LoadsPanel } from "./loads_panel.mjs";
 import { PathCurve, PathTool } from "./path_curve.mjs";
 import { PathPanel } from "./path_panel.mjs";
 import { PointTool, PoseHandles, PoseTool } from "./pose_handles.mjs";
@@ -54,8 +56,10 @@ function layOut(root, store, start) {
       right, drawer.element),
   );
   scene.resize();
-  const { dimensions } = addResults(store, scene, { player, results: cards, drawer });
+  const { answers, playing, dimensions } = addResults(store, scene, { player, results: cards, drawer });
   root.querySelector(".bs-bar")?.append(dimensions.element);
+  const loads = new LoadsPanel(store, scene, new LoadHandles(store, scene, playing), answers, start.form.loads);
+  panel.element.querySelector("[data-section=requirements]").before(loads.element);
   listenToKeys(store, scene, files);
   new Autosave(store);
   files.opened = refitWhenSolved(store, scene);

@@ -2,7 +2,8 @@
 
 import { give, h, put, say } from "../widget/dom.mjs";
 import { limitsOf, regionsOf, setBody, setLimit, setRegion, setRequirement, setSurrounding, shapeOf, splitLimits, bodyOf, limitRegions, poseName, withKeys } from "./document.mjs";
-import { NumberField, button, choice, labelled, textField, tick } from "./fields.mjs";
+import { NumberField, PairField, button, choice, labelled, textField, tick } from "./fields.mjs";
+import { hasLoads } from "./loads.mjs";
 import { PointFields } from "./point_fields.mjs";
 
 const SHAPES = ["point", "line", "segment", "box", "polygon"];
@@ -236,11 +237,9 @@ export class TaskPanel {
         return { element, show: (value) => ticks.forEach(({ name, box }) => (box.checked = Boolean(value?.includes(name)))) };
       }
       case "corridor": { // a greatest magnitude, or with a least value both with their signs
-        const side = (name) => new NumberField({ label: `${label}, ${name}`, commit: () => (least.value !== undefined && greatest.value === undefined ? undefined : set(both())), options: () => ({ optional: true, kind: "number" }), attributes: { "data-key": `${key}-${name}`, placeholder: "–" } });
-        const least = side("least"), greatest = side("greatest");
-        const both = () => (greatest.value === undefined ? undefined : least.value === undefined ? greatest.value : [least.value, greatest.value]);
-        const element = labelled(label, h("span", { class: "bs-pair" }, least.element, greatest.element), " ");
-        return { element, show: (value) => [least, greatest].forEach((field, k) => field.show(Array.isArray(value) ? value[k] : k ? value : undefined)) };
+        const sides = ["least", "greatest"], both = (least, greatest) => (least === undefined ? greatest : greatest === undefined ? "Write the greatest as well: a least alone bounds nothing." : [least, greatest]);
+        const pair = new PairField({ labels: sides.map((side) => `${label}, ${side}`), options: () => ({ kind: "number" }), both, commit: set, attributes: sides.map((side) => ({ "data-key": `${key}-${side}`, placeholder: "–" })) });
+        return { element: labelled(label, pair.element, " "), show: (value) => pair.show(Array.isArray(value) ? value : [undefined, value]) };
       }
       case "area": {
         const none = button("Delete", () => set(undefined), { "data-do": `delete-${key}`, "aria-label": `Delete the ${key}` });
@@ -256,7 +255,7 @@ export class TaskPanel {
   }
 
   drawRequirements() {
-    const { requirements, loads, springs, drive } = this.store.document, loaded = Boolean(loads ?? springs ?? drive);
+    const { requirements } = this.store.document, loaded = hasLoads(this.store.document);
     for (const { key, show, element, loads: ofLoads } of this.asks) {
       show(requirements?.[key]);
       give(element, "hidden", Boolean(ofLoads) && !loaded && requirements?.[key] === undefined);
@@ -317,8 +316,8 @@ export class TaskPanel {
 
   /** While poses are dragged nothing here is another. */
   draw() {
-    const { document: { limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma, poses }, options, selection, reference } = this.store;
-    const now = [limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma, options, selection, reference, poses.length];
+    const { document, options, selection, reference } = this.store, { limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma, poses } = document;
+    const now = [limits, keep_out, surroundings, body, requirements, length_unit, pose_sigma, hasLoads(document), options, selection, reference, poses.length];
     if (now.every((each, k) => each === this.drawn?.[k]) && this.drawn) return;
     if (!this.drawn || pose_sigma !== this.drawn[6]) this.drawSigma(); // a half that was typed stays
     this.drawn = now;

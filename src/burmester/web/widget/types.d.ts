@@ -65,7 +65,7 @@ export interface View {
 
 /** What a page asks over its websocket; `burmester.studio.session` has the same, and a test compares them. */
 export interface Asked {
-  do: "follow" | "place" | "curve" | "cognates" | "solve" | "cancel";
+  do: "follow" | "place" | "curve" | "cognates" | "solve" | "cancel" | "balance" | "six_bars" | "stop";
   [more: string]: any;
 }
 
@@ -74,6 +74,6 @@ export interface Told {
   n: number;
   kind:
     | "solving" | "waiting" | "progress" | "solved" | "limit" | "ended" | "cancelled" | "superseded" | "refused"
-    | "followed" | "placed" | "curve" | "cognates";
+    | "followed" | "placed" | "curve" | "cognates" | "looked";
   [more: string]: any;
 }

@@ -43,16 +43,12 @@ from burmester.io.reading.trees.node import (
     words,
 )
 from burmester.io.reading.trees.node import listed as listed_of
+from burmester.tasks.load_table import DENSITIES, NEEDED, POSSIBLE, PROFILES, SIGNED
 from burmester.tasks.loads import (
     BODY,
-    DENSITIES,
     GROUND,
     MOST_TIMES,
-    NEEDED,
-    POSSIBLE,
-    PROFILES,
     ROOM_CELSIUS,
-    SIGNED,
     Drive,
     End,
     Force,
