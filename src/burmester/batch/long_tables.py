@@ -290,10 +290,7 @@ def _cut(columns: dict[str, Any], first: int, end: int | None) -> dict[str, Any]
 
 
 def _tasks(columns: dict[str, Any], label: str, row: int, before: TaskNames) -> TableTasks:
-    """The tasks in rows that hold whole ones; row: of the table, where they begin.
-
-    before: the names of the tasks above; raises E108 where a task is there already.
-    """
+    """The tasks in rows that hold whole ones; `before`: names above; raises E108 for one twice."""
     from pyarrow import types  # noqa: PLC0415
 
     names = columns["task"]

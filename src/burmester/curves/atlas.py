@@ -157,10 +157,7 @@ def along_path(points: ComplexArray, closed: bool, number: int) -> tuple[Complex
 
 
 def _spreads(atlas: Atlas, number: int, stride: int, closed: bool) -> FloatArray:
-    """The sums of squares (k, 1 or SAMPLES) of the points of stretches about their middles.
-
-    By where they begin; no less than what rounding leaves.
-    """
+    """The sums of squares (k, 1 or SAMPLES) of stretches about their middles, by their begins."""
     size = atlas.points.real**2 + atlas.points.imag**2
     if closed:
         spread = size.sum(axis=1, keepdims=True)

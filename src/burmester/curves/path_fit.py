@@ -283,10 +283,7 @@ def _timed(fit: CurveFit, target: PathTarget) -> CurveFit:
 
 
 def _towards_worst(fit: CurveFit, target: PathTarget) -> CurveFit:
-    """Fits (k,) of lesser greatest distances, or the same: what is far weighs more each time.
-
-    Lawson's way to a Chebyshev fit, by weighted least squares (PhD thesis, UCLA, 1961).
-    """
+    """Fits (k,) of lesser greatest distances, by Lawson's weights (PhD thesis, UCLA, 1961)."""
 
     def away(fit: CurveFit) -> FloatArray:
         return np.asarray(np.abs(fit.linkages.at(fit.t).point - target.points)[0])
@@ -318,11 +315,7 @@ def _best(fit: CurveFit, most: int) -> CurveFit:
 
 
 def _different(fit: CurveFit, target: PathTarget, most: int, share: float = math.inf) -> CurveFit:
-    """Different curves (k,), the nearest of each, cognates being one.
-
-    share: of the root mean square distance of the nearer one, at which they differ at the latest.
-    What is on its way to a better end is then not taken for a good curve that it passes.
-    """
+    """Different curves (k,), the nearest of each; share: of the distance, at which they differ."""
     traced = fit.linkages.at(fit.t).point
     near = np.minimum(SAME_CURVE, share * np.sqrt(fit.cost / len(target.points)))
     kept: list[int] = []

@@ -159,10 +159,7 @@ def decimals_of_dyad(dyad: Dyad, poses: Displacement, size: float) -> Decimals:
 def _asked(
     poses: Displacement, error: PoseError, free_angles: NDArray[np.bool_]
 ) -> tuple[Displacement, NDArray[np.bool_]]:
-    """Poses (N,), what is free of them where the linkage has it: there its error counts as none.
-
-    Also which positions and which angles (2, N) are free.
-    """
+    """Poses (N,), the linkage's where free, and which positions and angles (2, N) are free."""
     away = PoseError.at(error.places, poses).position
     moved = away > error.position + ROUNDING * (1 + error.position)
     asked = Displacement(
@@ -212,11 +209,7 @@ def _errors_of(
     length: float,
     free: NDArray[np.bool_],
 ) -> FloatArray:
-    """The greatest position and angle errors (k, 2) of linkages (k,) close to one another.
-
-    places: (N,), of one of them, at poses (N,).  Infinite where one does not come near a pose.
-    free: (2, N), positions and angles that count as met.
-    """
+    """The greatest position and angle errors (k, 2) of linkages (k,) near `places` (N,)."""
     frames = error_frames(poses, length)
     unit = length / float(frames.length)
     batch = LinkageBatch.of(linkages).to_canonical(frames)

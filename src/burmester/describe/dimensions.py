@@ -85,10 +85,7 @@ def dimensions_of(
 def _of_dyad(
     dyad: Dyad, decimals: Decimals, region: DyadUncertainty | None, middle: FloatArray | None
 ) -> Iterator[tuple[str, str, str]]:
-    """Each dimension of a dyad: its name, its value and its half-width.
-
-    middle: the point by which its line is told, if it has one.
-    """
+    """Each dimension of a dyad: its name, value and half-width; middle: the point of its line."""
     digits = decimals.lengths
 
     def place(pivot: FloatArray) -> str:

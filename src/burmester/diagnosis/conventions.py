@@ -246,10 +246,7 @@ class Comparison(NamedTuple):
 
 
 def _first_pairs(tasks: Sequence[NormalizedPoses]) -> tuple[LinkageBatch, NDArray[np.intp]]:
-    """Pairs of dyads (k,) near each task, and which task each belongs to: by pencils.
-
-    Of all poses, and of a few of them: one of these is near a linkage that all poses are on.
-    """
+    """Pairs of dyads (k,) near each task by pencils of all poses and of a few, and their tasks."""
     count, number = len(tasks[0].rows), len(tasks)
     # Fixed numbers, so that the same poses have the same answer.
     rng = np.random.default_rng(0)

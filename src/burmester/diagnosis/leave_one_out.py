@@ -184,10 +184,7 @@ def pencil_pairs(
 def _suspects(
     normalized: NormalizedPoses, pairs: LinkageBatch
 ) -> tuple[NDArray[np.intp], LinkageBatch]:
-    """Of many poses those that may be odd, and linkages that fit the others.
-
-    From fits in which distant poses count less and less.
-    """
+    """Of many poses those that may be odd, and linkages that fit the others."""
     away = np.linalg.norm(normalized.rows[:, :2] - median(normalized.rows[:, :2], 0), axis=-1)
     farthest = int(away.argmax())
     linkages = concatenate([pairs, _best_pairs(normalized, farthest)])

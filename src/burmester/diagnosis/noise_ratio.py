@@ -244,10 +244,7 @@ def _fit_each_ratio(
     left_out: int,
     one_each: LinkageBatch | None = None,
 ) -> tuple[LinkageBatch, FloatArray]:
-    """The best linkage (R,) for each ratio from all starts (*,), and the costs (R,).
-
-    one_each: (R,), a further start of each ratio.
-    """
+    """The best linkage (R,) for each ratio, and the costs (R,); one_each: a further start."""
     times = len(starts) + (one_each is not None)
     every = take(starts, np.tile(np.arange(len(starts)), len(RATIOS)))
     ratio = np.repeat(RATIOS, len(starts))

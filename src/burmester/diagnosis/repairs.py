@@ -206,10 +206,7 @@ def unit_repair(
 def _away(
     normalized: NormalizedPoses, pose: int, row: FloatArray, task: Task
 ) -> tuple[float, float]:
-    """How far the position and the angle of a row (3,) are from those before and after a pose.
-
-    In sum; from those as given where the order of the poses has no meaning.
-    """
+    """How far position and angle of a row (3,) are from the neighbours' or given ones, in sum."""
     beside = [k for k in (pose - 1, pose + 1) if 0 <= k < len(normalized.rows)]
     gap = row - normalized.rows[[pose] if task.requirements.any_order else beside]
     turn = np.abs(wrapped_angle(gap[:, 2]))

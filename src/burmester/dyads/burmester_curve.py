@@ -145,10 +145,7 @@ def dyad_curve(poses: Displacement, samples: int = 400) -> DyadCurve:
 
 
 def _known_points(seen: Displacement, basis: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """What is known of the curve by linear algebra alone.
-
-    Returns points (n, 4) of it, at most fourteen, and the two quadrics (2, 4, 4) it lies on.
-    """
+    """Points (n, 4) of the curve by linear algebra, at most 14, and its two quadrics (2, 4, 4)."""
     quadrics = np.moveaxis(constraint_manifold.condition_gradients(basis) @ basis.T, 1, 0)
     quadrics = np.linalg.svd(quadrics.reshape(2, 16), full_matrices=False)[2].reshape(2, 4, 4)
     points = np.empty((0, 4))
@@ -238,10 +235,7 @@ def _traces(
 
 
 def _covered(p: FloatArray, traces: list[_Trace]) -> bool:
-    """Whether the manifolds (n, 8) are on these loops, within the steps of the loops.
-
-    Near a slider one of the pivots is noise, and is not looked at.
-    """
+    """Whether manifolds (n, 8) are on these loops within the loops' steps, sliders by one pivot."""
     pivots = _places(p[np.abs(p[:, 0]) > DISTANT_P1])[:, None]
     nearest = [_distance(pivots, _places(trace.manifolds)).min(axis=-1) for trace in traces]
     step = max(np.diff(trace.length).max() for trace in traces)
@@ -261,10 +255,7 @@ def _places(p: FloatArray) -> FloatArray:
 
 
 def _distance(one: FloatArray, two: FloatArray) -> FloatArray:
-    """The chordal distance (*) between dyads given by their pivots (*, 2, 3).
-
-    A pivot is a line through the origin: of two differences of unit vectors the smaller counts.
-    """
+    """The chordal distance (*) between dyads given by homogeneous pivots (*, 2, 3) of any sign."""
     apart = [np.linalg.norm(one - sign * two, axis=-1) for sign in (1, -1)]
     length: FloatArray = np.linalg.norm(np.minimum(*apart), axis=-1)
     return length

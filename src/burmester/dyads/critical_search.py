@@ -136,11 +136,7 @@ def derivatives(
 def _generic_points(
     scaled: FloatArray, far: NDArray[np.int_]
 ) -> tuple[ComplexArray, NDArray[np.int_]]:
-    """The points (T, 25, 4) of tasks of which the template finds all, and in how many charts.
-
-    That is where all 25 but those at infinity are found, apart from each other, each at rest and
-    simple; else nan, and no chart.
-    """
+    """The points (T, 25, 4) and charts of tasks of which the template finds all 25; else nan."""
     points = np.full((len(far), COUNT, 4), np.nan, dtype=complex)
     charts = np.zeros(len(far), dtype=np.int_)
     rest, known = np.arange(len(far)), np.empty((len(far), 0, 4), dtype=complex)
@@ -196,10 +192,7 @@ def _all_points(scaled: FloatArray, far: int) -> tuple[ComplexArray, int]:
 
 
 def _beside_neighbours(points: ComplexArray) -> ComplexArray:
-    """Starts between points (k, 4) and their nearest neighbours, and as far beyond them.
-
-    Two exact dyads that nearly coincide have a third critical point in between.
-    """
+    """Starts between points (k, 4) and their nearest neighbours, and as far beyond them."""
     if len(points) < 2:
         return points
     apart = np.linalg.norm(points[:, None] - points, axis=-1) + np.diag([np.inf] * len(points))

@@ -125,10 +125,7 @@ class Chord:
 
 
 def _quadratics(conditions: FloatArray, psi: FloatArray) -> FloatArray:
-    """The quadratics for b and for a in planes (n,): (2, n, 3), the constant first.
-
-    Minors of the 2 x 4 table of alpha, beta, gamma and delta of the two conditions.
-    """
+    """The quadratics (2, n, 3) for b and for a in planes (n,), the constant first."""
     u = np.stack([np.cos(psi), np.sin(psi)])
     alpha = 2 * conditions[:, 0, 1, None] * np.ones_like(psi)
     beta, gamma = 2 * conditions[:, 0, 2:] @ u, 2 * conditions[:, 1, 2:] @ u
@@ -139,10 +136,7 @@ def _quadratics(conditions: FloatArray, psi: FloatArray) -> FloatArray:
 
 
 def _solution(quadratic: FloatArray, root: FloatArray) -> FloatArray:
-    """The homogeneous solution (2, n) of quadratics (n, 3) that goes with a root of D.
-
-    Of its two forms, the one in which nothing cancels.
-    """
+    """The homogeneous solution (2, n) of quadratics (n, 3) for a root of D."""
     k0, k1, k2 = np.moveaxis(quadratic, -1, 0)
     forms = np.stack([[root - k1, 2 * k2], [2 * k0, -root - k1]])
     size = np.linalg.norm(forms, axis=1)

@@ -157,10 +157,7 @@ class Descents:
         return self.dyads[kept]
 
     def _followed(self, z: FloatArray, *, may_leave: bool = True) -> NDArray[np.bool_]:
-        """Add the minima of the norm to which dyads z (k, n) within limits lead, if they are new.
-
-        Returns False where the way down was given up.
-        """
+        """Add the new minima to which dyads z (k, n) lead; False where that was given up."""
         exact = self.search.exact
         problem = FitProblem(self.distances, self.search.share, exact)
 
@@ -196,10 +193,7 @@ def _size(z: FloatArray) -> FloatArray:
 
 
 def _distinct(z: FloatArray) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Most of the different rows z (k, n): where they come first, and which of these each is.
-
-    Two of them that are the same up to rounding may both remain.
-    """
+    """Most of the different rows z (k, n): where they come first, and which of these each is."""
     rounded = np.round(z / (SAME_DYAD * _size(z)[:, None]))
     _, first, each = np.unique(rounded, axis=0, return_index=True, return_inverse=True)
     return first, each.ravel()

@@ -178,10 +178,7 @@ def require_count(poses: Displacement, count: int) -> None:
 
 
 def _conics(basis: FloatArray) -> FloatArray:
-    """The two conditions on the plane of a basis (*, 3, 8): conics (*, 2, 6).
-
-    Their coefficients come by polarising the quadratic forms.
-    """
+    """The two conditions on the plane of a basis (*, 3, 8): conics (*, 2, 6), by polarisation."""
     square = constraint_manifold.conditions(basis)
     columns = [
         square[..., i, :]
@@ -244,10 +241,7 @@ def _equations(p: ComplexArray, design: FloatArray) -> ComplexArray:
 
 
 def _polish(p: ComplexArray, design: FloatArray) -> ComplexArray:
-    """Newton's method on the poses' own equations, at p (*, 4, 8), the norm of p being kept.
-
-    Removes the rounding of the null space and the eigenproblem.
-    """
+    """Newton's method on the poses' own equations, at p (*, 4, 8), the norm of p being kept."""
     lead, p = p.shape[:-2], p.reshape(-1, *p.shape[-2:]).copy()
     design = design.reshape(-1, *design.shape[-2:])
     run = np.arange(len(p))  # the tasks that still gain

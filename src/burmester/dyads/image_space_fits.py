@@ -217,10 +217,7 @@ def _surfaces(at: ImagePoints, x: FloatArray) -> _Surfaces:
 
 
 def _arms(half_rotation: ComplexArray, x: FloatArray) -> tuple[ComplexArray, ComplexArray]:
-    """The two parts (*, N) of u that rotate with psi.
-
-    Returns that of the fixed pivot, which rotates backwards, and that of the moving pivot.
-    """
+    """The parts (*, N) of u that rotate with psi: of the fixed pivot, then of the moving one."""
     c, m = (x[..., None, k] + 1j * x[..., None, k + 1] for k in (0, 2))
     return -0.5j * half_rotation.conj() * c, 0.5j * half_rotation * m
 

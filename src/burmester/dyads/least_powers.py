@@ -132,10 +132,7 @@ def _leaning(problem: FitProblem, distance: FloatArray, power: int) -> FloatArra
 def _newton_step(
     problem: FitProblem, at: Point, along: FloatArray, power: int
 ) -> tuple[FloatArray, NDArray[np.bool_], NDArray[np.bool_]]:
-    """A step of Newton's method, or Gauss and Newton's where the Hessian is not positive.
-
-    Returns where it leads (k, n), whether the Hessians are positive, and where no step helps (k,).
-    """
+    """A Newton or Gauss-Newton step: where it leads, positive Hessians, where none helps (k,)."""
     here = at.here
     weighted = _leaning(problem, here.distance, power)
     by_distance = _with_multipliers(problem, here, along, weighted * here.distance)
@@ -177,10 +174,7 @@ class _Step(NamedTuple):
 def _shortened(
     problem: FitProblem, at: Point, along: FloatArray, taken: _Step
 ) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """Where steps lead, each divided by four until it makes nothing worse.
-
-    Returns the dyads (k, n), those of before where no step helps, and where that is (k,).
-    """
+    """Where steps, divided by four until they help, lead; those of before where none does (k,)."""
     step, gain, power = taken
     unit, loose = _scale(problem, at.here.distance), problem.loose
 
@@ -216,10 +210,7 @@ def _shortened(
 def _moved(
     problem: FitProblem, z: FloatArray, along: FloatArray, power: int
 ) -> tuple[FloatArray, FloatArray]:
-    """Dyads z (k, n) where exact poses are met, or where there are none, of the best level.
-
-    Returns them, and their distances (k, N).
-    """
+    """Dyads z (k, n) where exact poses are met, else of the best level; their distances (k, N)."""
     distance, level, held = problem.distances.only(z), problem.distances.level, problem.exact
     if power == 2 or held.any():
         weights = held if held.any() else problem.weights
@@ -236,9 +227,7 @@ def _moved(
 def _restored(
     problem: FitProblem, z: FloatArray, along: FloatArray, distance: FloatArray
 ) -> FloatArray:
-    """Dyads (k, n) of distances (k, N) moved along to where exact poses are met, by Newton's
-    method.
-    """
+    """Dyads (k, n) moved along to where exact poses are met, by Newton's method."""
     if not problem.exact.any():
         return z
 
@@ -263,10 +252,7 @@ def _restored(
 def _with_multipliers(
     problem: FitProblem, here: Distances, along: FloatArray, gradient: FloatArray
 ) -> FloatArray:
-    """The gradient (k, N) by the distances, with the multipliers of the exact poses in it.
-
-    gradient: 0 at exact poses.
-    """
+    """The gradient (k, N) by the distances, with the multipliers of exact poses in their places."""
     if not problem.exact.any():
         return gradient
     jacobian = here.jacobian @ along

@@ -232,10 +232,7 @@ class Block:
         return normal, (normal * self._faces.origin[walls]).sum(axis=1)
 
     def _near(self, at: FloatArray) -> NDArray[np.bool_]:
-        """Which faces (k, F) points (k, d) lie on, up to rounding.
-
-        An edge has ends: its line may go on through a polygon that is not convex.
-        """
+        """Which faces (k, F), whose edges end, points (k, d) lie on, up to rounding."""
         faces, near = self._faces, ON_FACE_ROUNDINGS * _rounding(at)[:, None]
         off = np.einsum("fij,kfj->kfi", faces.across, at[:, None] - faces.origin)
         on = np.abs(off).max(axis=-1) < near

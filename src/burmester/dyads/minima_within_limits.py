@@ -351,11 +351,7 @@ def _settled(
 
 
 def _circle_maps(pairs: list[tuple[Face, Face]]) -> tuple[FloatArray, FloatArray]:
-    """How the features of pairs (P,) of faces make those of the whole plane; same dimensions each.
-
-    Returns the origins (c, m) of the faces (P, 4), and the matrices (P, 7, f) from their features
-    to the seven of two free pivots.
-    """
+    """Origins (P, 4) of pairs of faces, and matrices (P, 7, f) to features of two free pivots."""
     fixed = np.stack([face.basis.T for face, _ in pairs])
     moving = np.stack([face.basis.T for _, face in pairs])
     i, j = fixed.shape[1], moving.shape[1]

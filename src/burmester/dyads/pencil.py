@@ -257,10 +257,7 @@ def _normal_feet(a: FloatArray, b: FloatArray, point: NDArray[np.complex128]) ->
 def _positive_root(
     third: FloatArray, half: FloatArray, k: FloatArray, quarter: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """The root mu > 0 of mu³ = 3 third mu + 2 half, half = k quarter / 2 >= 0, and mu / k.
-
-    Cardano's formula, in the form without cancellation for each sign of the discriminant.
-    """
+    """The root mu > 0 of mu³ = 3 third mu + 2 half by Cardano's formula, and mu / k."""
     inside = half * half - third**3
     u = np.cbrt(half + np.sqrt(np.maximum(inside, 0.0)))
     with np.errstate(divide="ignore", invalid="ignore"):

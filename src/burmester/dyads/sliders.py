@@ -114,10 +114,7 @@ class _Turns(NamedTuple):
 def _orthogonal(
     row: FloatArray, others: tuple[FloatArray, ...], size: FloatArray
 ) -> tuple[list[FloatArray], FloatArray, FloatArray]:
-    """The parts of a row (*, N) along others, the unit vector of what is left, and its length.
-
-    size: (*,), of the rows; less than rounding of it is nothing.
-    """
+    """The parts of a row (*, N) along others, the unit vector of the rest, its length."""
     parts, left = _left(row, others)
     again, left = _left(left, others)
     length = np.sqrt(_dot(left, left))

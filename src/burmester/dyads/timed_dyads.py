@@ -105,10 +105,7 @@ def nearest_timed(poses: Displacement, timing: CrankTiming) -> list[RR]:
 
 
 def _linear(poses: Displacement, timing: CrankTiming) -> tuple[FloatArray, FloatArray]:
-    """The shortest solution (5,) of the timing equations, and the ways (5, f) that they leave.
-
-    The radius is no unknown where the angles are not absolute.
-    """
+    """The shortest solution (5,) of the timing equations, and the ways (5, f) that they leave."""
     value, slope = (part[0] for part in timing_equations(np.zeros((1, DIMENSIONS)), poses, timing))
     used = DIMENSIONS if timing.absolute else DIMENSIONS - 1
     left, size, right = np.linalg.svd(slope[:, :used])

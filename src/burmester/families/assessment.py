@@ -99,10 +99,7 @@ def _of_alike(
     frames: tuple[int, ...],
     rails: Sequence[RailFreedom | None],
 ) -> Assessment:
-    """Linkages (k,) of one pair of kinds, driven by their first dyads, at places (k, N).
-
-    frames: numbers of places at which contact with the surroundings is looked for.
-    """
+    """Linkages (k,) of one pair of kinds at places (k, N); frames: places tried for contact."""
     with np.errstate(invalid="ignore", divide="ignore"):
         view = DrivenView.of(linkage, places)
         every = np.ones(places.shape, dtype=bool)

@@ -116,10 +116,7 @@ def _random(
 
 
 def _centres(points: FloatArray, near: FloatArray) -> FloatArray:
-    """The centres (k, 2) of circles through points (k, N, 2), as nearly as can be.
-
-    Of two points it is the centre nearest to points (k, 2).
-    """
+    """The centres (k, 2) of circles nearest to points (k, N, 2); of two, nearest to `near`."""
     chords = points[:, 1:] - points[:, :1]
     middles = (points[:, 1:] + points[:, :1]) / 2
     short = (chords * (middles - near[:, None])).sum(axis=-1)

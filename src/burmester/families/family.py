@@ -258,10 +258,7 @@ def _improved(pool: Pool, task: OpenTask, generations: int, rng: np.random.Gener
 
 
 def _better_driven(pool: Pool, task: OpenTask) -> Pool:
-    """The same linkages, driven by the other dyad where that transmits better and is allowed.
-
-    All of them are held against the surroundings thoroughly.
-    """
+    """The same linkages, each driven by the allowed dyad that transmits better."""
     own = pool.value
     if task.conditions.around is not None:
         own = assessed(pool.trials, task, thorough=True)
@@ -339,10 +336,7 @@ def _shown(pool: Pool, task: OpenTask) -> NDArray[np.intp]:
 
 
 def _recommended(value: Assessment, prefer: Preference, least: float) -> int:
-    """The index of the linkage that the rule recommends.
-
-    least: the transmission angle that is asked for, radians.
-    """
+    """The index of the linkage that the rule recommends; least: transmission asked for, radians."""
     figure = np.ones(len(value.violation))
     if _proportions_first(prefer, least):
         figure = proportions(value.extent, value.sensitivity)

@@ -293,10 +293,7 @@ def _pivots(dyads: RR) -> FloatArray:
 
 
 def _rectangle(task: Task, pivots: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Two corners of a rectangle for fixed pivots, 4 wide to 3, with a border.
-
-    It holds the pivots, and where the task limits all fixed pivots these regions, else the poses.
-    """
+    """Two corners of a 4 to 3 rectangle around pivots and limits, or poses, with a border."""
     regions = [each.fixed_pivot for each in task.limits if each.fixed_pivot is not None]
     limited = bool(regions) and len(regions) == len(task.limits)
     edges = [region.corners() for region in regions] if limited else [task.poses.translation]

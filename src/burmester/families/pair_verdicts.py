@@ -123,10 +123,7 @@ def judged_pairs(first: Ground, second: RR, task: Task, bounds: PairBounds) -> P
 
 
 def _judged(first: Ground, second: RR, task: Task, bounds: PairBounds) -> PairVerdicts:
-    """As `judged_pairs`, for as many pairs as fit the cache.
-
-    Circuits come first: they do not depend on the driver, and most pairs end there.
-    """
+    """As `judged_pairs`, for as many pairs as fit the cache; circuits first, where most end."""
     count, poses = len(second.radius), task.poses
     classes = np.full((2, count), PairClass.NO_LINKAGE, dtype=np.int8)
     angle = np.full((2, count), np.nan)
@@ -226,10 +223,7 @@ def _within_limits(
     fixed: Polygon | None = None,
     moving: Polygon | None = None,
 ) -> tuple[BoolArray, BoolArray]:
-    """Which pairs (k,) are within the task's limits, driven by the first and the second dyad.
-
-    fixed, moving: where pivots have to lie that no limit holds.
-    """
+    """Which pairs (k,) are within the limits in this order; fixed, moving: for free pivots."""
     one, other = (task.limits * 2)[:2] if task.limits else (Limits(), Limits())
     straight, crossed = (
         meets_limits(first, a, task, fixed, moving) & meets_limits(second, b, task, fixed, moving)

@@ -93,10 +93,7 @@ def promising_pairs(
 
 
 def _chosen(least: FloatArray, enough: float, most: int) -> NDArray[np.intp]:
-    """The best half of `most` pairs (k,), and as many spread over all that reach `enough`.
-
-    Where fewer reach it, the best ones.
-    """
+    """The best half of `most` pairs (k,) and others spread over those that reach `enough`."""
     if len(least) <= most:
         return np.arange(len(least))
     reached = np.flatnonzero(least >= enough)
@@ -123,10 +120,7 @@ def _by_kind(dyads: DyadSamples, poses: Displacement) -> Iterator[_AtPoses]:
 
 
 def _least_sine(one: _AtPoses, other: _AtPoses) -> FloatArray:
-    """The least sines (k, m) over the poses, where dyads (k,) drive and others (m,) follow.
-
-    See `instantaneous.transmission_angle`.  Every cross product is a product of matrices.
-    """
+    """The least sines (k, m) of transmission over the poses; dyads (k,) drive, (m,) follow."""
     low = np.full((len(one.at), len(other.at)), np.inf)
     high = -low
     if one.kind == other.kind == RP_KIND:
@@ -151,10 +145,7 @@ def _least_sine(one: _AtPoses, other: _AtPoses) -> FloatArray:
 def _sane(
     one: _AtPoses, other: _AtPoses, conditions: Conditions, slack: float, *, same: bool
 ) -> NDArray[np.bool_]:
-    """Which pairs (k, m) have links within the bounds, or beyond them by a factor `slack` at most.
-
-    same: whether both are the same dyads, of which none makes a pair with itself.
-    """
+    """Which different pairs (k, m) have links within the bounds times a factor `slack`."""
     shape = (len(one.at), len(other.at))
     links = []
     if one.kind == RR_KIND:

@@ -156,10 +156,7 @@ def _clipped(corners: FloatArray, zone: Box) -> FloatArray:
 
 
 def _drawn(region: Region, zone: Box, count: int, rng: np.random.Generator) -> FloatArray:
-    """Points (count, 2) of a region, evenly spread over its part within a zone.
-
-    Of a polygon so thin that few tries hit it, the other points are the nearest on its edges.
-    """
+    """Points (count, 2), even over a region's part in a zone; of thin polygons on their edges."""
     if isinstance(region, Point):
         return np.broadcast_to(region.at, (count, 2))
     if isinstance(region, Line | Segment):

@@ -64,10 +64,7 @@ def projected(
 def _equations(
     batch: LinkageBatch, task: OpenTask, offsets: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Residuals (k, 2, m), forces (k, 2, m, 3) and derivatives (k, 2, m, 5) of both dyads.
-
-    Those of the poses, then those of a driver's timing; zero where the other dyad has none.
-    """
+    """Residuals (k, 2, m), forces (k, 2, m, 3), derivatives (k, 2, m, 5): poses, then timing."""
     places = task.places(offsets)
     residual, force, slope = batch.jacobians(places)
     timings = [side.timing for side in task.sides]

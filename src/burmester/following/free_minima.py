@@ -109,10 +109,7 @@ class FreeMinima:
 def _down_where_lost(
     z: FloatArray, moved: MovedMinima, seen: Displacement, share: FloatArray
 ) -> tuple[FloatArray, NDArray[np.intp]]:
-    """The minima (k, 5), those that Newton's method lost by the way down from where they were.
-
-    With the number (k,) that each had; one that leads down to no minimum is gone.
-    """
+    """Minima (k, 5), lost ones by the way down from before, with the number (k,) each had."""
     lost = np.flatnonzero(~moved.sound)
     if not len(lost):
         return moved.z, np.arange(len(z))

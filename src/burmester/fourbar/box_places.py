@@ -87,10 +87,7 @@ def places_in_boxes(batch: LinkageBatch, boxes: Boxes) -> Displacement:
 def _deepest(
     circuits: Circuits, share: FloatArray, samples: FloatArray, boxes: Boxes
 ) -> FloatArray:
-    """The rows (n, N, 3) of circuits (n,) deepest inside boxes (N,).
-
-    share: (n, s), of the samples (n, s, 3) on their circuits.
-    """
+    """The rows (n, N, 3) deepest inside boxes (N,); share: (n, s), of samples (n, s, 3)."""
     number = len(boxes.centre)
     gap = np.abs(wrapped(np.roll(samples, -1, axis=1) - samples, boxes.length)).max(axis=-1)
     gap = np.nan_to_num(np.maximum(gap, np.roll(gap, 1, axis=1)), nan=np.inf)

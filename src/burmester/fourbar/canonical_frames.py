@@ -105,10 +105,7 @@ class CanonicalFrames:
 
 
 def _less_rounding(poses: Displacement, c: np.ndarray, m: np.ndarray) -> np.ndarray:
-    """R m + d - c over poses (*, N), in the machine's longest floating point up to the last step.
-
-    The terms are as large as the origins are far, and the difference is not.
-    """
+    """R m + d - c over poses (*, N), computed in the machine's longest floating point."""
     d = poses.translation.astype(np.longdouble)
     angle = poses.angle.astype(np.longdouble)
     turn = np.cos(angle) + 1j * np.sin(angle)

@@ -257,10 +257,7 @@ AnyDyad = TypeVar("AnyDyad", bound=Dyad)
 
 
 def _wrench(force: FloatArray, at: FloatArray) -> FloatArray:
-    """A force and its moment about the origin of M, put at `at` from there: (*, 3).
-
-    A constraint's gradient is the wrench it can bear (the distance grows as it does work).
-    """
+    """A force and its moment about the origin of M, put at `at` from there: (*, 3)."""
     moment = at[..., 0] * force[..., 1] - at[..., 1] * force[..., 0]
     x, y = force[..., 0], force[..., 1]
     return np.stack(np.broadcast_arrays(x, y, moment), axis=-1)

@@ -134,10 +134,7 @@ class LinkageBatch:
     def _moved(
         self, fixed: FloatArray, moving: FloatArray, before: FloatArray, after: FloatArray
     ) -> LinkageBatch:
-        """With lengths times `before`, origins moved by fixed and moving, then times `after`.
-
-        All for one task, or for each linkage (k,).
-        """
+        """With lengths times `before`, origins moved, then times `after`."""
         out, shape = self.dimensions.copy(), self.kinds.shape
         before, after = (np.broadcast_to(each[..., None], shape) for each in (before, after))
         for at, kind, origin in ((0, 1, fixed), (2, 2, moving)):

@@ -306,10 +306,7 @@ def _distance_to_next(samples: FloatArray, length: float) -> FloatArray:
 
 
 def _relative_gaps(samples: FloatArray, length: float) -> FloatArray:
-    """The gaps (n, s - 1) between samples (n, s, 3), relative to 1 + the distance from the origin.
-
-    Gaps without an end count as 0.
-    """
+    """The gaps (n, s - 1) of samples over 1 + distance from the origin; endless ones 0."""
     gap = _distance_to_next(samples, length)[:, :-1]
     far = np.sqrt(_squares(samples[:, :-1], 0.0))
     return np.asarray(np.nan_to_num(gap / (1 + far), nan=0.0, posinf=0.0))
@@ -318,10 +315,7 @@ def _relative_gaps(samples: FloatArray, length: float) -> FloatArray:
 def _refined(
     circuits: Circuits, share: FloatArray, samples: FloatArray, gaps: FloatArray, length: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Fractions (n, s) and samples (n, s, 3) with more samples in the middle of the widest gaps.
-
-    Near change points the coupler moves fast along the parameter.
-    """
+    """Fractions (n, s) and samples (n, s, 3) with more in the middle of the widest gaps."""
     at = np.argpartition(-gaps, GAPS_PER_REFINEMENT, axis=-1)[:, :GAPS_PER_REFINEMENT]
     middle = (share[:, :-1] + share[:, 1:]) / 2
     more = np.take_along_axis(middle, at, axis=-1)
@@ -392,10 +386,7 @@ def _local_minima(
 
 
 def _beside_nearest(away: FloatArray) -> NDArray[np.intp]:
-    """The number (*, 1) of the sample beside the nearest one, on the side where samples are nearer.
-
-    away: (*, s).  Two minima may be closer together than the samples are.
-    """
+    """The number (*, 1) of the nearer sample beside the nearest one; away: (*, s)."""
     beside = away.argmin(axis=-1)[..., None] + np.array([-1, 1])
     beside %= away.shape[-1]
     nearer = np.take_along_axis(away, beside, axis=-1).argmin(axis=-1)
@@ -405,10 +396,7 @@ def _beside_nearest(away: FloatArray) -> NDArray[np.intp]:
 def _nearest_samples(
     samples: FloatArray, target: FloatArray, length: float
 ) -> tuple[FloatArray, NDArray[np.intp]]:
-    """Of samples (n, s, 3) the one nearest to each target: (n, N, 1, 3), as `_local_minima`.
-
-    Near is meant in the plane and on the circle of orientations, where one product compares all.
-    """
+    """Of samples (n, s, 3) the one nearest to each target: (n, N, 1, 3), as `_local_minima`."""
     flat = _on_the_circle(np.nan_to_num(samples, nan=FAR_AWAY), length)
     away = (flat * flat).sum(axis=-1)[:, None] / 2
     away = away - _on_the_circle(target, length) @ np.swapaxes(flat, -1, -2)

@@ -99,11 +99,7 @@ def _paths(kind: NDArray[np.int8], z: FloatArray, inputs: FloatArray) -> FloatAr
 
 
 def _other_inputs(circuits: Circuits, parameters: FloatArray) -> tuple[FloatArray, BoolArray]:
-    """The least and the greatest input (k, 2) of the second dyads over a range, and which are sure.
-
-    As a driver, the second dyad has a parameter of its own along the same circuit.  The middle of
-    the range tells in which sense it runs.
-    """
+    """The least and greatest input (k, 2) of the second dyads over a range, and which are sure."""
     own = circuits.exchanged()
     low, high = parameters[:, 0], parameters[:, 1]
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -131,10 +127,7 @@ def _other_inputs(circuits: Circuits, parameters: FloatArray) -> tuple[FloatArra
 
 
 def _unwrapped(start: FloatArray) -> FloatArray:
-    """Three angles (k, 3) in a row round a circle, changed by whole turns, in either sense.
-
-    In the sense that takes one turn at most.
-    """
+    """Three angles (k, 3) round a circle, without jumps, in the sense of one turn at most."""
     step = np.diff(start, axis=1)
     tried = []
     for sense in (1.0, -1.0):

@@ -153,10 +153,7 @@ def places_along(
 def _best_ways(
     linkage: NDArray[np.intp], misses: FloatArray, clear: NDArray[np.bool_]
 ) -> list[int]:
-    """The number of the way that each linkage takes, of ways (w,) with their linkages.
-
-    misses: (w,), root mean square distances; clear: (w,), of dead points of one driver.
-    """
+    """The number of the way (w,) of each linkage; misses: rms distances; clear: of dead points."""
     out = []
     for k in np.unique(linkage):
         own = np.flatnonzero(linkage == k)
@@ -296,10 +293,7 @@ def _anchors(away: FloatArray) -> list[int]:
 
 
 def _in_order(cost: FloatArray, anchored: NDArray[np.bool_]) -> tuple[NDArray[np.intp], FloatArray]:
-    """Numbers (q, m) of samples that do not fall, with the least sums (q,) of costs (q, s, m).
-
-    anchored: (q,), the first point is at the first sample.
-    """
+    """Numbers (q, m) of samples, never falling, of least summed costs (q, s, m); anchored: (q,)."""
     number, every = cost.shape[2], np.arange(cost.shape[1])
     total = np.where(anchored[:, None] & (every > 0), np.inf, cost[..., 0])
     back = np.zeros((number, *total.shape), dtype=np.intp)
@@ -432,11 +426,7 @@ def _pooled(x: FloatArray, weight: FloatArray) -> FloatArray:
 def _nearest(
     circuits: Circuits, bracket: Bracket, wanted: ComplexArray, length: float
 ) -> tuple[FloatArray, FloatArray]:
-    """The places in brackets nearest to points (N,): fractions (w, N), rows (w, N, 3).
-
-    Down the parabola through the squares of three distances; by narrowing alone where that fails,
-    as at the ends of a circuit and at cusps.
-    """
+    """The places in brackets nearest to points (N,): fractions (w, N), rows (w, N, 3)."""
 
     def away(rows: FloatArray) -> FloatArray:
         return _squares(rows, wanted)

@@ -213,10 +213,7 @@ def _pose_range(traversal: Traversal, view: DrivenView) -> PoseRange:
 def _other_way_round(
     traversal: Traversal, ranged: PoseRange, view: DrivenView, any_order: bool
 ) -> tuple[Traversal, PoseRange]:
-    """The traversals, the other way round a closed circuit where that avoids a dead point.
-
-    Only where the order of the poses allows it, and the way so far comes too close to locking.
-    """
+    """The traversals, round a closed circuit the other way where that avoids a dead point."""
     count = traversal.on_circuit.shape[1]
     close = traversal.all_round & ~traversal.crosses_branches
     close &= (ranged.least_transmission < DEAD_POINT_ANGLE) & (ranged.worst >= count)

@@ -159,10 +159,7 @@ def _start(name: str) -> tuple[ComplexArray, ComplexArray]:
 def _tracked(
     points: ComplexArray, start: ComplexArray, root: ComplexArray, e: FloatArray
 ) -> tuple[ComplexArray, ComplexArray]:
-    """The different ends (k, n) of all paths, and where lost ones (l, n) were lost.
-
-    Where some are lost, other ways are tried as long as they bring new ends.
-    """
+    """The different ends (k, n) of all paths, and where lost ones (l, n) were lost."""
     ends, state = follow(points, start, root, e)
     found, lost = _different(ends[state == ARRIVED], e), ends[state == LOST]
     rng = np.random.default_rng(0)

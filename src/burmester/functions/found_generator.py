@@ -140,10 +140,7 @@ def found_generators(
 
 
 def _mirror_images(generator: Generator, task: FunctionTask) -> list[Generator]:
-    """The mirror image about the ground link, driven the other way, if the task is the same then.
-
-    It is if the outputs, told from the other end, fall as they rose.
-    """
+    """The mirror image about the ground link, driven the other way, if the task is symmetric."""
     order = np.argsort(task.inputs)
     ends = []
     for angles in (task.inputs[order], task.outputs[order]):
@@ -156,11 +153,7 @@ def _mirror_images(generator: Generator, task: FunctionTask) -> list[Generator]:
 
 
 def _repeats(one: FoundGenerator, before: FoundGenerator, image: Generator, *, exact: bool) -> bool:
-    """Whether a linkage is an earlier one again, or the mirror image of that one.
-
-    Descents into one flat valley end apart: of these one that is no nearer and transmits no better
-    is a repeat.
-    """
+    """Whether a linkage is an earlier one or its mirror image again, or no better in one valley."""
     if (one.usable, not one.shortcomings) != (before.usable, not before.shortcomings):
         return False
     if one.least_transmission > before.least_transmission + MORE_TRANSMISSION:

@@ -216,10 +216,7 @@ def _generator(x: FloatArray, side: FloatArray) -> Generator:
 
 
 def _errors(here: Generator, task: FunctionTask) -> tuple[FloatArray, FloatArray]:
-    """The errors (k, N) of generators at the pairs, and their derivatives (k, N, 5).
-
-    The derivatives are those of the loop's equation |B - A|² = r², which holds throughout.
-    """
+    """The errors (k, N) of generators at the pairs, and their derivatives (k, N, 5)."""
     error = here.error(task.inputs, task.outputs)
     theta = here.input_phase[:, None] + task.inputs
     phi = here.output_phase[:, None] + task.outputs + error

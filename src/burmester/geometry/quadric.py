@@ -260,10 +260,7 @@ def _above_zero(values: FloatArray) -> FloatArray:
 
 
 def _require_finite(values: FloatArray, shape: tuple[int, ...], name: str) -> None:
-    """Refuse numbers that are not finite; some SVD codes never return on one `inf`.
-
-    values: of the given leading shape.  Raises InputError E103 naming the first such item.
-    """
+    """Refuse numbers that are not finite, which hang some SVD codes; raises InputError E103."""
     good = np.isfinite(values).all(axis=tuple(range(len(shape), values.ndim)))
     if not good.all():
         item = f"{name} {', '.join(str(i + 1) for i in np.argwhere(~good)[0])}".rstrip()

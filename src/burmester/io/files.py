@@ -195,10 +195,7 @@ def _stat(path: str) -> os.stat_result | None:
 
 @contextmanager
 def _temporary(target: Path) -> Iterator[Path]:
-    """A name that nobody has, with the target's suffix: libraries go by it.
-
-    Whatever is there under that name at the end is removed.
-    """
+    """A free name with the target's suffix; whatever is there at the end is removed."""
     temporary = target.with_name(f".burmester-{os.urandom(8).hex()}-{target.name[-_KEPT:]}")
     unfinished.add(str(temporary))
     try:
@@ -215,10 +212,7 @@ def _create(temporary: Path) -> None:
 
 
 def _disk_error(error: Exception, temporary: Path, target: Path) -> OSError | None:
-    """What the system has against this file, if that is the reason; a block may fail otherwise.
-
-    Libraries tell of a full disk in words of their own, or not at all: the disk is asked.
-    """
+    """What the system, asked, has against this file, if that is the reason."""
     if isinstance(error, OSError):
         if error.filename is None:
             if error.errno in _DISK:

@@ -207,11 +207,7 @@ def _transmission(driven: Driven) -> dict[str, float | None]:
 
 
 def _quality(found: FoundLinkage) -> dict[str, Any] | None:
-    """The figures of quality, angles in degrees; None where no place is near some pose.
-
-    A figure that is infinite, or does not exist, is null: nothing stops the driver, or the origin
-    of the body rests while the driver moves.
-    """
+    """The figures of quality, angles in degrees, null where infinite; None without near places."""
     quality = found.quality
     if quality is None:
         return None

@@ -119,10 +119,7 @@ def _certificate(synthesis: Synthesis, console: Console) -> None:
 def _in_words(
     synthesis: AnySynthesis, shown: Sequence[Any], words: Any, console: Console, *, given: bool
 ) -> None:
-    """The linkage to build, in full, and then the others; or why there is none.
-
-    words: the module that says linkages of this kind.  given: whether the first is to be judged.
-    """
+    """The linkage to build, in full, and the others, or why there is none; words: of its kind."""
     outcome, wide = synthesis.outcome, console.width >= WIDE
     works = any(each.usable for each in shown)
     if given or not works:
@@ -207,10 +204,7 @@ def _no_answer(synthesis: Synthesis, three: Sequence[FoundLinkage], console: Con
 def _in_all(
     synthesis: Synthesis, left: tuple[int, int], console: Console, *, dyads: bool, verbose: bool
 ) -> None:
-    """How many there are in all, and how the rest is listed.
-
-    left: how many usable and how many other linkages have not been listed.
-    """
+    """How many there are, and how the rest is listed; left: usable and other ones not listed."""
     told, family = [], synthesis.family
     if synthesis.usable and synthesis.outcome.code in PLAIN:
         message = synthesis.outcome.message

@@ -297,10 +297,7 @@ def _beyond(*fits: PaperFit) -> Section:
 
 
 def _singular_values(fit: PaperFit, where: str, *, vanishes: bool = False) -> list[Comparison]:
-    """The eight singular values, and the greatest in the chart Z4 = 1 of Eq. (14).
-
-    vanishes: the first two are zero on exact data.
-    """
+    """The eight singular values, and the greatest in the chart Z4 = 1 of Eq. (14)."""
     printed = fit.printed[f"singular_values_{where.lower().replace(' ', '')}"]
     names = [f"sigma{i}" for i in range(1, 9)]
     # The paper writes the first two with powers of ten.

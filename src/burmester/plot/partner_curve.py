@@ -132,11 +132,7 @@ def _view(found: FamilyMap, within: float | None) -> tuple[FloatArray, FloatArra
 
 
 def _is_finite(pieces: FloatArray, half: float) -> NDArray[np.bool_]:
-    """Which pieces (n, 3, 2) of a curve do not go through infinity.
-
-    Seen from the middle of what is shown (`half` of its side), a piece that does has its ends on
-    opposite sides, and is not in it.
-    """
+    """Which pieces (n, 3, 2) of a curve, seen from the middle (`half`), avoid infinity."""
     one, at, other = np.moveaxis(pieces, 1, 0)
     out = np.linalg.norm(at, axis=-1) > half
     turned = ((one * at).sum(axis=-1) < 0) | ((other * at).sum(axis=-1) < 0)

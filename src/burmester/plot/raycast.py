@@ -175,10 +175,7 @@ def _changes(code: NDArray[np.int16]) -> NDArray[np.bool_]:
 def _shade(
     scene: Scene, pixel: float, x: FloatArray, y: FloatArray
 ) -> tuple[NDArray[np.int16], NDArray[np.intp], FloatArray]:
-    """What each of n rays meets, as a number; which of them meet anything, (m,); their colours.
-
-    Colours (m, 4) have their alpha multiplied in.
-    """
+    """What each of n rays meets; which meet anything, (m,); their premultiplied colours (m, 4)."""
     t = cast(scene.camera, np.stack([s.form for s in scene.surfaces]), scene.half, x, y)
     met = np.isfinite(t)
     code = met.T @ (1 << np.arange(len(t))).astype(np.int16)

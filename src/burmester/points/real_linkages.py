@@ -227,10 +227,7 @@ def is_in_family(x: ComplexArray, turns: ComplexArray, positions: Positions) -> 
 def _met(
     start: ComplexArray, positions: Positions, direction: ComplexArray, at: complex
 ) -> ComplexArray | None:
-    """The solution that Newton's least steps lead to; None where they lead to none.
-
-    direction: empty, or that along which it has to stay `at`.
-    """
+    """The solution that Newton's least steps lead to, or None; direction: kept `at`, or empty."""
     own = start
     for _ in range(STEPS):
         miss, rows = _equations(own, positions)

@@ -149,10 +149,7 @@ def _products(n: int, products: list[dict[tuple[int, int], int]]) -> FloatArray:
 def _stacked_features(
     linear: FloatArray, second: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Linear features (a, n) and then bilinear ones (b, n, n): constants, first, second parts.
-
-    The first of all features is the constant 1.
-    """
+    """Linear (a, n), then bilinear features (b, n, n), the first the constant 1."""
     n, count = linear.shape[1], len(linear) + len(second)
     return (
         np.eye(count)[0],

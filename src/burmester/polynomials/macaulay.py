@@ -221,10 +221,7 @@ def _derivative(unknown: int) -> list[tuple[Exponents, ComplexArray]]:
 def _shifts(
     terms: list[tuple[Exponents, ComplexArray]], columns: list[Exponents]
 ) -> Iterator[Exponents]:
-    """The monomials by which a polynomial is multiplied, so that all terms are among the columns.
-
-    The least term goes to each of the columns in turn.
-    """
+    """The monomials by which a polynomial is multiplied to have all terms among the columns."""
     among = set(columns)
     low = min(exponents for exponents, _ in terms)
     for e in columns:

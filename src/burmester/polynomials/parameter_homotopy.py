@@ -62,10 +62,7 @@ def _one(parameters: Parameters) -> Parameters:
 def _carried(
     shape: Shape, points: ComplexArray, start: Parameters, target: Parameters
 ) -> tuple[ComplexArray, NDArray[np.int_]]:
-    """The points (k, size), carried over to each of the targets (T,).
-
-    Returns the ends (T, k, size) and their states (T, k).
-    """
+    """Points (k, size) carried over to targets (T,): ends (T, k, size) and states (T, k)."""
     tasks, count = len(target.square), len(points)
     each = np.repeat(np.arange(tasks), count)
     ends, state = follow(shape, np.tile(points, (tasks, 1)), _one(start), take(target, each))

@@ -109,10 +109,7 @@ def _by_elimination(shape: Shape, p: Parameters, chart: int) -> _Points:
 def _confirmed(
     shape: Shape, x: ComplexArray, p: Parameters
 ) -> tuple[ComplexArray, NDArray[np.bool_]]:
-    """Newton's method from approximate unknowns (k, n) of systems (k,).
-
-    Returns where it leads, (k, size), and whether it came to rest there, at an isolated point.
-    """
+    """Where Newton's method leads from (k, n): (k, size), and whether to an isolated point."""
     run = np.flatnonzero(np.abs(x).max(axis=1) < MAX_SIZE)
     points, sound = np.zeros((len(x), shape.size), dtype=complex), np.zeros(len(x), dtype=bool)
     p = take(p, run)
@@ -134,11 +131,7 @@ def _confirmed(
 
 
 def _at_hand(shape: Shape, x: ComplexArray, p: Parameters) -> NDArray[np.bool_]:
-    """Whether points (k, size) are finite, multipliers included.
-
-    Multipliers are infinite where the derivatives of the conditions vanish; where the conditions
-    leave no freedom that means nothing but two solutions close together.
-    """
+    """Whether points (k, size) are finite, multipliers included: no two solutions together."""
     n = shape.unknowns
     near = np.abs(x[:, :n]).max(axis=1) < MAX_SIZE
     if shape.quadratic != "soft" and not shape.is_settled:

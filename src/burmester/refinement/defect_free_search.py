@@ -225,11 +225,7 @@ def _kept_at_feet(
     transmission: FloatArray | None = None,
     metric: FloatArray | None = None,
 ) -> Refined:
-    """Refined linkages (k,), whose transmission angle is kept at the places nearest to the poses.
-
-    A refinement keeps it at places of its own, which it moves away from a dead point; a linkage is
-    judged at the nearest ones.  Where it falls short there, by so much more is asked of it.
-    """
+    """Refined linkages (k,) that keep the transmission angle nearest to the poses."""
     if target.boxes is not None or target.path is not None:
         return refined
     least = np.full(len(starts.pair), max(CLEARANCE_ANGLE, target.requirements.transmission))
@@ -263,11 +259,7 @@ def _kept_at_feet(
 
 
 def _best_starts(batch: LinkageBatch, target: Target, dyads: NDArray[np.intp]) -> _Starts:
-    """The starts with the best scores, from pairs (k,) of dyads.
-
-    All pairs start at the poses; the first PAIRS_ON_CIRCUITS also from their nearest places on each
-    circuit.
-    """
+    """The starts of pairs (k,) with the best scores, from the poses and from nearest places."""
     starts, score = _starts_at_poses(batch, target, dyads)
     there = _starts_on_circuits(batch[:PAIRS_ON_CIRCUITS], target)
     if len(there.pair):
@@ -281,10 +273,7 @@ def _best_starts(batch: LinkageBatch, target: Target, dyads: NDArray[np.intp]) -
 def _starts_at_poses(
     batch: LinkageBatch, target: Target, dyads: NDArray[np.intp]
 ) -> tuple[_Starts, FloatArray]:
-    """Starts of pairs (k,) projected from the poses, and their scores; lower is better.
-
-    The score is taken at the poses themselves, as if the pairs met them: distance, branch, order.
-    """
+    """Starts of pairs (k,) at the poses, and scores by distance, branch and order."""
     count, number = len(batch), target.poses.shape[0]
     wanted = rows_of(target.poses, target.length)
     rows = np.broadcast_to(wanted, (count, number, 3))

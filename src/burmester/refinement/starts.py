@@ -108,10 +108,7 @@ def best_sliders(poses: Displacement, weights: FloatArray | None = None) -> list
 
 
 def _grid_of_map(poses: Displacement, weights: FloatArray | None) -> FloatArray:
-    """Pivots (*, 2) around the points that stay closest together; around the motion, too, if far.
-
-    Pivots that one would build are not where these points are many lengths away.
-    """
+    """Pivots (*, 2) around the points that stay closest, or also around a near motion."""
     frames, _ = CanonicalFrames.of(poses, weights)
     around = [(frames.fixed_origin, float(frames.length))]
     if np.hypot(*frames.fixed_origin) > MAP_REACH:

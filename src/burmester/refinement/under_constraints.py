@@ -283,10 +283,7 @@ class _Descent:
         *,
         taken: NDArray[np.bool_],
     ) -> None:
-        """Keep the multipliers of steps taken, and how the equations bent on the way.
-
-        taken: which rows of the points, those before and after, the steps are of.
-        """
+        """Keep the multipliers of steps taken, and how the equations bent from points to points."""
         before, after = (
             Linearisation(
                 np.concatenate([each.model.residual[taken], multipliers], axis=1),

@@ -108,11 +108,7 @@ def groups_of(stack: TaskStack, depth: Depth) -> list[Group]:
 
 
 def _group(some: Searched, method: Method, tasks: Indices, nullity: Indices) -> Group:
-    """Tasks that were searched together, with what is to be said of their dyads.
-
-    The codes are those of `dyad_advice`: W204 nearly sliders, W207 a dyad is missing, W206
-    solutions that are no dyads, W205 one dyad twice.
-    """
+    """Tasks that were searched together, with W204, W205, W206 and W207 of their dyads."""
     given, found, count = some.given, some.found, len(tasks)
 
     def any_of(rows: NDArray[np.bool_] | Indices) -> NDArray[np.bool_]:

@@ -305,10 +305,7 @@ def _cosines(
 
 
 def _arc(low: FloatArray, high: FloatArray, place: FloatArray, side: FloatArray) -> FloatArray:
-    """Where the arcs (k, 2) of angles with such cosines begin, and how wide they are; 0 for none.
-
-    place, side: draws (k,): where a full turn begins, and which of two arcs is taken.
-    """
+    """The begins and widths (k, 2) of arcs of such cosines, 0 for none; place, side: draws (k,)."""
     first, last = (np.arccos(np.clip(each, -1.0, 1.0)) for each in (high, low))
     start, width = first, last - first
     other = (side < 0.5) & (high < 1) & (low > -1)
@@ -326,11 +323,7 @@ def _arc(low: FloatArray, high: FloatArray, place: FloatArray, side: FloatArray)
 def _least_transmission(
     links: FloatArray, slides: NDArray[np.bool_], travel: FloatArray, offset: FloatArray
 ) -> FloatArray:
-    """The least transmission angles (k,), radians, on the way from the first pose to the last.
-
-    The cosine of the angle is linear in that of the driver's: it is extreme at the ends, or where
-    the latter is.
-    """
+    """The least transmission angles (k,), radians, on the way from the first pose to the last."""
     ground, driver, coupler, follower = links.T
     start = travel[:, 0] - offset
     end = start + travel[:, 1]

@@ -116,10 +116,7 @@ def springs_for(
 def _moved(
     start: Balanced, answer: Synthesis, offers: Sequence[Offer], regions: BalanceRegions | None
 ) -> list[Balanced]:
-    """A linkage with its pivots moved for its spring, and the spring for them, by turns; or none.
-
-    Each time less force is asked for, and the poses are missed as little as that allows.
-    """
+    """A linkage moved for its spring and the spring for it, by turns with less force; or none."""
     asked = start.found.task.requirements
     given = start.found
     assert isinstance(given, FoundLinkage)

@@ -237,10 +237,7 @@ def _all_in_five(problem: SynthesisProblem) -> bool:
 
 
 def _five_in_regions(problem: SynthesisProblem) -> bool:
-    """Whether limits may keep five poses from being met, which then are met as nearly as can be.
-
-    A rail may do so with fewer.
-    """
+    """Whether limits or a rail may keep five poses from being met exactly."""
     if problem.has_rails:
         return True
     return bool(problem.task.limits) and problem.task.poses.shape[0] == CONDITIONS

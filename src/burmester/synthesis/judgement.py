@@ -132,10 +132,7 @@ def _problem(task: Task, options: SynthesisOptions) -> tuple[SynthesisProblem, t
 def _judged(
     pairs: Sequence[Pair], searched: NDArray[np.bool_], evaluation: Evaluation
 ) -> list[FoundLinkage]:
-    """Linkages (k,), each on the circuit where it works, else where it is nearest; in their order.
-
-    searched: (k,), which come from the search for defect-free linkages.
-    """
+    """Linkages (k,), each on the circuit where it works or is nearest; searched: (k,), as found."""
     found: list[FoundLinkage] = []
     at_once = max(1, PLACES_AT_ONCE // evaluation.task.poses.shape[0])
     judged = evaluation.evaluated if evaluation.target.path is None else evaluation.members
@@ -177,10 +174,7 @@ def _told(found: Sequence[FoundLinkage], evaluation: Evaluation) -> tuple[FoundL
 
 
 def _of_family(given: FoundLinkage, evaluation: Evaluation) -> list[FoundLinkage]:
-    """Of the linkages that few poses leave open the nearest of the same kinds, as D1 and D2.
-
-    Where the given one does not work, and none was found beside it.
-    """
+    """Of the linkages that few poses leave open the nearest of the same kinds, as D1 and D2."""
     problem = evaluation.problem
     if given.usable or problem.is_special or not _is_open(problem):
         return []

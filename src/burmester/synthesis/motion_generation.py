@@ -165,10 +165,7 @@ def _kind(problem: SynthesisProblem) -> MotionKind | None:
 
 
 def _of_points(problem: SynthesisProblem, findings: Sequence[Advice]) -> Synthesis | None:
-    """Poses and points with finitely many linkages: all of them; of fewer points some.
-
-    None for others.
-    """
+    """Poses and points with finitely many linkages: all, of fewer points some; else None."""
     task, options = problem.given, problem.options
     if task.tolerances is None or options.method not in ("auto", "exact"):
         return None

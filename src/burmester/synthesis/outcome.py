@@ -75,10 +75,7 @@ def dyad_advice(
 def _nearly_sliders(
     problem: SynthesisProblem, found: DyadSearch, linkages: Sequence[FoundLinkage]
 ) -> list[Advice]:
-    """W204 of long links as they are to be built: of each dyad in the first linkage that has it.
-
-    A dyad that is in no linkage is judged by itself.
-    """
+    """W204 of long links as built: of each dyad in its first linkage, or else by itself."""
     poses, size = problem.task.poses, max(span(problem.given), problem.length)  # as the page shows
     known = {each.id: (each.id, each.dyad) for each in found.dyads}
     for linkage in sorted(linkages, key=lambda each: (each.usable, -each.rank)):

@@ -142,10 +142,7 @@ def _in_tolerance(
     options: SynthesisOptions,
     known: int | None = None,
 ) -> tuple[Task, list[FoundLinkage], FoundLinkage | None]:
-    """The task with its tolerance, the linkages that are told by it, and the one that sets it.
-
-    None where the tolerance is stated, or none works.  known: the number of the one that sets it.
-    """
+    """The task with its tolerance, linkages told by it, the one (numbered `known`) that sets it."""
     if (stated := _stated(task, path)) is not None:
         given = replace(task, tolerances=_of_points(stated))
         return given, _told(_evaluated(given, found, options), given), None
@@ -157,10 +154,7 @@ def _in_tolerance(
 def _by_one(
     number: int, task: Task, found: PathLinkages, options: SynthesisOptions
 ) -> tuple[Task, list[FoundLinkage], FoundLinkage] | None:
-    """The task with a tolerance by the linkage of a number, all judged by it, and that linkage.
-
-    None where it does not work.
-    """
+    """The task with a tolerance by the linkage of a number, all judged by it, that one; or None."""
     away = float(found.greatest_misses(task.poses.translation)[number])
     given, judged = _within(away, task, found, options)
     base = next((each for each in judged if each.usable and _number(each) == number), None)
@@ -240,10 +234,7 @@ def _of_points(position: FloatArray) -> PoseTolerances:
 
 
 def _assumed(given: Task, judged: Sequence[FoundLinkage], base: FoundLinkage | None) -> Advice:
-    """What is said of the tolerance of a task that is assumed from a linkage, and of the nearest.
-
-    base: None where none works.
-    """
+    """What is said of a tolerance that is assumed from a linkage, and of the nearest (`base`)."""
     assert given.tolerances is not None
     assumed = float(given.tolerances.position.max())
     nearest = closest_usable(judged) or min(judged, key=lambda each: each.error.worst)
@@ -266,10 +257,7 @@ def _assumed(given: Task, judged: Sequence[FoundLinkage], base: FoundLinkage | N
 
 
 def _evaluated(task: Task, found: PathLinkages, options: SynthesisOptions) -> list[FoundLinkage]:
-    """The linkages with errors and verdicts, in the order of `ranking`.
-
-    Those that cannot be inside the tolerances only where no other is usable: told they are not.
-    """
+    """The linkages with verdicts in the order of `ranking`; those surely outside only if needed."""
     step(f"judging {count(len(found.batch), 'linkage')}")
     problem = SynthesisProblem.of(task, None, options)
     evaluation = Evaluation(problem, target_of(problem))
@@ -286,10 +274,7 @@ def _evaluated(task: Task, found: PathLinkages, options: SynthesisOptions) -> li
 def _by_sample(
     task: Task, found: PathLinkages, path: TracedPath, options: SynthesisOptions
 ) -> tuple[PathLinkages, int | None]:
-    """Of linkages near very many points those that are worth judging at all, by a sample of them.
-
-    All of them where none is usable there.  With the number of the one that sets the tolerance.
-    """
+    """Of linkages near many points those worth judging, and which sets the tolerance."""
     sample = PoseSample.of_task(task, MOST_JUDGED)
     there = found._replace(places=found.places[:, sample.index])
     part = task.at(sample.index, sample.cells)
@@ -302,10 +287,7 @@ def _by_sample(
 
 
 def _may_be_inside(task: Task, found: PathLinkages) -> NDArray[np.bool_]:
-    """Which linkages (k,) may have places inside the tolerances of all points.
-
-    Their places are nearest to the points, and what is inside is no farther than the corners.
-    """
+    """Which linkages (k,) may have places inside the tolerances of all points."""
     assert task.tolerances is not None
     away = np.linalg.norm(found.places[..., :2] - task.poses.translation, axis=-1)
     corner = np.linalg.norm(task.tolerances.position, axis=-1)

@@ -129,10 +129,7 @@ def _of_fit(fit: CurveFit) -> PathLinkages:
 
 
 def _with_cognates(found: PathLinkages) -> PathLinkages:
-    """The linkages, and behind them their cognates with the second fixed pivot.
-
-    Of these the new link at the third pivot turns as the crank does.
-    """
+    """The linkages, and behind them their cognates that are driven at the second fixed pivot."""
     if not len(found.batch):
         return found
     _, other = cognates(found.batch.linkage_of_all())
@@ -174,10 +171,7 @@ def _without_tolerance(task: Task, options: SynthesisOptions) -> Evaluation:
 
 
 def _within_limits(wide: Evaluation, found: PathLinkages) -> PathLinkages:
-    """Linkages near the points with their pivots and links within the limits, the nearest first.
-
-    Refined from those first whose pivots and links have not far to go.
-    """
+    """Linkages near the points within the limits, the nearest first."""
     step("refining linkages within the limits")
     target = wide.target
     if len(wide.task.limits) > 1:

@@ -191,11 +191,7 @@ def _some(count: int, wanted: int, share: float) -> NDArray[np.intp]:
 def _with_tolerance(
     task: Task, nearest: FoundLinkage, options: SynthesisOptions
 ) -> tuple[Task, list[Advice]]:
-    """The task with a tolerance, and what is said of it.
-
-    The greatest acceptable error, where one is asked for; else twice the worst error of the nearest
-    linkage.  A radian counts as the length per radian.
-    """
+    """The task with a tolerance, asked or twice the nearest error, and what is said."""
     problem, asked = SynthesisProblem.of(task, None, options), task.requirements
     length = problem.length_per_radian
     if asked.within is not None:

@@ -183,11 +183,7 @@ def _translation(motion: RotationFit, unit: str | None) -> MotionKind:
 
 
 def _rotation(motion: RotationFit, unit: str | None) -> Rotation | None:
-    """The rotation about one point, if the poses are one.
-
-    Any small motion nearly is one; a small rotation is claimed only where it differs from Cardan
-    motion.
-    """
+    """The rotation about one point, if the poses are one; a small one only if no Cardan motion."""
     if not motion.about_point:
         return None
     lever, turned = float(abs(motion.minus_m)), rms(motion.turn - motion.turn.mean())
@@ -271,10 +267,7 @@ def _two_sliders(motion: RotationFit, most_scatter: float, unit: str | None) -> 
 
 
 def _circle(points: ComplexArray) -> tuple[complex, float]:
-    """Centre and radius of the circle nearest to centred points (N,), by squared distances.
-
-    Its bias on a short arc is far below the errors wherever an arc differs from a line at all.
-    """
+    """Centre and radius of the circle nearest to centred points (N,), by squared distances."""
     rows = np.column_stack([2 * points.real, 2 * points.imag, np.ones(len(points))])
     x, y, s = np.linalg.lstsq(rows, np.abs(points) ** 2, rcond=None)[0]
     return complex(x, y), float(np.sqrt(s + x * x + y * y))

@@ -449,20 +449,14 @@ def require_angle_unit(unit: object) -> None:
 
 
 def _are_many_points(tolerances: PoseTolerances, pivots: int) -> bool:
-    """Whether only points are asked for, and more of them than a linkage meets exactly.
-
-    pivots: how many conditions limits put on its pivots.
-    """
+    """Whether only points are asked for, more than a linkage meets; pivots: conditions on them."""
     return tolerances.are_points and len(tolerances.angle) + pivots > MOST_POINTS
 
 
 def _require_fitting(
     tolerances: PoseTolerances, count: int, exact: NDArray[np.bool_] | None, pivots: int
 ) -> None:
-    """Refuse tolerances that do not fit the poses: E135, E136 (marks), E133 (too many).
-
-    pivots: how many exact conditions limits put on pivots.
-    """
+    """Refuse tolerances that do not fit: E135, E136 (marks), E133; pivots: exact conditions."""
     if tolerances.shape != (count,):
         raise InputError(
             "E135",

@@ -146,10 +146,7 @@ def driving_side(task: Task) -> int:
 
 
 def _with_driver(task: Task) -> Task:
-    """A task timed by the crank with limits for both dyads, and a driver that turns.
-
-    Raises InputError E186 where the limits allow no such driver.
-    """
+    """A task timed by the crank with limits for both dyads and a turning driver; raises E186."""
     if task.timing is None:
         return task
     both = list((task.limits * 2)[:2] if task.limits else (Limits(), Limits()))

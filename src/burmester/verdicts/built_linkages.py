@@ -159,11 +159,7 @@ class BuiltLinkages:
         return take(concatenate([best, built]), rows), bool(better.any())
 
     def _followed(self, off: FloatArray) -> tuple[Built, NDArray[np.bool_]]:
-        """Linkages with errors (n, 10), moved from the nominal places, and which errors are sure.
-
-        Newton's method may end at a place that is not the nearest.  Where it does not end on one
-        circuit both are searched, and those errors are sure.
-        """
+        """Linkages with errors (n, 10), moved from the nominal places; which are sure."""
         batch = self.batch(off)
         start = np.broadcast_to(self.start, (len(off), *self.start.shape))
         rows = foot_points(batch, start, rows_of(self.poses, self.length), self.length)

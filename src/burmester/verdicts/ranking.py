@@ -176,10 +176,7 @@ def _same(one: FoundLinkage, other: FoundLinkage, problem: SynthesisProblem, siz
 
 
 def _alike(a: Dyad, b: Dyad, region: DyadUncertainty | None, least: float, size: float) -> bool:
-    """Whether two dyads differ by `least` or less, or by less than b's region leaves open.
-
-    size: of the motion; beyond SAME_SPAN of it no region makes two dyads one.
-    """
+    """Whether dyads differ by `least` or less, or by less than b's region leaves open."""
     if type(a) is not type(b):
         return False
     if isinstance(a, RR):

@@ -189,11 +189,7 @@ def _first_order(
 
 
 def _checked(first: _FirstOrder, built: BuiltLinkages, off: FloatArray) -> tuple[bool, Built]:
-    """Whether first order is right to a tenth, and the worst corner of the tolerance found.
-
-    Right at its own worst corners, for the 95 % of a few draws, and for the worst corner that a
-    search from these finds.
-    """
+    """Whether first order is right to a tenth, and the worst corner of the tolerance found."""
     most = np.argsort(first.worst[0])[::-1][:CORNERS]  # the poses of most error
     corners, draws = np.unique(first.corner[0, most], axis=0), off[:PILOT_DRAWS]
     some = built.with_errors(np.concatenate([corners, draws]))
@@ -295,11 +291,7 @@ def _ways_back(at: ConstraintNormals) -> Iterator[FloatArray]:
 
 
 def _greatest_sum(parts: FloatArray) -> FloatArray:
-    """The greatest length (*,) of a sum of vectors (*, 2, n), each with either sign.
-
-    The sums fill a polygon, whose edges are along the vectors: the farthest one is a corner of it,
-    and each corner is the one end of one edge.
-    """
+    """The greatest length (*,) of a sum of vectors (*, 2, n), each with either sign."""
     normal = np.stack([-parts[..., 1, :], parts[..., 0, :]], axis=-2) + NORMAL_NUDGE * parts
     sign = np.sign(np.einsum("...cj,...ci->...ji", normal, parts))
     corner = np.einsum("...ji,...ci->...cj", sign, parts)

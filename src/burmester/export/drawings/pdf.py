@@ -89,10 +89,7 @@ def _pages(chosen: Candidate, options: Options) -> tuple[Assembly, Pages]:
 
 
 def _on_plates(pages: Pages, page: Page) -> Iterable[Item]:
-    """The plates of a page, with crosses in their holes, dimension lines and names.
-
-    Of a plate on several pages, dimension lines that are apart from this one are left out.
-    """
+    """The plates of a page: crosses in holes, names, and dimension lines that are not elsewhere."""
     for part, label in zip(page.parts, page.labels, strict=True):
         plate, name = part.plate, part.plate.name
         yield from items_of_plate(plate, part.place, name)

@@ -89,10 +89,7 @@ class AppliedLoads:
         )
 
     def _add_torsion(self, name: str, spring: Spring, angle: float, model: DynamicModel) -> None:
-        """A sum of joints is the angle of one body against another one, but for a constant.
-
-        angle: at the first pose.
-        """
+        """Add a torsion spring over a sum of joints; angle: at the first pose."""
         one, other = (body_named(end.link, model.reference) for end in spring.ends)
         turning = _angle_of(other, model) - _angle_of(one, model)
         off = angle - float(turning @ model.joints.at_poses[0])

@@ -97,10 +97,7 @@ def _notes(model: DynamicModel, options: Options, left_out: list[str]) -> list[s
 def _springs(
     model: DynamicModel, options: Options
 ) -> tuple[dict[tuple[str, str], Stiffness], list[str]]:
-    """Torsion springs by the parent and the child of their joint; what SDF cannot hold, in words.
-
-    Springs at one axis add up.
-    """
+    """Torsion springs, summed at each joint; in words what SDF cannot hold."""
     out, left_out = dict[tuple[str, str], Stiffness](), list[str]()
     loads = model.chosen.task.loads
     if loads is None:

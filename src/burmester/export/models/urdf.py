@@ -89,10 +89,7 @@ def _open_loops(tree: Tree, options: Options) -> str:
 def _body(
     model: DynamicModel, body: Body, parent: str, off: FloatArray, options: Options
 ) -> list[str]:
-    """A link with its joint, its frames and all that is on it; off: the parent's axis.
-
-    The frame of a link in URDF is where its joint has its axis.
-    """
+    """A link with its joint, its frames and all that is on it; off: the parent's axis."""
     turn = Displacement(ORIGIN, np.array(body.turn))
     lines = _joint(model, body, parent, body.at + turn.act(body.axis) - off, options)
     lines += _link(model, body.name, body.axis)

@@ -131,10 +131,7 @@ class Specification(NamedTuple):
         return out | lines
 
     def _lines(self, dyad: int) -> dict[str, Rail]:
-        """The rail or slot stated for the first dyad (0) or the second (1).
-
-        One stated once is for the first; where both are, the slot is for the second.
-        """
+        """The rail or slot stated for a dyad, 0 or 1; one alone is the first's."""
         out = {}
         for name in _LACKING:
             values: tuple[Rail | None, ...] = getattr(self, name)

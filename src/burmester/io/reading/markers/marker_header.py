@@ -210,10 +210,7 @@ def _units_above(above: list[list[str]]) -> list[str]:
 def _markers(
     columns: list[tuple[str, str, int, str]], types: list[str] | None = None
 ) -> dict[str, dict[str, int]]:
-    """The markers that have an X and a Y, or any two axes, with their columns.
-
-    types: of each column, to tell apart markers of one name (Motive); others are numbered.
-    """
+    """The markers with X and Y, or any two axes, and their columns; types tell names apart."""
     times = Counter((name, axis) for name, axis, *_ in columns)
     markers: dict[str, dict[str, int]] = {}
     for name, axis, i, _ in columns:

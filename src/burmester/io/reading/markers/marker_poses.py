@@ -117,10 +117,7 @@ def _left_out(recording: MarkerRecording, missing: NDArray[np.bool_]) -> list[st
 def _rigidity(
     recording: MarkerRecording, flat: FloatArray, base: NDArray[np.intp], unit: str
 ) -> tuple[list[str], list[Advice], tuple[float, float] | None]:
-    """How rigid the markers are: in a sentence, a warning where that is no noise, and the noise.
-
-    The standard deviations are None where the digits may explain what there is.
-    """
+    """How rigid the markers are, a warning where they are not, and the noise where it shows."""
     names = listed(recording.names)
     fit = fit_rigid_body(flat[base])
     size = float(np.hypot(*fit.shape.T).max())

@@ -161,10 +161,7 @@ def _require_width(header: MarkerHeader, row: Row, number: int) -> None:
 def _forget_lost(
     places: FloatArray, likely: FloatArray, sure: list[int]
 ) -> dict[str, NDArray[np.bool_]]:
-    """Set lost markers to NaN; returns the frames for each reason.
-
-    likely: (N, L), how sure the places of the markers `sure` are, from 0 to 1.
-    """
+    """Set lost markers to NaN; the frames for each reason.  likely: (N, L), from 0 to 1."""
     reasons = {"has no value": _any(np.isnan(places), axis=(1, 2))}
     # a lost marker is exported as 0,0,0; one that never leaves 0 along an axis is in that plane
     zero = (places == 0) | np.isnan(places)

@@ -141,10 +141,7 @@ def _pieces(element: ElementTree.Element) -> float:
 
 
 def _with_size(root: ElementTree.Element) -> str:
-    """Give the root a width and a height in pixels; "mm" where they are lengths, else "px".
-
-    A missing one follows from the other by the shape of the view box, both from its size.
-    """
+    """Give the root its width and height in pixels, by its view box; "mm" or "px"."""
     sizes = [_pixels(root.get(name)) for name in ("width", "height")]
     box = [
         float(number)

@@ -237,10 +237,7 @@ def _require_poses(
 
 
 def _named(names: Sequence[str], indices: dict[str, int], unknown: list[int]) -> str | None:
-    """--columns with names for what is unknown, in the order of the roles that are missing.
-
-    None where that does not help, or is longer than anybody types.
-    """
+    """--columns with names for what is unknown, in the order of missing roles; None if too long."""
     if len(names) > MOST_TYPED:
         return None
     missing = iter([role for role in ("x", "y", "angle_deg") if role.split("_")[0] not in indices])

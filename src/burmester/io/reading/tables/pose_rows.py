@@ -339,20 +339,14 @@ def _parted_number(row: Row) -> tuple[str, str] | None:
 
 
 def _special_text(cell: str, role: str) -> str | None:
-    """The text of a cell that may hold no number; None where a number or text belongs.
-
-    "nan" for a blank one, "inf" for a word for free.
-    """
+    """A blank cell is "nan", a word for free "inf"; None where a number or text belongs."""
     if not cell and role in (*COMPONENTS, *TOLERANCE_ROLES, "crank"):
         return "nan"
     return "inf" if role in TOLERANCE_ROLES and cell.lower() in FREE_WORDS else None
 
 
 def _free_in_row(row: Row, indices: Mapping[str, int], number: int) -> str:
-    """The components that a row leaves free, by the texts of its cells; raises E104 and E136.
-
-    indices: of the cells by role; number: of the row, from 1.
-    """
+    """The components that a row leaves free, by its cells (by role); raises E104 and E136."""
     cells = {role: row.value(index) for role, index in indices.items()}
     named = free_components(cells.get("free", ""))
     if named is None:

@@ -337,10 +337,7 @@ def _column(letters: str) -> int:
 
 
 def _quoted_cell(text: str) -> str:
-    """A text without tabs and line ends, in quotes where it might be taken for something else.
-
-    A number that is stored as text has quotes: its decimal mark is one that somebody has written.
-    """
+    """A text without tabs and line ends, in quotes where it might be taken for something else."""
     text = " ".join(text.split())
     if '"' in text or re.match(r"#|(?i:sep=)|[-+\u2212.,]*[0-9]", text):
         return '"' + text.replace('"', '""') + '"'

@@ -456,10 +456,7 @@ def _where_unit(poses: Node, stated: Sequence[Pose], unit: str | None) -> str:
 def _angles(
     nodes: Sequence[Node], poses: Sequence[Pose], stated: str | None
 ) -> tuple[list[str], str | None]:
-    """The angles and their unit, if every pose has one angle and all are in one unit.
-
-    nan for an angle that is free.
-    """
+    """The angles, nan for free ones, and their unit, if every pose has one angle in one unit."""
     units = {stated} - {None}
     angles: list[str] = []
     for i, (node, pose) in enumerate(zip(nodes, poses, strict=True)):
