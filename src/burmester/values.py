@@ -30,34 +30,10 @@ def real_numbers(
     """A read-only copy of real numbers as doubles; whatever else is given is refused.
 
     Refused are complex numbers, booleans, text, masked arrays and rows of different lengths:
-    NumPy would convert most of them without a word.
+    NumPy would convert most of them without a word.  In `shape` None is any length, a leading
+    ellipsis any number of axes.  Raises E125 (wrong type or shape) and E103 (not finite, where
+    that is asked for), or `code` for both.
 
-    Parameters
-    ----------
-    value : array_like
-        Numbers, nested sequences of them, or anything with ``__array__``.
-    shape : tuple of int, None or Ellipsis
-        The shape needed: ``(None, 3)`` is any number of rows, ``(..., 3)`` any leading axes,
-        ``()`` a single number.
-    what : str
-        The name of the value in messages.
-    code : str, optional
-        The code of all its errors, where a value has a code of its own.
-    finite : bool
-        Whether nan and inf are refused.
-
-    Returns
-    -------
-    ndarray of float64
-        Shares no memory with `value`.
-
-    Raises
-    ------
-    InputError
-        E125 (wrong type or shape), E103 (not finite), or `code` for both.
-
-    Examples
-    --------
     >>> real_numbers([[0, 1], [2, 3]], (None, 2), "corners")
     array([[0., 1.],
            [2., 3.]])
@@ -112,35 +88,7 @@ def real_numbers(
 def require_instance(
     value: object, types: type | tuple[type, ...], what: str, help: str, *, code: str = "E125"
 ) -> None:
-    """Refuse a value of another type.
-
-    Parameters
-    ----------
-    value : object
-        What the caller gave.
-    types : type or tuple of types
-        Those that are accepted.
-    what : str
-        The name of the value in messages.
-    help : str
-        What to give instead.
-    code : str
-        The code of the error.
-
-    Raises
-    ------
-    InputError
-        E125, or `code`.
-
-    Examples
-    --------
-    >>> require_instance(3, str, "the name", "give a text")
-    Traceback (most recent call last):
-        ...
-    burmester.errors.InputError: error[E125]: the name: not of type str
-      why: it is 3
-      help: give a text
-    """
+    """Refuse a value of another type than `types`: E125, or `code`; help: what to give instead."""
     if isinstance(value, types):
         return
     names = [each.__name__ for each in (types if isinstance(types, tuple) else (types,))]

@@ -16,11 +16,7 @@ from burmester.api.synthesize import require_callable
 from burmester.describe import generator_words
 from burmester.errors import InputError
 from burmester.functions.found_generator import FoundGenerator
-from burmester.io.reading.functions.function_options import (
-    Spacing,
-    task_of_function,
-    task_of_pairs,
-)
+from burmester.io.reading.functions.function_options import Spacing, task_of_function, task_of_pairs
 from burmester.numerics.arrays import FloatArray
 from burmester.progress import Listener, shown
 from burmester.synthesis.function_generation import (

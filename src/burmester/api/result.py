@@ -7,16 +7,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
-from typing import (
-    TYPE_CHECKING,
-    Any,
-    Self,
-    SupportsIndex,
-    TypeVar,
-    cast,
-    final,
-    overload,
-)
+from typing import TYPE_CHECKING, Any, Self, SupportsIndex, TypeVar, cast, final, overload
 
 from burmester.api.linkage import MovingPicture, ResultLinkage, ResultSixBar, as_type
 from burmester.api.python_words import in_python_words

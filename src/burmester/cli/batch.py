@@ -7,13 +7,7 @@ from typing import Any
 import click
 
 from burmester.cli.options import Number
-from burmester.cli.output import (
-    EXIT_FOUND,
-    EXIT_INTERRUPT,
-    EXIT_NOTHING,
-    console,
-    print_json,
-)
+from burmester.cli.output import EXIT_FOUND, EXIT_INTERRUPT, EXIT_NOTHING, console, print_json
 from burmester.errors import InputError
 
 TASKS_HELP = """\b

@@ -6,13 +6,7 @@ from typing import Any
 
 import click
 
-from burmester.cli.options import (
-    POSES,
-    Sectioned,
-    pose_arguments,
-    read_poses,
-    with_options,
-)
+from burmester.cli.options import POSES, Sectioned, pose_arguments, read_poses, with_options
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, console, print_json
 
 

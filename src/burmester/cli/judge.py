@@ -6,12 +6,7 @@ from typing import Any
 
 import click
 
-from burmester.cli.options import (
-    JUDGEMENT,
-    Sectioned,
-    run_judgement,
-    with_options,
-)
+from burmester.cli.options import JUDGEMENT, Sectioned, run_judgement, with_options
 from burmester.cli.output import EXIT_FOUND, EXIT_NOTHING, hand_over
 
 GIVEN_WORKS = "R330"

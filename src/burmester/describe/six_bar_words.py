@@ -12,10 +12,7 @@ from burmester.describe.dimensions import degrees
 from burmester.describe.load_words import load_notes
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
-from burmester.tasks.notation import (
-    length_of,
-    pose_labels,
-)
+from burmester.tasks.notation import length_of, pose_labels
 from burmester.verdicts.explanation import meets_exactly, percent, worst_miss
 from burmester.wording import figure, least_angle, listed, with_article
 

@@ -33,13 +33,7 @@ from burmester.diagnosis.noise_ratio import (
     fits_by_ratio,
     floor_by_ratio,
 )
-from burmester.diagnosis.repairs import (
-    Prediction,
-    Repair,
-    by_evidence,
-    repairs_of,
-    unit_repair,
-)
+from burmester.diagnosis.repairs import Prediction, Repair, by_evidence, repairs_of, unit_repair
 from burmester.diagnosis.sampson_fits import NormalizedPoses, refine_best
 from burmester.diagnosis.unit_errors import UnitError, pose_apart, unit_error
 from burmester.errors import InputError

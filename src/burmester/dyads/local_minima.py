@@ -9,11 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.dyads.circle_descent import circle_minima, reach, sharpened_circles
-from burmester.dyads.critical_points import (
-    LITTLE_TURN,
-    CriticalDyads,
-    critical_dyads,
-)
+from burmester.dyads.critical_points import LITTLE_TURN, CriticalDyads, critical_dyads
 from burmester.dyads.critical_search import COUNT
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.dyads.pencil import MIN_POSES, fit_pencil

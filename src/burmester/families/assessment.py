@@ -14,13 +14,7 @@ from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.pivot_box import extent
-from burmester.fourbar.traversal import (
-    DrivenView,
-    PoseRange,
-    Traversal,
-    first_where,
-    traversed,
-)
+from burmester.fourbar.traversal import DrivenView, PoseRange, Traversal, first_where, traversed
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.pose_order import REPEATED_POSE_STEP, OrderTolerance
 from burmester.numerics.arrays import FloatArray, take

@@ -18,12 +18,7 @@ from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR, dimensions_of, shape_of
 from burmester.fourbar.linkage import Linkage
-from burmester.fourbar.traversal import (
-    DrivenView,
-    PoseRange,
-    Traversal,
-    traversed,
-)
+from burmester.fourbar.traversal import DrivenView, PoseRange, Traversal, traversed
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon
 from burmester.mechanisms.pose_order import BoolArray, OrderTolerance

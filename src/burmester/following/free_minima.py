@@ -18,12 +18,7 @@ from burmester.dyads.critical_points import CriticalDyads, continued_points, cri
 from burmester.dyads.geometric_fit import circle_distances
 from burmester.dyads.local_minima import BestDyads, is_hard, starts_of_one
 from burmester.dyads.sliders import fixed_lines, moving_lines
-from burmester.following.minimum_step import (
-    MovedMinima,
-    moved_fit,
-    moved_minima,
-    twins,
-)
+from burmester.following.minimum_step import MovedMinima, moved_fit, moved_minima, twins
 from burmester.fourbar.canonical_frames import CanonicalFrames
 from burmester.fourbar.dyad import Dyad
 from burmester.fourbar.linkage_batch import row_of

@@ -20,13 +20,7 @@ from burmester.errors import Finding
 from burmester.fourbar.circuits import Circuits
 from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
-from burmester.fourbar.traversal import (
-    DrivenView,
-    PoseRange,
-    Traversal,
-    first_where,
-    traversed,
-)
+from burmester.fourbar.traversal import DrivenView, PoseRange, Traversal, first_where, traversed
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.defect_messages import (
     UNSURE,

@@ -272,28 +272,14 @@ def line_direction_deg(normal_angle: FloatArray) -> FloatArray:
 def refitted_circles(
     p: FloatArray, poses: Displacement, weights: FloatArray | None = None
 ) -> tuple[RR, FloatArray, FloatArray]:
-    """The circles of manifolds p, with radii refitted to the poses.
+    """The circles (*, k) of manifolds p (*, k, 8), with radii refitted to the poses (*, N).
 
     The mean distance of the moving pivot from the fixed one is the radius with the least sum of
     squares.  The radius in p itself is not used: noise makes its two versions disagree.
 
     Formula `refitted-radius` of the theory.
 
-    Parameters
-    ----------
-    p : (*, k, 8) array of float
-        The constraint manifolds.
-    poses : Displacement
-        (*, N)
-    weights : (*, N) array of float, optional
-        Of the poses in the fit.
-
-    Returns
-    -------
-    circles : RR
-        (*, k)
-    rms, greatest : (*, k) arrays of float
-        The root mean square and the greatest residual over the poses.
+    Returns circles, and the root mean square and the greatest residual (*, k) over the poses.
     """
     fixed_pivot, moving_pivot, _ = constraint_manifold.circle(p)
     centred = RR(fixed_pivot, moving_pivot, np.zeros(fixed_pivot.shape[:-1]))

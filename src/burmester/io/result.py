@@ -20,13 +20,7 @@ from burmester.dyads.pencil import Pencil
 from burmester.dyads.selection import Fit
 from burmester.errors import BurmesterError
 from burmester.geometry.regions import Line, Point, Region, Segment
-from burmester.io.linkage_data import (
-    dimensions_data,
-    dyad_data,
-    linkage_data,
-    number,
-    six_bar_data,
-)
+from burmester.io.linkage_data import dimensions_data, dyad_data, linkage_data, number, six_bar_data
 from burmester.io.pose_data import crank_data, degrees_of, poses_data, tolerances_data
 from burmester.io.reading.specification import requirements_data, surroundings_data
 from burmester.io.reading.trees.loads_tree import loads_data

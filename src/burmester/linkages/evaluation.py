@@ -26,11 +26,7 @@ from burmester.numerics.arrays import FloatArray, even_numbers, take, weights_or
 from burmester.progress import goes_on, step
 from burmester.refinement.constraints import AllConstraints
 from burmester.refinement.target import Target
-from burmester.refinement.tolerance_boxes import (
-    counted_error,
-    poses_counted,
-    shares_used,
-)
+from burmester.refinement.tolerance_boxes import counted_error, poses_counted, shares_used
 from burmester.requirements.table import shortcomings
 from burmester.tasks.motion_task import Task
 from burmester.tasks.notation import length_of

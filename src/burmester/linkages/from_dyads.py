@@ -23,11 +23,7 @@ from burmester.linkages.bearing_linkages import bearing_linkages, only_bears_too
 from burmester.linkages.best_within import best_within
 from burmester.linkages.by_all_poses import judged_at_all, refined_by_all, worst_left_out
 from burmester.linkages.evaluation import Candidates, Evaluation, numbered
-from burmester.linkages.further_pairs import (
-    FurtherPairs,
-    PairsToSearch,
-    closer_linkages,
-)
+from burmester.linkages.further_pairs import FurtherPairs, PairsToSearch, closer_linkages
 from burmester.linkages.judged_places import NearestPlaces, at_nearest
 from burmester.linkages.sound_linkages import sound_linkages, trade_offs
 from burmester.numerics.arrays import ROUNDING, FloatArray, replaced, take

@@ -92,11 +92,6 @@ def transmission(
     samples : int
         Points of each branch.
 
-    Returns
-    -------
-    DrawnTransmission
-        The artists: the branches, the used range, the poses, the limit and the labels.
-
     Raises
     ------
     InputError
@@ -201,11 +196,6 @@ def pose_errors(ax: Axes, error: PoseError, unit: str | None = None) -> DrawnErr
         Shape (N,), of a linkage at the poses.
     unit : str, optional
         Unit of lengths, for the label of the axis.
-
-    Returns
-    -------
-    DrawnErrors
-        Both lines of markers, and the axes of the angle errors.
 
     Examples
     --------

@@ -81,11 +81,6 @@ def family_map(ax: Axes, found: FamilyMap, recommended: Linkage | None = None) -
     recommended : Linkage, optional
         A linkage to be marked by rings.
 
-    Returns
-    -------
-    MapMarks
-        The image and the marks.
-
     Examples
     --------
     >>> from burmester import plot, read_task

@@ -61,11 +61,6 @@ def pivot_map(
     weights : (N,) array, optional
         Weights of the poses.
 
-    Returns
-    -------
-    DrawnMap
-        The map's numbers, the coloured mesh (for a colour bar) and the lines.
-
     Examples
     --------
     >>> from burmester import plot, read_task

@@ -107,11 +107,6 @@ def linkage(
     faint : bool
         Thin lines without ground, for further places of one linkage.
 
-    Returns
-    -------
-    DrawnLinkage
-        The artists: links, coupler, ground, pivots and labels.
-
     Examples
     --------
     >>> from burmester import Displacement, Linkage, plot

@@ -61,11 +61,6 @@ def body(
     along : Displacement, optional
         Shape (k,), places along the motion.
 
-    Returns
-    -------
-    DrawnBody
-        The polygons, one a place that there is, and the lines along the motion.
-
     Examples
     --------
     >>> from burmester import Displacement, plot
@@ -111,11 +106,6 @@ def keep_out(ax: Axes, regions: Iterable[KeepOut]) -> DrawnKeepOut:
         Matplotlib axes.
     regions : iterable of KeepOut
         The regions, in F.
-
-    Returns
-    -------
-    DrawnKeepOut
-        The polygons and the names.
 
     Examples
     --------

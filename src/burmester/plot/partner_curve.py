@@ -64,11 +64,6 @@ def partner_curve(
         Distance from the middle of the poses that is shown, in the unit of lengths; by default as
         far as the dyads that have a partner with which they work.
 
-    Returns
-    -------
-    PartnerCurve
-        The artists.
-
     Examples
     --------
     >>> from burmester import plot, read_task

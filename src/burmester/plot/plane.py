@@ -96,11 +96,6 @@ def poses(
     free : (N,) array_like of bool
         The poses whose angle is free, such as `task.free_angles`; by default none.
 
-    Returns
-    -------
-    Frames
-        The artists: all x axes, all y axes, the origins and the labels.
-
     Examples
     --------
     >>> from burmester import plot, read_task
@@ -176,11 +171,6 @@ def coupler_curve(
     size : float, optional
         Size of the motion, which decides where an endless curve is cut off; by default that of the
         linkage.
-
-    Returns
-    -------
-    CouplerCurve
-        The lines of each circuit, and the dead points.
 
     Raises
     ------
@@ -261,11 +251,6 @@ def achieved(
     size : float, optional
         Length of the x axes, in the unit of lengths.
 
-    Returns
-    -------
-    Achieved
-        The artists of poses, places and errors, and the scale.
-
     Examples
     --------
     >>> from burmester import plot, read_task
@@ -331,11 +316,6 @@ def centrodes(
         The number of the circuit, 0 or 1.
     samples : int
         Points of each branch.
-
-    Returns
-    -------
-    DrawnCentrodes
-        Both lines, and their points in F.
 
     Examples
     --------

@@ -142,11 +142,6 @@ def image_space(
     pixels : int, optional
         Columns of the picture of the surfaces; by default those of the axes.
 
-    Returns
-    -------
-    ImageSpace
-        The scene, its box, and the artists.
-
     Examples
     --------
     >>> from burmester import plot, read_task

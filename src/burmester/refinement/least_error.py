@@ -84,42 +84,18 @@ def refine(
 ) -> Refined:
     """Linkages (k,) refined to a local minimum of the error at poses (N,).
 
-    In frames where lengths are about 1 (`pose_error.error_frames`).  Places change continuously, so
-    they stay on their circuits.
+    In frames where lengths are about 1 (`pose_error.error_frames`), from places (k, N) nearest to
+    the poses.  Places change continuously, so they stay on their circuits.
 
     Formula `refinement-step` of the theory.
 
-    Parameters
-    ----------
-    batch : LinkageBatch
-        The linkages (k,) to start from.
-    places : Displacement
-        (k, N), their places nearest to the poses.
-    poses : Displacement
-        (N,)
-    length : float
-        The length that a radian counts as.
-    weights : (N,) array of float, optional
-        Of the squared distances.
-    exact : (N,) array of bool, optional
-        The poses that must be met exactly.
-    constraints : Constraints, optional
-        All further constraints.
-    free : (k, 10) array of bool, optional
-        The dimensions that may change; by default all.
-    metric : (k, N, 3, 3) array of float or broadcastable, optional
-        What counts of the gap at each pose is this matrix times the gap (x, y, length x angle),
-        under constraints that use the places.
-    worst : bool
-        Minimise the greatest distance instead of the sum of squares: by sums of ever higher powers
-        of the distances, and so to about half a percent.
-    steps, constrained_steps : int
-        The numbers of steps at most, without and with constraints.
-    selection : sequence of (int, int), optional
-        Numbers of steps with constraints, and after each the number of the best linkages that go
-        on; the others are not `met`.
-    damping : float
-        The first one without constraints; less for linkages that are nearly at a minimum.
+    weights, exact: (N,), of the squared distances; poses that are met exactly.
+    free: (k, 10), the dimensions that may change; by default all.
+    metric: (k, N, 3, 3), times the gap (x, y, length x angle) gives what counts at each pose.
+    worst: the greatest distance is least, to half a percent: by sums of ever higher powers.
+    selection: numbers of constrained steps, and after each how many of the best linkages go on;
+    the others are not `met`.
+    damping: the first one without constraints; less for linkages nearly at a minimum.
     """
     count = len(batch)
     problem = Problem.of(

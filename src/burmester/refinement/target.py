@@ -18,9 +18,7 @@ from burmester.fourbar.traced_places import places_along
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, even_numbers, shares, take
 from burmester.numerics.linear_algebra import matvec
-from burmester.refinement.constraints import (
-    Constraints,
-)
+from burmester.refinement.constraints import Constraints
 from burmester.refinement.kept_timing import TimingConstraint
 from burmester.refinement.least_error import Refined, refine
 from burmester.refinement.tolerance_boxes import ToleranceBoxes

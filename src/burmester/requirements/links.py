@@ -8,12 +8,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Final
 
-from burmester.requirements.requirement import (
-    Looser,
-    Number,
-    Requirement,
-    above,
-)
+from burmester.requirements.requirement import Looser, Number, Requirement, above
 from burmester.wording import figure
 
 if TYPE_CHECKING:

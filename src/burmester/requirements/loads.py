@@ -11,14 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from burmester.errors import InputError
-from burmester.requirements.requirement import (
-    Looser,
-    Number,
-    Requirement,
-    above,
-    number,
-    shown,
-)
+from burmester.requirements.requirement import Looser, Number, Requirement, above, number, shown
 from burmester.wording import listed
 
 if TYPE_CHECKING:

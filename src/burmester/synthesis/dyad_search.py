@@ -11,12 +11,7 @@ from numpy.typing import NDArray
 
 from burmester.cures import Cure, Help
 from burmester.dyads.five_poses import FivePoseDyads, dyads_of_five
-from burmester.dyads.local_minima import (
-    BestDyads,
-    ManyBestDyads,
-    best_dyads,
-    best_dyads_of_tasks,
-)
+from burmester.dyads.local_minima import BestDyads, ManyBestDyads, best_dyads, best_dyads_of_tasks
 from burmester.dyads.pencil import Pencil, fit_pencil
 from burmester.dyads.selection import (
     Fit,

@@ -21,10 +21,7 @@ from burmester.synthesis.dyad_search import DyadSearch, exact_dyads
 from burmester.synthesis.point_conditions import point_conditions
 from burmester.synthesis.result import Outcome
 from burmester.tasks.motion_task import CONDITIONS, Task, characteristic_length
-from burmester.tasks.notation import (
-    length_of,
-    span,
-)
+from burmester.tasks.notation import length_of, span
 from burmester.tasks.problem import SynthesisProblem
 from burmester.tasks.repeated_poses import rotation_range
 from burmester.verdicts.explanation import by_nearness, hints, in_short, nearness

@@ -29,11 +29,7 @@ from burmester.synthesis.outcome import linkage_advice
 from burmester.synthesis.path_linkages import PathLinkages, is_timed_exactly, linkages_near
 from burmester.synthesis.point_approximation import ASSUMED_RATIO, LEAST_ASSUMED
 from burmester.synthesis.point_conditions import special_curve
-from burmester.synthesis.point_generation import (
-    is_traced_by_crank,
-    missed_on_curve,
-    none_on_curve,
-)
+from burmester.synthesis.point_generation import is_traced_by_crank, missed_on_curve, none_on_curve
 from burmester.synthesis.result import Outcome, Synthesis
 from burmester.tasks.motion_task import MOST_POINTS, Task
 from burmester.tasks.notation import length_of, span

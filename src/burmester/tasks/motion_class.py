@@ -41,18 +41,8 @@ from burmester.tasks.repeated_poses import (
     rotation_range,
     spanning,
 )
-from burmester.tasks.rotation_fit import (
-    LARGE_ROTATION,
-    RotationFit,
-    residual_of_turn,
-    rms,
-)
-from burmester.tasks.scatter import (
-    SLIDERS,
-    is_scatter,
-    max_scatter,
-    odd_one,
-)
+from burmester.tasks.rotation_fit import LARGE_ROTATION, RotationFit, residual_of_turn, rms
+from burmester.tasks.scatter import SLIDERS, is_scatter, max_scatter, odd_one
 from burmester.tasks.special_motions import (
     CircularTranslation,
     FreeTranslation,

@@ -15,12 +15,7 @@ from burmester.numerics.arrays import FloatArray, take
 from burmester.tasks.motion_class import MAX_COUNTED_POSES
 from burmester.tasks.motion_task import CONDITIONS
 from burmester.tasks.rotation_fit import RotationFit, residual_of_turn
-from burmester.tasks.scatter import (
-    SLIDERS,
-    is_scatter,
-    is_steady,
-    odd_one,
-)
+from burmester.tasks.scatter import SLIDERS, is_scatter, is_steady, odd_one
 
 # Times the tolerance of a singular value: with a third one above it no special model holds, as
 # three quadrics hold the poses of each of these within their errors.

@@ -21,12 +21,7 @@ from typing import NamedTuple, final
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.fourbar.foot_points import (
-    ConstraintNormals,
-    constraint_normals,
-    places_of,
-    rows_of,
-)
+from burmester.fourbar.foot_points import ConstraintNormals, constraint_normals, places_of, rows_of
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray, concatenate, take

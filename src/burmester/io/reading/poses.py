@@ -53,10 +53,7 @@ from burmester.io.reading.pose_table import (
 )
 from burmester.io.reading.row_selection import RowLabels, RowSelection, row_marks
 from burmester.io.reading.specification import Specification, combined_requirements, one_line
-from burmester.io.reading.stated_tolerances import (
-    DefaultTolerance,
-    combined_tolerances,
-)
+from burmester.io.reading.stated_tolerances import DefaultTolerance, combined_tolerances
 from burmester.io.reading.tables.text_source import label_of, text_source
 from burmester.numerics.arrays import FloatArray
 from burmester.printable import blanked, printable

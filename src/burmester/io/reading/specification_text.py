@@ -13,11 +13,7 @@ from typing import Any
 from burmester.errors import InputError
 from burmester.io.reading.option_text import ANY, numbers_from_text, option_text
 from burmester.io.reading.pose_table import Source
-from burmester.io.reading.specification import (
-    Specification,
-    StatedRequirement,
-    checked_requirement,
-)
+from burmester.io.reading.specification import Specification, StatedRequirement, checked_requirement
 from burmester.io.reading.stated_tolerances import FREE_WORDS, DefaultTolerance
 from burmester.io.reading.trees.specification_tree import VALUE_KINDS
 from burmester.requirements.requirement import Requirement

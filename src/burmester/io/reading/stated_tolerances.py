@@ -14,12 +14,7 @@ from numpy.typing import NDArray
 
 from burmester.errors import InputError
 from burmester.numerics.arrays import FloatArray
-from burmester.tasks.pose_tolerances import (
-    COMPONENTS,
-    Component,
-    PoseTolerances,
-    ToleranceAxes,
-)
+from burmester.tasks.pose_tolerances import COMPONENTS, Component, PoseTolerances, ToleranceAxes
 
 # The columns of numbers, and those of words; by the components that they belong to.
 TOLERANCE_ROLES = ("tol_x", "tol_y", "tol_angle")

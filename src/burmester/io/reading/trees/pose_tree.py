@@ -21,13 +21,7 @@ from typing import Any, Final
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.reading.pose_table import (
-    NUMERIC,
-    POINTS,
-    CrankOptions,
-    PoseTable,
-    Rows,
-)
+from burmester.io.reading.pose_table import NUMERIC, POINTS, CrankOptions, PoseTable, Rows
 from burmester.io.reading.specification import (
     LIMITS,
     REQUIREMENTS,

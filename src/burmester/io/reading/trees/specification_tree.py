@@ -19,12 +19,7 @@ import numpy as np
 
 from burmester.errors import InputError
 from burmester.geometry.regions import Line, Point, Polygon, Region, Segment, box
-from burmester.io.reading.option_text import (
-    ANY,
-    number_from_text,
-    numbers_from_text,
-    option_fault,
-)
+from burmester.io.reading.option_text import ANY, number_from_text, numbers_from_text, option_fault
 from burmester.io.reading.pose_table import Source, shown
 from burmester.io.reading.specification import (
     LIMITS,
