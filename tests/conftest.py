@@ -7,8 +7,10 @@ the sample is no fifth, layers.toml says what it is.  The others are `unit` wher
 and else `cross`: whole runs and comparisons with oracles.  What is light is measured: `--weigh`
 keeps the seconds of each test in tests/weights.json.
 
-A run of everything is one of a series.  The date says which sample it takes, and the heaviest tests
-take turns, each case on every second or third day, except what layers.toml lists as `daily`.
+A run of everything is one of a series.  The date says which sample it takes, and tests that are
+not light take turns: each case is run on every second to fifth day by the weight of its test
+(`TURNS`), except what layers.toml lists as `daily`.  The sample of a campaign that is not light
+takes two days.
 `SAMPLE_DAY=NUMBER`, which the head of a run shows, repeats it.  A run of named tests has no turns,
 and always the same sample.
 
@@ -41,8 +43,10 @@ sys.modules.setdefault("rfc3987_syntax", None)
 FOLDER = Path(__file__).parent
 WEIGHTS = FOLDER / "weights.json"
 DRAWN = {"seed", "number"}  # what a test is given to draw its case by
-LIGHT_S = 1.0  # seconds of a test function, with all its cases, that is `unit`
-HEAVY_S = 3.0  # the same of a test that is run on every third day, and not on every other one
+# The seconds of a test function, with all its cases, above which each case has its turn on every
+# so-manieth day; what has none is `unit`.
+TURNS = {0.5: 2, 1.0: 3, 3.0: 4, 8.0: 5}
+LIGHT_S = min(TURNS)
 DAY = (
     "SAMPLE_DAY"  # a variable with the day of a run of everything; with 0, or none, of named files
 )
@@ -103,21 +107,25 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             cross[name].append(item)
         else:
             item.add_marker("unit")
-    for name in cross.keys() - {*layers["daily"]} if day and not EVERY else ():
-        turns = 3 if weights[name] > HEAVY_S else 2
+    heavy = {name for name, seconds in weights.items() if day and seconds > LIGHT_S}
+    for name in cross.keys() & heavy - {*layers["daily"]} if not EVERY else ():
+        turns = max(days for least, days in TURNS.items() if weights[name] > least)
         # Tests of one file have the same days, so that what they share is set up on those alone,
         # and files that are about as heavy have different ones.
         first = day + heaviest.index(name.partition("::")[0])
         left_out.update(each for k, each in enumerate(cross[name]) if (first + k) % turns)
-    for (name, *_), cases in drawn.items():
-        if EVERY:
-            continue
+    for (name, *_), cases in drawn.items() if not EVERY else ():
         cases.sort(key=lambda item: zlib.crc32(item.nodeid.encode()))
         kept = samples.get(name, share(len(cases)))
+        days, today = (
+            (2, day + heaviest.index(name.partition("::")[0])) if name in heavy else (1, day)
+        )
         if isinstance(kept, int):
-            first = day * kept % len(cases)
-            left_out.update([*cases[first:], *cases[:first]][kept:])
+            taken = range(today * kept // days, (today + 1) * kept // days)
+            numbers = {number % len(cases) for number in taken}
+            left_out.update(each for k, each in enumerate(cases) if k not in numbers)
         else:
+            kept = [each for k, each in enumerate(kept) if (today + k) % days == 0]
             left_out.update(item for item in cases if item.callspec.id not in kept)
     if left_out:
         config.hook.pytest_deselected(items=list(left_out))

@@ -171,18 +171,18 @@ def bent(document, space):
     space.add_lwpolyline([(k, k % 7, 1) for k in range(21_000)], format="xyb", close=True)
 
 
-REFUSED = {
-    "two closed curves": (dxf(two_squares), "a.dxf", "E172", "layer 'A'"),
-    "no such layer": (dxf(two_squares), "a.dxf:C", "E173", "'A' and 'B'"),
-    "a gap": (dxf(gap), "a.dxf", "E171", "ends 0.2 apart are at (9, 0"),
-    "a branch": (dxf(tee), "a.dxf", "E171", "none closes"),
-    "text alone": (dxf(lambda d, s: s.add_text("hi")), "a.dxf", "E171", "no curves"),
-    "a bow tie": (dxf(bow_tie), "a.dxf", "E131", "near (5, 5)"),
-    "millimetres for no unit": (dxf(square), "a.dxf", "E174", "states no unit"),
-    "an unknown unit": (dxf(square), "a.dxf", "E174", "parsec"),
-    "a bomb of blocks": (dxf(block_bomb), "a.dxf", "E170", "20000 curves"),
+REFUSED = {  # drawings are made when they are read
+    "two closed curves": (lambda: dxf(two_squares), "a.dxf", "E172", "layer 'A'"),
+    "no such layer": (lambda: dxf(two_squares), "a.dxf:C", "E173", "'A' and 'B'"),
+    "a gap": (lambda: dxf(gap), "a.dxf", "E171", "ends 0.2 apart are at (9, 0"),
+    "a branch": (lambda: dxf(tee), "a.dxf", "E171", "none closes"),
+    "text alone": (lambda: dxf(lambda d, s: s.add_text("hi")), "a.dxf", "E171", "no curves"),
+    "a bow tie": (lambda: dxf(bow_tie), "a.dxf", "E131", "near (5, 5)"),
+    "millimetres for no unit": (lambda: dxf(square), "a.dxf", "E174", "states no unit"),
+    "an unknown unit": (lambda: dxf(square), "a.dxf", "E174", "parsec"),
+    "a bomb of blocks": (lambda: dxf(block_bomb), "a.dxf", "E170", "20000 curves"),
     "a DWG file": (b"AC1032" + bytes(50), "a.dxf", "E170", "DWG"),
-    "half a file": (dxf(square)[:9000], "a.dxf", "E170", "cut off"),
+    "half a file": (lambda: dxf(square)[:9000], "a.dxf", "E170", "cut off"),
     "damaged DXF": (
         b"  0\nSECTION\n  2\nENTITIES\nx\nLINE\n  0\nEOF\n",
         "a.dxf",
@@ -229,15 +229,15 @@ REFUSED = {
         "E170",
         "60000 entries",
     ),
-    "many arcs of a polyline": (dxf(bent), "a.dxf", "E170", "20000 curves"),
+    "many arcs of a polyline": (lambda: dxf(bent), "a.dxf", "E170", "20000 curves"),
     "uses itself": (svg('<g id="x"><use href="#x"/></g>'), "a.svg", "E170", "uses itself"),
     "not finite": (svg('<path d="M 0 0 L 1e400 5 5 5z"/>'), "a.svg", "E170", "not finite"),
     "an open path": (svg('<path d="M 0 0 L 9 0 L 9 9"/>'), "a.svg", "E171", "none closes"),
     "no such id": (svg(f'<g id="b">{RECT}</g>'), "a.svg:lid", "E173", "'b'"),
     "no id at all": (svg(RECT), "a.svg:lid", "E173", "it has no id"),
     "an unknown encoding": (b'<?xml version="1.0" encoding="ebc"?><svg/>', "a.svg", "E170", "XML"),
-    "no model space": (dxf(square).replace(b"Model", b"Modle"), "a.dxf", "E170", "damaged"),
-    "far away": (dxf(lambda d, s: square(d, s, size=1e70)), "a.dxf", "E170", "too large"),
+    "no model space": (lambda: dxf(square).replace(b"Model", b"Modle"), "a.dxf", "E170", "damaged"),
+    "far away": (lambda: dxf(lambda d, s: square(d, s, size=1e70)), "a.dxf", "E170", "too large"),
     "two shapes": (svg(RECT + '<circle r="3" id="c"/>'), "a.svg", "E172", "circle (id 'c') 6 by 6"),
 }
 
@@ -246,7 +246,7 @@ REFUSED = {
 def test_what_is_no_outline_is_refused(tmp_path, name):
     data, named, code, said = REFUSED[name]
     file = outline_named(named)
-    (tmp_path / file.path).write_bytes(data)
+    (tmp_path / file.path).write_bytes(data() if callable(data) else data)
     unit = {"millimetres for no unit": None, "an unknown unit": "parsec"}.get(name, "mm")
     with pytest.raises(InputError) as caught:
         read_outline(file, str(tmp_path), unit)

@@ -21,6 +21,7 @@ from burmester.io.reading.poses import read_task
 from burmester.io.task_schema import task_schema
 from burmester.requirements.table import ASKED
 from burmester.tasks.option_table import LIMIT_OPTIONS, TOP_KEYS
+from tests.samples import EVERY
 
 ROOT = Path(__file__).parents[2]
 SCHEMA = task_schema()
@@ -136,12 +137,10 @@ TOGETHER = {
 }  # fmt: skip
 
 
-def refused(tree, folder):
+def refused(tree):
     """The code with which a reader refuses a tree, or None."""
-    file = folder / "task.json"
-    file.write_text(json.dumps(tree), encoding="utf-8")
     try:
-        read_task(file)
+        read_task("task.json", data=json.dumps(tree).encode())
     except InputError as error:
         return error.code
     return None
@@ -207,14 +206,14 @@ def test_every_task_of_examples_passes():
 
 
 @pytest.mark.parametrize("tree", TASKS.values(), ids=TASKS)
-def test_what_is_refused_at_a_key_is_refused_by_the_schema(tree, tmp_path):
-    assert refused(tree, tmp_path) is None
+def test_what_is_refused_at_a_key_is_refused_by_the_schema(tree):
+    assert refused(tree) is None
     VALIDATOR.validate(tree)
     wrong = []
-    for path in places(tree):
-        for value in INSTEAD:
+    for number, path in enumerate(places(tree)):
+        for value in INSTEAD if EVERY else INSTEAD[number % 3 :: 3]:
             other = changed(tree, path, value)
-            code, passes = refused(other, tmp_path), VALIDATOR.is_valid(other)
+            code, passes = refused(other), VALIDATOR.is_valid(other)
             blank = code == "E135" and path[-1:] == ("tolerance",)
             if passes != (code is None) and code not in TOGETHER and not blank:
                 wrong.append((path, value, code))
@@ -222,28 +221,26 @@ def test_what_is_refused_at_a_key_is_refused_by_the_schema(tree, tmp_path):
 
 
 @pytest.mark.parametrize("tree", TASKS.values(), ids=TASKS)
-def test_keys_that_are_not_known_are_refused(tree, tmp_path):
+def test_keys_that_are_not_known_are_refused(tree):
     for path in places(tree):
         at = tree
         for key in path:
             at = at[key]
         if path and isinstance(at, dict):
             other = changed(tree, path, at | {"colour": 1})
-            assert refused(other, tmp_path) == (
-                "E186" if path in (("crank",), ("path",)) else "E107"
-            )
+            assert refused(other) == ("E186" if path in (("crank",), ("path",)) else "E107")
             assert not VALIDATOR.is_valid(other), path
 
 
 @given(st.sampled_from(TOP_KEYS), st.integers(0, 20), st.sampled_from("aexs_"), st.integers(0, 2))
 @example("limits", 0, "L", 1)
-def test_keys_at_the_top_may_be_others_but_not_misspelt(tmp_path_factory, key, at, letter, less):
+def test_keys_at_the_top_may_be_others_but_not_misspelt(key, at, letter, less):
     at %= len(key)
     misspelt = key[:at] + letter * (less < 2) + key[at + (less > 0) :]
     other = POSES | {misspelt: "x"}
     if misspelt in TOP_KEYS:
         return
-    code = refused(other, tmp_path_factory.getbasetemp())
+    code = refused(other)
     assert code == "E107"
     assert not VALIDATOR.is_valid(other)
     for each in ("title", "author", "notes", "$schema"):
@@ -272,9 +269,9 @@ def test_keys_at_the_top_may_be_others_but_not_misspelt(tmp_path_factory, key, a
     ],
     ids=str,
 )
-def test_ranges_under_codes_of_what_belongs_together(tree, path, value, tmp_path):
+def test_ranges_under_codes_of_what_belongs_together(tree, path, value):
     other = changed(tree, path, value)
-    assert refused(other, tmp_path) in TOGETHER
+    assert refused(other) in TOGETHER
     assert not VALIDATOR.is_valid(other)
 
 
@@ -302,8 +299,8 @@ def test_faults_of_a_function(wrong):
     assert not VALIDATOR.is_valid({"function": function | wrong})
 
 
-def test_keys_in_other_places_are_refused(tmp_path):
+def test_keys_in_other_places_are_refused():
     for key in ("link_ratio", "fixed_pivot", "weight", "margin", "unit", "tol", "exact"):
-        assert refused(POSES | {key: 1}, tmp_path) == "E107"
+        assert refused(POSES | {key: 1}) == "E107"
         assert not VALIDATOR.is_valid(POSES | {key: 1})
-    assert refused(POSES | {"$schema": "task.schema.json"}, tmp_path) is None
+    assert refused(POSES | {"$schema": "task.schema.json"}) is None

@@ -58,7 +58,7 @@ def circuits(there):
 def nearest(dyads, poses, length, drive, side):
     """The least combined gaps (N,), and the position errors there, along crank angles (n,)."""
     step = 2 * np.pi / SWEEP
-    at = np.broadcast_to(drive, (len(poses), len(drive)))
+    at = drive[None]  # the same for all poses, at first
     for _ in range(ZOOMS):
         where, phi = places(*dyads, at.ravel())
         w, p = where[side].reshape(at.shape), phi[side].reshape(at.shape)
@@ -67,6 +67,6 @@ def nearest(dyads, poses, length, drive, side):
         gap = np.nan_to_num(np.hypot(off, length * turn), nan=np.inf)
         k = (np.arange(len(poses)), gap.argmin(axis=1))
         best = gap[k], np.where(np.isfinite(gap[k]), off[k], np.inf)
-        at = at[k][:, None] + step * np.linspace(-1, 1, SAMPLES)
+        at = np.broadcast_to(at, gap.shape)[k][:, None] + step * np.linspace(-1, 1, SAMPLES)
         step *= 2.5 / SAMPLES
     return best

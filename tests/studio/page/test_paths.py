@@ -37,11 +37,11 @@ def rested(page):
 
 def stroke(page, points):
     """Press at the first of some points of F, draw through the others, and let go."""
-    x, y = on_screen(page, *points[0])
-    page.mouse.move(x, y)
+    first, *others = np.stack(on_screen(page, *np.transpose(points)), axis=-1).tolist()
+    page.mouse.move(*first)
     page.mouse.down()
-    for each in points[1:]:
-        page.mouse.move(*on_screen(page, *each))
+    for each in others:
+        page.mouse.move(*each)
     page.mouse.up()
 
 
