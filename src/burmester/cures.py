@@ -20,7 +20,8 @@ class Cure:
 
     argument: of Python.  value: None where none is proposed.
     option: of the command; by default named as the argument.  text: the value as the option takes
-    it.  words: both on a page.
+    it.  words: both on a page.  assumed: what holds where nothing is given,
+    in words, and its value.
     """
 
     argument: str
@@ -28,6 +29,7 @@ class Cure:
     option: str = ""
     text: str = ""
     words: str = ""
+    assumed: tuple[str, Any] = ("", None)
 
     @property
     def is_name(self) -> bool:

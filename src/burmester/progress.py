@@ -58,6 +58,7 @@ Listener: TypeAlias = Callable[[Progress], object]
 class Watch:
     """Who listens, when the time is over, and what it ended.
 
+    clock: by which the end is told, in seconds; None: by that of the wall.
     text: what is being done; part: the part of it, such as ", search 3 of 16"; optional: whether
         it may be ended.
     cut: what was begun and ended by the limit; left_out: what was not begun.
@@ -65,6 +66,7 @@ class Watch:
 
     listener: Listener | None = None
     end: float = math.inf
+    clock: Callable[[], float] | None = None
     text: str = ""
     part: str = ""
     optional: bool = False
@@ -82,9 +84,13 @@ class Watch:
             self.listener(Progress(text))
         return True
 
+    def now(self) -> float:
+        """What the clock says."""
+        return (self.clock or monotonic)()
+
     def is_over(self) -> bool:
         """Whether the time is over."""
-        return self.end < math.inf and monotonic() >= self.end
+        return self.end < math.inf and self.now() >= self.end
 
 
 _watch: ContextVar[Watch | None] = ContextVar("progress", default=None)
@@ -141,11 +147,17 @@ def shown(listener: Listener | None) -> Iterator[None]:
 @contextmanager
 def limited(seconds: float | None) -> Iterator[Watch]:
     """End what may be ended, so many seconds after the block has begun; None: do not."""
-    end = math.inf if seconds is None else monotonic() + seconds
     watch = replace(_watch.get() or Watch(), cut=[], left_out=[])
-    watch.end = min(end, watch.end)
+    watch.end = min(math.inf if seconds is None else watch.now() + seconds, watch.end)
     with _watching(watch):
         yield watch
+
+
+@contextmanager
+def timed_by(clock: Callable[[], float]) -> Iterator[None]:
+    """Let limits within this block count another time, such as that of the processor."""
+    with _watching(replace(_watch.get() or Watch(), clock=clock)):
+        yield
 
 
 @contextmanager

@@ -131,7 +131,7 @@ def document_of(task: Task) -> dict[str, Any]:
     for each in document.get("limits", ()):
         if len(each["kinds"]) == len(KINDS):
             del each["kinds"]
-    return _with_digits(dict(plain(_with_boxes(document))), task)
+    return _with_digits(dict(plain(with_boxes(document))), task)
 
 
 _BESIDE_POSES = (
@@ -178,13 +178,13 @@ def _usual_tolerance(task: Task) -> dict[str, Any] | None:
     return {"x": plain(x), "y": plain(y), "angle_deg": plain(angle)}
 
 
-def _with_boxes(tree: Any) -> Any:
-    """A tree whose polygons that a box makes are boxes."""
+def with_boxes(tree: Any) -> Any:
+    """A tree of data whose polygons that a box makes are boxes."""
     if isinstance(tree, list):
-        return [_with_boxes(each) for each in tree]
+        return [with_boxes(each) for each in tree]
     if not isinstance(tree, dict):
         return tree
-    tree = {key: _with_boxes(each) for key, each in tree.items()}
+    tree = {key: with_boxes(each) for key, each in tree.items()}
     if "polygon" in tree:
         corners = np.array(tree["polygon"])
         ends = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()

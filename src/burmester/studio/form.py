@@ -29,7 +29,7 @@ def form_data() -> dict[str, Any]:
         "requirements": [
             _field(each.name, each.label or each.help, each.form, _choices(each))
             | _bounds(each.checked)
-            | {"loads": each in OF_LOADS}
+            | {"loads": each in OF_LOADS, "of": each.kind}
             for each in ASKED
             if each is not STAYS_AT  # whose names are those of the poses, which a page changes
         ],

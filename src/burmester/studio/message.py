@@ -12,6 +12,7 @@ from typing import Any, Final, Protocol
 
 _LENGTHS = struct.Struct("<II")
 LENGTHS = _LENGTHS.size
+OVER: Final = 75  # the exit code of a worker that has spent all its time
 MOST_DEPTH: Final = 100  # of what the page sends; Python's own limit may be reached anywhere
 
 

@@ -16,22 +16,25 @@ from typing import Any
 from burmester.errors import InputError
 from burmester.live.plain import plain
 from burmester.studio.form import form_data
-from burmester.studio.message import as_json
+from burmester.studio.message import OVER, as_json
 from burmester.studio.workers import Message, Turns, Worker, WorkerEndedError, Workers
 
 ANSWER_BYTES = 64_000_000  # of all answers that are kept
 SPARE = 2  # workers that are there before they are asked for
+LONGEST_S = 600.0  # that a page may ask a search to take
 DESK_S = 60.0  # for what is asked over HTTP, such as a solid part
 POINTS_TIMES = 3  # the limit for points: what their search found is judged after it, however long
+STARVED = 6  # times the limit; a worker that got no more of the processor by then is given up
 SOFT = 0.8  # of the limit: after it nothing more is looked for, so that there is an answer
 
 
 @dataclass(frozen=True)
 class Answer:
-    """The answer to a task: the result as a file holds it, and what the page draws of it."""
+    """The answer to a task: the result as a file holds it, what a page draws, and advice."""
 
     result: bytes
     report: bytes
+    advice: list[dict[str, Any]]
 
 
 class Answers:
@@ -60,7 +63,7 @@ class Answers:
 class ServerState:
     """Workers, turns and answers.
 
-    limit_s: seconds after which a whole search is killed.
+    limit_s: seconds of its processor after which a whole search is killed.
     """
 
     def __init__(self, limit_s: float) -> None:
@@ -92,14 +95,14 @@ class ServerState:
         self._opening = key, self.later(self._solve_opening(key, given))
 
     async def _solve_opening(self, key: str, given: dict[str, Any]) -> None:
-        body, limit_s = as_json(given), self.limit_of(given)
+        body, limits_s = as_json(given), self.limits_of(given)
         async with self.workers.lent() as worker:
             with suppress(WorkerEndedError):
                 self._formats.set_result(
                     json.loads((await worker.ask({"do": "formats"}, b"{}"))[1])
                 )
             with suppress(TimeoutError, WorkerEndedError):  # the page asks again, and is told
-                await self.solve(worker, key, body, lambda text: None, limit_s)
+                await self.solve(worker, key, body, lambda text: None, limits_s)
         await self.workers.open(SPARE)  # not before: the page is being loaded
 
     async def beginning(self) -> dict[str, Any]:
@@ -127,10 +130,10 @@ class ServerState:
         key: str,
         body: bytes,
         said: Callable[[str], object],
-        limit_s: float,
+        limits_s: tuple[float, float],
     ) -> Message:
         """Search in a worker; raises TimeoutError at the limit, and WorkerEndedError."""
-        result = b""
+        result, (soft_s, limit_s) = b"", limits_s
 
         def piece(message: Message) -> None:
             nonlocal result
@@ -140,13 +143,18 @@ class ServerState:
                 said(message[1].decode())
 
         worker.key = worker.holder = None
-        head = {"do": "solve", "time_limit": SOFT * self.limit_s}
+        head = {"do": "solve", "time_limit": soft_s, "limit": limit_s}
         await worker.ready()
-        async with asyncio.timeout(limit_s):
-            answer = await worker.ask(head, body, piece)
+        try:
+            async with asyncio.timeout(STARVED * limit_s):
+                answer = await worker.ask(head, body, piece)
+        except WorkerEndedError as error:
+            if error.code == OVER:
+                raise TimeoutError from None
+            raise
         if answer[0]["kind"] == "solved":
             worker.key = key
-            self.answers.keep(key, Answer(result, answer[1]))
+            self.answers.keep(key, Answer(result, answer[1], answer[0]["advice"]))
         return answer
 
     async def desk(
@@ -170,14 +178,18 @@ class ServerState:
         async with self.workers.lent() as worker, asyncio.timeout(limit_s):
             return await worker.ask(head, body, piece)
 
-    def limit_of(self, given: dict[str, Any]) -> float:
-        """Seconds after which the search for a task is killed."""
+    def limits_of(self, given: dict[str, Any]) -> tuple[float, float]:
+        """Seconds after which the search for a task looks for no more, and is killed."""
+        asked = given.get("limit")
+        whole = self.limit_s
+        if isinstance(asked, int | float) and not isinstance(asked, bool):
+            whole = max(whole, min(asked / SOFT, LONGEST_S))
         document = given.get("document")
         poses = document.get("poses") if isinstance(document, dict) else None
         free = (
             (e.get("free") for e in poses if isinstance(e, dict)) if isinstance(poses, list) else ()
         )
-        return self.limit_s * (POINTS_TIMES if any(free) else 1)
+        return SOFT * whole, whole * (POINTS_TIMES if any(free) else 1)
 
     @staticmethod
     def key_of(given: dict[str, Any]) -> str:

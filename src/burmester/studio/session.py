@@ -92,8 +92,8 @@ class Session:
                     await self._tell(self._solving[0], "superseded", by=n)
             if do == "solve":
                 key = self._state.key_of(given)
-                limit_s = self._state.limit_of(given)
-                self._solving = n, self._state.later(self._solve(n, key, text, limit_s))
+                solving = self._solve(n, key, text, self._state.limits_of(given), "limit" in given)
+                self._solving = n, self._state.later(solving)
         elif do in LOOK:
             await self._take_look(n, do, given, text)
         else:
@@ -143,8 +143,10 @@ class Session:
         async with self._state.workers.lent() as worker:
             return await worker.ask({"do": do}, text.encode())
 
-    async def _solve(self, n: int, key: str, text: str, limit_s: float) -> None:
-        """The whole search, when it is this one's turn."""
+    async def _solve(
+        self, n: int, key: str, text: str, limits_s: tuple[float, float], longer: bool
+    ) -> None:
+        """The whole search, when it is this one's turn; longer: also where it was made before."""
         state, start = self._state, time.monotonic()
         try:
             if state.is_opening(key):
@@ -160,21 +162,25 @@ class Session:
             async with state.turns.turn(waits), state.workers.lent(key) as worker:
                 is_own = worker is self._live and worker.holder is self
                 before = await self._snapshot(worker, text) if is_own else None
-                if worker.key == key and (known := state.answers.get(key)) is not None:
+                known = None if longer or worker.key != key else state.answers.get(key)
+                if known is not None:
                     await worker.ask({"do": "again"}, b"{}")
-                    body = known.report
+                    body, advice = known.report, known.advice
                 else:
                     await self._tell(n, "solving", since=time.time())
-                    head, body = await state.solve(worker, key, text.encode(), said, limit_s)
+                    head, body = await state.solve(worker, key, text.encode(), said, limits_s)
                     if head["kind"] == "failed":
                         await self._send(n, "refused", body)
                         return
+                    advice = head["advice"]
                 was = await self._match_ids(worker, before, text)
                 self._hold(worker, n)
             seconds = round(time.monotonic() - start, 3)
-            await self._send(n, "solved", body, key="result", seconds=seconds, was=was)
+            await self._send(
+                n, "solved", body, key="result", seconds=seconds, was=was, advice=advice
+            )
         except TimeoutError:
-            message = f"stopped after {limit_s:g} s, the limit"
+            message = f"stopped after {limits_s[1]:g} s of computing, the limit"
             await self._tell(n, "limit", message=message)
         except WorkerEndedError as error:
             await self._tell(n, "ended", messages=[error.data])

@@ -10,6 +10,7 @@ import base64
 import binascii
 import json
 from collections.abc import Callable
+from time import process_time
 from typing import Any, Final, Protocol, TypeAlias
 
 from burmester.cures import for_page
@@ -18,6 +19,7 @@ from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.result import json_line, synthesis_data
 from burmester.io.saved import read_result
 from burmester.io.spring_list import usual_springs
+from burmester.live.advice import advice_data
 from burmester.live.answers import FRAMES, LiveAnswers
 from burmester.live.document import (
     TaskReader,
@@ -28,7 +30,7 @@ from burmester.live.document import (
     task_of,
 )
 from burmester.live.plain import plain
-from burmester.progress import shown
+from burmester.progress import shown, timed_by
 from burmester.studio.cognates import cognate_reports
 from burmester.studio.commands import plain_name
 from burmester.studio.curves import curves
@@ -201,11 +203,12 @@ class SessionWorker:
         self._live.begin_at(None)
         task = task_of(given.get("document"))
         options = options_of(given.get("options"), head.get("time_limit"))
-        with shown(job.listen):
+        with shown(job.listen), timed_by(process_time):  # others may use this machine, too
             synthesis = synthesize(task, options)
         self._live.begin_at(synthesis)
         job.send({"kind": "result"}, json_line(synthesis_data(synthesis)).encode())
-        return {"kind": "solved"}, as_json(report_data(synthesis, for_page))
+        head = {"kind": "solved", "advice": advice_data(synthesis)}
+        return head, as_json(report_data(synthesis, for_page))
 
     def again(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Back to the last synthesis, wherever its answers have been followed to."""

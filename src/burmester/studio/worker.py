@@ -7,6 +7,7 @@ worker is left when the server ends, however that happens.
 
 from __future__ import annotations
 
+import math
 import os
 import queue
 import signal
@@ -18,9 +19,10 @@ from collections.abc import Callable
 from typing import Any, BinaryIO
 
 from burmester.live.fault import fault_data
-from burmester.studio.message import as_json, packed, read_message
+from burmester.studio.message import OVER, as_json, packed, read_message
 
 PROGRESS_S = 0.1  # between two words of progress
+LIMIT_S = 0.05  # between two looks at the time that the processor has spent
 
 
 class _CalledOffError(Exception):
@@ -33,8 +35,19 @@ class _Inbox:
     def __init__(self, source: BinaryIO) -> None:
         self.messages: queue.SimpleQueue[tuple[dict[str, Any], bytes]] = queue.SimpleQueue()
         self.cancelled = -1
+        self._end = math.inf  # of the job in hand, in seconds of the processor
         self._source = source
         threading.Thread(target=self._read, daemon=True).start()
+        threading.Thread(target=self._end_in_time, daemon=True).start()
+
+    def begin(self, limit_s: float | None) -> None:
+        """Another job begins, which may take so many seconds of the processor."""
+        self._end = math.inf if limit_s is None else time.process_time() + limit_s
+
+    def _end_in_time(self) -> None:
+        while time.process_time() < self._end:
+            time.sleep(LIMIT_S)
+        os._exit(OVER)
 
     def _read(self) -> None:
         while (message := read_message(self._source)) is not None:
@@ -68,6 +81,7 @@ def main(first: str | None = None) -> None:
     _Job(0, inbox, sink).send({"kind": "ready"}, last=True)
     while True:
         head, body = inbox.messages.get()
+        inbox.begin(head.get("limit"))
         _Job(head["job"], inbox, sink).run(worker, head, body)
 
 
@@ -91,6 +105,7 @@ class _Job:
             answer = {"kind": "cancelled"}, b""
         except Exception as error:
             answer = {"kind": "failed"}, as_json({"messages": [fault_data(error)]})
+        self._inbox.begin(None)
         self.send(*answer, last=True)
 
     def send(self, head: dict[str, Any], body: bytes = b"", *, last: bool = False) -> None:

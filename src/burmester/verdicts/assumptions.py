@@ -8,7 +8,7 @@ told, with the option that changes it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final, NamedTuple, Self, final
 
 import numpy as np
@@ -88,7 +88,8 @@ class Assumptions:
         bounds = []
         if not span(task) > 0 and task.body is None:
             words = f"a body of the size {length_of(size, task)}, as its origin stays where it is"
-            bounds.append(Bound(words, Help(Cure("body", words="the outline of the body"))))
+            cure = Cure("body", words="the outline of the body", assumed=(words, None))
+            bounds.append(Bound(words, Help(cure)))
         if task.body is None:
             body = np.zeros((1, 2))
             moving, near = reach * size, "the origin of M"
@@ -97,17 +98,19 @@ class Assumptions:
             moving = OUTLINE_SHARE * reach / REACH * float(np.linalg.norm(np.ptp(body, axis=0)))
             near = "the body's outline"
         around = task.poses[:, None].act(body).reshape(-1, 2)
+        fixed, own = box_around(around, reach * size), box_around(body, moving)
         limits = task.limits or (Limits(),)
         if any(each.fixed_pivot is None and each.rail is None for each in limits):
             beside = f"fixed pivots within {length_of(reach * size, task)} of the body's places"
-            bounds.append(Bound(beside, Help(FIXED_PIVOT)))
+            bounds.append(Bound(beside, Help(replace(FIXED_PIVOT, assumed=(beside, fixed)))))
         if any(each.moving_pivot is None and each.slot is None for each in limits):
             away = f"moving pivots within {length_of(moving, task)} of {near}"
-            bounds.append(Bound(away, Help(MOVING_PIVOT)))
+            bounds.append(Bound(away, Help(replace(MOVING_PIVOT, assumed=(away, own)))))
         for each in ASKED:
             if each.assumed and each not in asked:
                 asked[each] = each.assumed[0 if strict else 1]
-                bounds.append(Bound(each.words(asked[each]), Help(each.given())))
+                words = each.words(asked[each])
+                cure = replace(each.given(), assumed=(words, asked[each]))
+                bounds.append(Bound(words, Help(cure)))
         asked |= standard(asked, size, not_asked(task))
-        fixed, own = box_around(around, reach * size), box_around(body, moving)
         return cls(fixed, own, size, asked, tuple(bounds))

@@ -6,6 +6,7 @@ import { Answers } from "./answers.mjs";
 import { Centrodes } from "./centrodes.mjs";
 import { CognatePanel } from "./cognate_panel.mjs";
 import { Charts, LoadCharts } from "./charts.mjs";
+import { Chips } from "./chips.mjs";
 import { Compare } from "./compare.mjs";
 import { isOfPoints, isPoint } from "./document.mjs";
 import { CouplerCurves } from "./coupler_curve.mjs";
@@ -21,8 +22,9 @@ import { Results } from "./results.mjs";
 import { SpacePanel } from "./space_panel.mjs";
 
 /** Make every part that shows answers, and put it in its place.
- * @param {object} store @param {object} scene @param {{ player: Element, results: Element, drawer: import("./arrangement.mjs").Drawer }} places */
-export function addResults(store, scene, { player, results, drawer }) {
+ * @param {object} store @param {object} scene @param {{ player: Element, results: Element, drawer: import("./arrangement.mjs").Drawer }} places
+ * @param {{ panel: object, regions: object }} task what its chips change */
+export function addResults(store, scene, { player, results, drawer }, { panel, regions }) {
   const answers = new Answers(store), playing = new Playing(store, answers);
   const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
   const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
@@ -32,7 +34,7 @@ export function addResults(store, scene, { player, results, drawer }) {
   const compare = new Compare(store, answers, playing, () => drawer.open("compare")), facts = new FactsTable(store, answers, playing, curves);
   const ways = [...playing.element.querySelectorAll(".bs-player-ways, .bs-driver-note")];
   player.append(playing.element);
-  results.append(cards.element);
+  results.append(new Chips(store, answers, panel, regions).element, cards.element);
   const ofAngles = () => !store.document.poses.some(isPoint); // points leave angles free
   drawer.add("charts", "Errors and transmission", charts.element);
   drawer.add("loads", "Loads", loads.element, () => hasLoads(store.document));

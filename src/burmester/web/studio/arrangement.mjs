@@ -39,8 +39,8 @@ export function walkByArrows(group, which) {
     for (const each of group.querySelectorAll(which)) put(each, "tabindex", each === one ? 0 : -1);
   };
   group.addEventListener("focusin", ({ target }) => target instanceof Element && target.matches(which) && stop(target));
-  group.addEventListener("keydown", (event) => {
-    const there = all(), at = there.indexOf(/** @type {Element} */ (event.target)), last = there.length - 1;
+  group.addEventListener("keydown", (/** @type {any} */ event) => {
+    const there = all(), at = there.indexOf(event.target), last = there.length - 1;
     const to = { ArrowRight: at + 1, ArrowDown: at + 1, ArrowLeft: at - 1, ArrowUp: at - 1, Home: 0, End: last }[event.key];
     if (at < 0 || to === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
     event.preventDefault();
@@ -126,7 +126,7 @@ export class Drawer {
     const most = Math.max(LEAST, innerHeight - LEFT);
     this.height = clamp(Number.isFinite(height) ? height : 0.34 * innerHeight, LEAST, most);
     this.element.style.setProperty("--bs-height", `${Math.round(this.height)}px`);
-    for (const [name, value] of [["min", LEAST], ["max", most], ["now", this.height]]) put(this.grip, `aria-value${name}`, Math.round(value));
+    for (const [name, value] of Object.entries({ min: LEAST, max: most, now: this.height })) put(this.grip, `aria-value${name}`, Math.round(value));
   }
 
   listen() {

@@ -41,7 +41,7 @@ export class ExportSettings {
       { use: "share", title: "Report", note: ".html", act: () => files.export("/report"), data: { "data-export": "report" } },
       { use: "share", title: "Result", note: ".json", act: () => files.export("/result"), data: { "data-export": "result" } },
     ];
-    const fill = (close) => uses.replaceChildren(...Object.entries(USES).map(([use, name]) => [name, all.filter((each) => each.use === use)]).filter(([, some]) => some.length).map(([name, some]) =>
+    const fill = (close) => uses.replaceChildren(...Object.entries(USES).map(([use, name]) => ({ name, some: all.filter((each) => each.use === use) })).filter(({ some }) => some.length).map(({ name, some }) =>
       h("div", { role: "group", "aria-label": name }, h("p", { class: "bs-menu-heading" }, name), some.map((each) => menuItem(each, close)))));
     this.element = popover("Export", h("div", { class: "bs-menu-list bs-exports" }, uses, sizes), fill, { "data-menu": "export" });
     store.on("document", () => this.draw());

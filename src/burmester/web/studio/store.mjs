@@ -41,6 +41,7 @@ export class Store {
     this.history = new History(history);
     this.history.onchange = () => this.emit("history");
     this.solved = null;
+    this.advice = []; // on the last answer: { code, message, why, help, assumed, cures } each
     this.solvedFor = null;
     this.followed = null;
     this.followedFor = null;
@@ -248,15 +249,15 @@ export class Store {
     this.resting = setTimeout(rest, REST);
   }
 
-  /** Run the whole search for the task as it is now. */
-  solve() {
+  /** Run the whole search for the task as it is now; limit: seconds it may take, where they are others than usual. */
+  solve(limit) {
     clearTimeout(this.resting);
     const { document, options } = this;
-    if (this.solving?.document === document && this.solving.options === options) {
+    if (!limit && this.solving?.document === document && this.solving.options === options) {
       this.setState("solving", ""); // it is on its way
       return;
     }
-    const n = this.connection.send({ do: "solve", document, options });
+    const n = this.connection.send({ do: "solve", document, options, limit });
     if (n === null) return;
     this.solving = { n, document, options };
     this.setState("solving", "");
@@ -376,7 +377,7 @@ export class Store {
   }
 
   /** A whole answer becomes what is shown; what was chosen goes on as the same linkage, whatever its id. */
-  install({ n, result, document, seconds, was }) {
+  install({ n, result, document, seconds, was, advice = [] }) {
     const told = Object.entries(was ?? {});
     this.renamed = new Map(told.map(([now, { id }]) => [id, now]));
     this.moved = new Map(told.map(([now, { moved }]) => [now, moved]));
@@ -385,6 +386,7 @@ export class Store {
     const carried = (id) => (id === PLACED && this.placed?.linkage ? id : this.renamed.get(id) ?? null);
     this.isAnother = this.solvedTask !== this.task; // then nothing of the answer before is missing
     this.solved = result;
+    this.advice = advice;
     this.solvedFor = document;
     this.solvedTask = this.task;
     this.seconds = seconds;

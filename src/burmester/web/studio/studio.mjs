@@ -56,7 +56,7 @@ function layOut(root, store, start) {
       right, drawer.element),
   );
   scene.resize();
-  const { answers, playing, dimensions } = addResults(store, scene, { player, results: cards, drawer });
+  const { answers, playing, dimensions } = addResults(store, scene, { player, results: cards, drawer }, { panel, regions });
   root.querySelector(".bs-bar")?.append(dimensions.element);
   const loads = new LoadsPanel(store, scene, new LoadHandles(store, scene, playing), answers, start.form.loads);
   panel.element.querySelector("[data-section=requirements]").before(loads.element);

@@ -14,6 +14,7 @@ const UNITS = ["", "mm", "cm", "m", "in", "ft"];
 const section = (name, title, open, ...content) => h("details", { class: "bs-section", "data-section": name, open }, h("summary", {}, title), ...content);
 
 export class TaskPanel {
+  /** @type {(() => void) | undefined} */ onjudged; // after limits were compared with the chosen linkage
   /** @type {any} */ madeTables;
   /** @type {any} */ regionRows;
   /** @type {any} */ linkWidth;
@@ -38,7 +39,10 @@ export class TaskPanel {
     this.element = h("div", { class: "bs-task" });
     this.element.append(this.makeRequirements(), this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeSigma(), this.makeOptions());
     store.on("document selection reference", () => this.draw());
-    regions.onjudged = () => this.drawVerdicts();
+    regions.onjudged = () => {
+      this.drawVerdicts();
+      this.onjudged?.();
+    };
     this.draw();
   }
 
