@@ -92,7 +92,9 @@ body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
 .bs-drawer-panels { min-height: 0; overflow: auto; overscroll-behavior: contain; scrollbar-width: thin; }
 .bs-closed .bs-drawer-panels { display: none; }
 .bs-panel { padding: 6px 12px 12px; }
-.bs-panel .bm-map, .bs-panel .bm-space { max-width: calc(1.4 * var(--bs-height)); }
+/* Beside the words a map or a space is as high as the drawer. */
+.bs-panel-space > div, .bs-panel-pivots .bs-surface { display: grid; gap: 4px 16px; grid-template-columns: minmax(180px, 1fr) minmax(0, calc(1.2 * (var(--bs-height) - 60px))); align-content: start; }
+.bs-panel-space .bm-fill, .bs-panel-pivots .bs-surface .bm-fill { grid-column: 2; grid-row: 1 / span 9; margin: 0; }
 .bs .bs-panel > h2 { position: absolute; clip-path: inset(50%); width: 1px; height: 1px; overflow: hidden; }
 .bs-panel.bs-unwanted { display: none; }
 #bs-results, #bs-player { min-width: 0; }
@@ -325,10 +327,9 @@ body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
 .bs-card.bs-gone { border-style: dashed; }
 .bs-card.bs-gone .bs-figures { opacity: 0.45; }
 
-#bs-player .bm-controls { grid-template: auto auto / auto minmax(0, 1fr); gap: 0 12px; margin: 0; align-items: start; }
-#bs-player .bm-row { grid-area: 1 / 1; gap: 5px; flex-wrap: nowrap; }
-#bs-player .bm-track { grid-area: 2 / 1 / auto / -1; }
-#bs-player .bm-now { grid-area: 1 / 2; align-self: center; text-align: right; font-size: 0.82rem; color: var(--bm-muted); white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
+#bs-player .bm-controls { grid-template-columns: minmax(0, 1fr); gap: 0; margin: 0; align-items: start; }
+#bs-player .bm-row { order: -1; gap: 5px; }
+#bs-player .bm-now { font-size: 0.82rem; color: var(--bm-muted); white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 .bs #bs-player .bm-button { min-height: 30px; padding: 1px 9px; font-size: 0.84rem; white-space: nowrap; }
 .bs #bs-player .bm-play { min-width: 76px; background: var(--bm-panel); color: var(--bm-accent); border-color: var(--bm-accent); }
 #bs-player .bm-whole { font-size: 0.82rem; min-height: 30px; }
@@ -375,9 +376,7 @@ body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
 .bs-facts { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); }
 .bs-facts caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; color: var(--bm-muted); padding: 2px 0; }
 @media (max-width: 759px) {
-  #bs-player .bm-controls { grid-template: auto auto auto / minmax(0, 1fr); }
-  #bs-player .bm-row { flex-wrap: wrap; }
-  #bs-player .bm-now { grid-area: 3 / 1; text-align: left; white-space: normal; max-height: 2.8em; font-size: 0.76rem; line-height: 1.35; }
+  #bs-player .bm-now { white-space: normal; max-height: 2.8em; font-size: 0.76rem; line-height: 1.35; }
   .bs-cards { grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 1fr)); }
 }
 @media (pointer: coarse) { .bs-small { min-height: 38px; padding: 3px 12px; } }
