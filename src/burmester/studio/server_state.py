@@ -8,7 +8,7 @@ import json
 import os
 import traceback
 from collections import OrderedDict
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
@@ -34,7 +34,7 @@ class Answer:
 
     result: bytes
     report: bytes
-    advice: list[dict[str, Any]]
+    advice: Sequence[dict[str, Any]] = ()
 
 
 class Answers:
