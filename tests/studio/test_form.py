@@ -1,11 +1,14 @@
 """The fields of the studio's page are those of the tables, with their bounds and choices."""
 
 import json
+import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from burmester.cli import COMMANDS
 from burmester.errors import InputError
 from burmester.live.document import options_of
 from burmester.requirements.loads import OF_LOADS, STAYS_AT
@@ -68,3 +71,11 @@ def test_the_server_needs_no_numpy_for_it():
     code = "import sys, burmester.studio.form as f; f.form_data(); print('numpy' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "False\n"
+
+
+def test_every_command_has_its_row_in_the_docs():
+    page = Path("docs/studio.md").read_text(encoding="utf-8")
+    table = page.partition("## What the command can do")[2].partition("\n## ")[0]
+    rows = re.findall(r"^\| `(\w+)` \|", table, re.M)
+    named = {*rows, *re.findall(r"`(\w+)`(?=,| and| use)", table)}
+    assert named == {each.name for each in COMMANDS}

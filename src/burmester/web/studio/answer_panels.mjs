@@ -3,6 +3,7 @@
 import { h } from "../widget/dom.mjs";
 import { unfoldForPrint } from "../widget/printing.mjs";
 import { Answers } from "./answers.mjs";
+import { walkByArrows } from "./arrangement.mjs";
 import { Centrodes } from "./centrodes.mjs";
 import { CognatePanel } from "./cognate_panel.mjs";
 import { Charts, LoadCharts } from "./charts.mjs";
@@ -34,6 +35,7 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   const compare = new Compare(store, answers, playing, () => drawer.open("compare")), facts = new FactsTable(store, answers, playing, curves);
   const ways = [...playing.element.querySelectorAll(".bs-player-ways, .bs-driver-note")];
   player.append(playing.element);
+  walkByArrows(playing.element.querySelector(".bm-row"), "button, select, input").first();
   results.append(new Chips(store, answers, panel, regions).element, cards.element);
   const ofAngles = () => !store.document.poses.some(isPoint); // points leave angles free
   drawer.add("charts", "Errors and transmission", charts.element);

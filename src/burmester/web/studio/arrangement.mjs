@@ -31,22 +31,27 @@ function remember(name, value) {
 /** The whole page is laid out anew: plots and the plane take their new sizes. */
 const resized = () => dispatchEvent(new Event("resize"));
 
-/** One of a group of buttons is reached by Tab, the others from there by arrow keys, Home and End.
+/** One of a group is reached by Tab, the others from there by arrow keys, Home and End; in a text or a choice only
+ * by those that it has no use for.
  * @param {Element} group @param {string} which selects them */
 export function walkByArrows(group, which) {
-  const all = () => [...group.querySelectorAll(which)].filter((each) => each.checkVisibility());
+  const all = () => [...group.querySelectorAll(which)].filter((each) => each.checkVisibility() && !(/** @type {any} */ (each).disabled));
   const stop = (one) => {
     for (const each of group.querySelectorAll(which)) put(each, "tabindex", each === one ? 0 : -1);
   };
+  const first = () => stop(group.querySelector(`${which}[aria-selected=true]`) ?? all()[0] ?? group.querySelector(which));
   group.addEventListener("focusin", ({ target }) => target instanceof Element && target.matches(which) && stop(target));
+  group.addEventListener("focusout", (/** @type {any} */ event) => group.contains(event.relatedTarget) || first()); // what is there now may be gone later
   group.addEventListener("keydown", (/** @type {any} */ event) => {
-    const there = all(), at = there.indexOf(event.target), last = there.length - 1;
-    const to = { ArrowRight: at + 1, ArrowDown: at + 1, ArrowLeft: at - 1, ArrowUp: at - 1, Home: 0, End: last }[event.key];
+    const { target, key } = event, there = all(), at = there.indexOf(target), last = there.length - 1;
+    const to = { ArrowRight: at + 1, ArrowDown: at + 1, ArrowLeft: at - 1, ArrowUp: at - 1, Home: 0, End: last }[key];
     if (at < 0 || to === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (target.matches("select") && !/Left|Right/.test(key)) return;
+    if (target.matches("input[type=text], input:not([type])") && !(target.selectionStart === target.selectionEnd && target.selectionStart === { ArrowLeft: 0, ArrowRight: target.value.length }[key])) return;
     event.preventDefault();
     /** @type {HTMLElement} */ (there[(to + there.length) % there.length]).focus();
   });
-  return { stop, first: () => stop(group.querySelector(`${which}[aria-selected=true]`) ?? all()[0] ?? group.querySelector(which)) };
+  return { stop, first };
 }
 
 /** A panel beside the plane, which folds to a strip. */

@@ -4,7 +4,8 @@ import { h } from "../widget/dom.mjs";
 import { button } from "./fields.mjs";
 
 const KEYS = [
-  ["Tab", "from handle to handle, field to field"],
+  ["Tab", "from the plane to the first pose, from handle to handle, field to field"],
+  ["← →", "in a bar, a menu, a row of tabs or the list of linkages: from one to the next"],
   ["arrow keys", "move what has the focus by a step: a pose, the tip that turns it, a corner, a shape, a number; Shift: ten steps, Alt: a tenth"],
   ["Shift, Alt", "while a hand drags: Shift holds an axis or steps of 15°, Alt frees it from what it snaps to"],
   ["Shift and a click or a box", "selects several poses, which are moved, turned and deleted together"],
@@ -59,6 +60,14 @@ export function listenToKeys(store, scene, files = null, root = document) {
       store.select(null);
     }
   }, true);
+  // From the plane Tab goes to the chosen pose, or to the first one: limits and pivots stand before it.
+  scene.svg.addEventListener("keydown", (event) => {
+    if (event.key !== "Tab" || event.shiftKey || event.target !== scene.svg) return;
+    const pose = scene.svg.querySelector(".bs-pose.bs-selected .bs-origin, .bs-pose .bs-origin");
+    if (!pose) return;
+    event.preventDefault();
+    pose.focus();
+  });
   root.addEventListener("input", ({ target }) => target instanceof HTMLElement && (target.dataset.typing = "true"));
   for (const name of ["change", "focusout"]) root.addEventListener(name, ({ target }) => target instanceof HTMLElement && delete target.dataset.typing);
 }

@@ -50,10 +50,9 @@ function layOut(root, store, start) {
     head(store, files, settings, banners, keyList()),
     banners.element,
     h("main", { class: "bs-main" },
-      left,
-      h("section", { class: "bs-stage", id: "plane", "aria-label": "The plane" }, stageBar(store, scene, () => files.opened()), h("div", { class: "bs-canvas" }, scene.element, planeLine(store, scene)), player),
+      h("section", { class: "bs-stage", id: "plane", "aria-label": "The plane" }, player, h("div", { class: "bs-canvas" }, scene.element, planeLine(store, scene)), stageBar(store, scene, () => files.opened())),
       sheets(root, [["task", "Task", left], ["linkages", "Linkages", right], ["drawer", "Charts", drawer.element]]),
-      right, drawer.element),
+      left, right, drawer.element),
   );
   scene.resize();
   const { answers, playing, dimensions } = addResults(store, scene, { player, results: cards, drawer }, { panel, regions });
@@ -85,7 +84,9 @@ function head(store, files, settings, banners, keys) {
     if (store.state === "solving") waiting = setTimeout(() => give(stop, "hidden", false), PATIENCE);
     else give(stop, "hidden", true);
   });
-  return h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), files.element, name, h("div", { class: "bs-row" }, undo, redo), banners.status, stop, banners.live, settings.element, keys);
+  const made = h("header", { class: "bs-head" }, h("h1", {}, "burmester studio"), files.element, name, h("div", { class: "bs-row" }, undo, redo), banners.status, stop, banners.live, settings.element, keys);
+  walkByArrows(made, ":scope > .bs-files > .bs-menu > summary, :scope > .bs-menu > summary, .bs-task-name, .bs-row > button, [data-do=keys]").first();
+  return made;
 }
 
 /** What is done in the plane. */
