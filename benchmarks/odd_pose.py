@@ -18,8 +18,8 @@ import numpy as np
 from tests.oracles.witness import places, random_four_bar, random_poses, span
 
 from burmester import Displacement, Task
+from burmester.diagnosis.checks import swapped_poses
 from burmester.diagnosis.odd_pose import odd_pose
-from burmester.diagnosis.swapped_poses import swapped_poses
 from burmester.fourbar.dyad import PR, RP, RR
 
 WRONG = 20.0  # standard deviations, at least

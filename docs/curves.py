@@ -9,7 +9,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from burmester import plot, read_task, synthesize
-from burmester.fourbar.linkage import cognates
+from burmester.fourbar.cognates import cognates
 
 DPI = 110
 ROOT = Path(__file__).parents[1]

@@ -20,9 +20,9 @@ import numpy as np
 from tests.oracles.bilinear_systems import SHAPES, of_poses, one
 
 from burmester.numerics.arrays import unique_rows
-from burmester.polynomials.elimination import in_chart
-from burmester.polynomials.elimination_template import (
+from burmester.polynomials.elimination import (
     Chart,
+    in_chart,
     isotropic,
     lagrangian,
     matrix_terms,

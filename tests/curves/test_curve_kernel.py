@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import least_squares
 
 from burmester.curves.crank_linkages import CrankLinkages
-from burmester.curves.curve_descent import CurveFit, PathTarget, descend
+from burmester.curves.path_fit import CurveFit, PathTarget, descend
 from tests.oracles.both_ways import from_segment
 from tests.oracles.coupler_curves import dyads_of, random_crank, refined_from, traced
 

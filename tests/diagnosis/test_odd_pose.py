@@ -6,17 +6,17 @@ from benchmarks import odd_pose as campaign
 from scipy.stats import combine_pvalues, f
 
 from burmester import Displacement, Task
-from burmester.diagnosis.leave_one_out import LeaveOneOut
-from burmester.diagnosis.noise_ratio import chance_of_number, chance_of_pose
-from burmester.diagnosis.odd_pose import odd_pose
-from burmester.diagnosis.repairs import Prediction
-from burmester.diagnosis.sampson_fits import NormalizedPoses, sampson_residuals
-from burmester.diagnosis.swapped_poses import (
+from burmester.diagnosis.checks import (
     best_exchange,
     distances_between,
     path_length,
     swapped_poses,
 )
+from burmester.diagnosis.leave_one_out import LeaveOneOut
+from burmester.diagnosis.noise_ratio import chance_of_number, chance_of_pose
+from burmester.diagnosis.odd_pose import odd_pose
+from burmester.diagnosis.repairs import Prediction
+from burmester.diagnosis.sampson_fits import NormalizedPoses, sampson_residuals
 from burmester.diagnosis.unit_errors import Multiple, coincidence_chance, combined_chance
 from burmester.dyads.local_minima import best_dyads
 from burmester.fourbar.linkage import Linkage

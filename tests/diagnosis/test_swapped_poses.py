@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from burmester import Displacement, Task
-from burmester.diagnosis.swapped_poses import swapped_poses
+from burmester.diagnosis.checks import swapped_poses
 
 PLACES = 10
 

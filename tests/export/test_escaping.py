@@ -21,7 +21,7 @@ from burmester import KeepOut, Polygon, Surroundings
 from burmester.api.table import dimensions_as_html
 from burmester.errors import InputError
 from burmester.export import FORMATS, Options, export
-from burmester.export.escaping import (
+from burmester.export.description import (
     dxf_text,
     one_line,
     python_docstring,

@@ -19,7 +19,7 @@ import pytest
 from burmester import export as exported
 from burmester.errors import BurmesterError, InputError
 from burmester.export import FORMATS, Options, export, format_of
-from burmester.export.escaping import decimals_within, rounded
+from burmester.export.description import decimals_within, rounded
 from burmester.export.models import mjcf
 from burmester.export.parts.plate import outline_points
 from burmester.export.parts.plates import assembly_of

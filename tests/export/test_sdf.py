@@ -9,8 +9,7 @@ import pytest
 import burmester
 from burmester import End, Force, Loads, Mass, Spring
 from burmester.export.models.bodies import JointMotion
-from burmester.export.options import Options
-from burmester.export.reference import Reference
+from burmester.export.options import Options, Reference
 from burmester.loads.loaded_motion import LoadedLinkage
 
 mujoco = pytest.importorskip("mujoco")

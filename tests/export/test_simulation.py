@@ -7,7 +7,7 @@ import pytest
 
 from burmester.export import Options
 from burmester.export.models.bodies import JointMotion
-from burmester.export.reference import Reference
+from burmester.export.options import Reference
 from burmester.fourbar.dyad import PR
 from tests.oracles.handed_over import NAMES, complex_places, joints, scale_of, span_of, written
 

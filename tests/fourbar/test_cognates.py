@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from burmester.fourbar.cognates import cognates
 from burmester.fourbar.dyad import PR, RP, RR
-from burmester.fourbar.linkage import Linkage, cognates
+from burmester.fourbar.linkage import Linkage
 from tests.oracles.witness import misses, places, random_four_bar
 
 

@@ -10,7 +10,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import unique_rows
 from burmester.polynomials import stationary_points as module
 from burmester.polynomials.bilinear_fit import Parameters, circle_shape
-from burmester.polynomials.elimination_template import finite_count
+from burmester.polynomials.elimination import finite_count
 from burmester.polynomials.parameter_homotopy import ARRIVED, LOST, tracked_points
 from burmester.polynomials.stationary_points import stationary_points
 from tests.oracles.bilinear_systems import (

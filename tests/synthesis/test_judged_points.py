@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from burmester.errors import InputError
+from burmester.fourbar.cognates import cognates
 from burmester.fourbar.dyad import RR
-from burmester.fourbar.linkage import Linkage, cognates
+from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.synthesis.given_linkage import OpenLink
 from burmester.synthesis.judgement import judge_linkage

@@ -5,7 +5,7 @@ import pytest
 
 from burmester.curves.crank_linkages import linkages_of_five_points
 from burmester.describe.dimensions import worst_errors
-from burmester.fourbar.linkage import cognates
+from burmester.fourbar.cognates import cognates
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon

@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from burmester.dyads.five_poses import dyads_of_five
 from burmester.dyads.local_minima import best_dyads
+from burmester.fourbar.cognates import cognates
 from burmester.fourbar.dyad import RR
 from burmester.fourbar.instantaneous import crossing_angle
-from burmester.fourbar.linkage import Linkage, cognates
+from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of, take

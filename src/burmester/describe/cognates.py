@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from burmester.describe.dimensions import decimals_of, fixed
+from burmester.fourbar.cognates import cognates
 from burmester.fourbar.dyad import RR
-from burmester.fourbar.linkage import Linkage, cognates
+from burmester.fourbar.linkage import Linkage
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.found_linkage import FoundLinkage

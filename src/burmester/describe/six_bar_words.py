@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from burmester.describe.dimensions import degrees
-from burmester.describe.load_words import load_notes
+from burmester.describe.quality_words import load_notes
 from burmester.numerics.arrays import ROUNDING
 from burmester.synthesis.result import JUDGED, Synthesis
 from burmester.tasks.notation import length_of, pose_labels

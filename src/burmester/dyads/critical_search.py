@@ -16,7 +16,7 @@ from burmester.numerics.arrays import ComplexArray, FloatArray, unique_index, un
 from burmester.numerics.linear_algebra import matvec, one_thread, solve_where_regular
 from burmester.polynomials import elimination, macaulay
 from burmester.polynomials.bilinear_fit import Parameters, circle_shape
-from burmester.polynomials.elimination_template import CHARTS
+from burmester.polynomials.elimination import CHARTS
 
 COUNT = 25  # finite critical points of generic poses (a Groebner basis over a finite field)
 # Number of steps of Newton's method; three are usual, more than 5 are taken only towards points

@@ -17,11 +17,9 @@ import numpy as np
 
 from burmester.cures import Cure, Help
 from burmester.errors import InputError
-from burmester.export.description import description
-from burmester.export.escaping import number, python_docstring
+from burmester.export.description import description, number, python_docstring
 from burmester.export.models.bodies import JointMotion
-from burmester.export.options import Options
-from burmester.export.reference import PRECISION, Reference, require_equal
+from burmester.export.options import PRECISION, Options, Reference, require_equal
 from burmester.fourbar.dyad import PR, RP, RR
 from burmester.numerics.arrays import FloatArray
 from burmester.verdicts.found_linkage import FoundLinkage

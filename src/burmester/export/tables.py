@@ -19,9 +19,16 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.export.escaping import decimals_within, rounded
-from burmester.export.options import Options, stated_unit
-from burmester.export.reference import PRECISION, Reference, as_rows, require_equal, require_places
+from burmester.export.description import decimals_within, rounded
+from burmester.export.options import (
+    PRECISION,
+    Options,
+    Reference,
+    as_rows,
+    require_equal,
+    require_places,
+    stated_unit,
+)
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import dimensions_data, six_bar_data
 from burmester.io.pose_data import poses_data

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from typing import NamedTuple, final
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from burmester.fourbar.dyad import PR, RP, RR, Dyad
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import ComplexArray, FloatArray, complex_of, pairs_of
+from burmester.numerics.arrays import FloatArray
 
 PARALLEL = 1e-9  # relative; lines whose cross product is smaller are parallel within rounding
 GRASHOF_TIE = 1e-9  # of all links together; a sum as small is zero but for rounding
@@ -180,81 +180,3 @@ def _slice(p: FloatArray, s: FloatArray, c: FloatArray) -> tuple[FloatArray, Flo
     """The circle p1 |z|² + b · z + e = 0 of a manifold p (8,) at a half angle: b (2, *), e (*,)."""
     b = np.stack([p[2] * s + p[4] * c, p[3] * s + p[5] * c])
     return b, p[1] * s * s + p[6] * s * c + p[7] * c * c
-
-
-def cognates(linkage: Linkage, point: ArrayLike = (0.0, 0.0)) -> tuple[Linkage, ...]:
-    """The other linkages whose coupler point traces the same curve.
-
-    Two for a linkage of two RR dyads, the first with the fixed pivot of the linkage's first dyad,
-    the second with that of its second dyad; both with the third fixed pivot in their second dyad.
-    One for a slider-crank, none for other linkages with sliders.
-
-    In the body frame of a cognate the coupler point has the same coordinates as in that of the
-    linkage.  Its body turns as the link with the shared fixed pivot does, and its angle is the
-    direction in F of that link, from the fixed to the moving pivot.  So the cognate of a crank has
-    the crank's angle as its body angle.
-
-    Parameters
-    ----------
-    linkage : Linkage
-        (*,)
-    point : (*, 2) array of float
-        The coupler point, in M, in the task's length unit.
-
-    Returns
-    -------
-    tuple of Linkage
-        (*,) each.  Nan where the coupler has no length; a link has none where the coupler point is
-        a moving pivot, since the curve is a circle then.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from burmester import RR
-    >>> linkage = Linkage(RR([0, 0], [0, 0], 1), RR([4, 0], [3, 0], 3))
-    >>> left, right = cognates(linkage, (1.5, 1.5))
-    >>> left.second.fixed_pivot.round(6)  # the three fixed pivots are a triangle like the coupler
-    array([2., 2.])
-    >>> left.type, right.type
-    ('double-rocker', 'rocker-crank')
-    """
-    a, b, c = linkage.first, linkage.second, complex_of(np.asarray(point, dtype=np.float64))
-    if isinstance(a, RR) and isinstance(b, RR):
-        return _beside(a, b, c), _beside(b, a, c)
-    if isinstance(a, RR) and isinstance(b, PR):
-        return (_beside_slider(a, b, c),)
-    if isinstance(a, PR) and isinstance(b, RR):
-        return (_beside_slider(b, a, c),)
-    return ()
-
-
-def _beside(a: RR, b: RR, c: ComplexArray) -> Linkage:
-    """The cognate that keeps the fixed pivot of `a`."""
-    ratio = _ratio(a, b, c)
-    ground, arm = complex_of(a.fixed_pivot), np.abs(c - complex_of(a.moving_pivot))
-    third = ground + ratio * (complex_of(b.fixed_pivot) - ground)
-    return Linkage(
-        RR(a.fixed_pivot, pairs_of(c - a.radius), arm),
-        RR(pairs_of(third), pairs_of(c - (1 - ratio) * a.radius), np.abs(ratio) * b.radius),
-    )
-
-
-def _beside_slider(a: RR, b: PR, c: ComplexArray) -> Linkage:
-    """The cognate of a slider-crank: C1 = A0 + k (B - A0) stays on a line as B does."""
-    ratio = _ratio(a, b, c)
-    ground, arm = complex_of(a.fixed_pivot), np.abs(c - complex_of(a.moving_pivot))
-    normal = np.exp(1j * b.normal_angle)
-    away = b.offset - (np.conj(normal) * ground).real  # of the line from A0
-    turned = b.normal_angle + np.angle(ratio)
-    offset = np.abs(ratio) * away + (np.exp(-1j * turned) * ground).real
-    return Linkage(
-        RR(a.fixed_pivot, pairs_of(c - a.radius), arm),
-        PR(turned, offset, pairs_of(c - (1 - ratio) * a.radius)),
-    )
-
-
-def _ratio(a: RR | PR, b: RR | PR, c: ComplexArray) -> ComplexArray:
-    """The place (*,) of the coupler point c on the coupler of which `a` is at 0 and `b` at 1."""
-    start = complex_of(a.moving_pivot)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        return np.asarray((c - start) / (complex_of(b.moving_pivot) - start))

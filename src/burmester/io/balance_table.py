@@ -11,7 +11,7 @@ from rich.text import Text
 
 from burmester.describe.decimals import decimals_of_dyad
 from burmester.describe.dimensions import sides_of
-from burmester.describe.load_words import load_notes
+from burmester.describe.quality_words import load_notes
 from burmester.errors import InputError
 from burmester.io.linkage_data import dimensions_data, load_figures_data
 from burmester.io.linkage_table import table_of

@@ -17,8 +17,7 @@ from burmester.describe import sentences
 from burmester.describe.cognates import cognate_lines
 from burmester.describe.decimals import Decimals
 from burmester.describe.dimensions import certain, decimals_of, dimensions, links, worst_errors
-from burmester.describe.load_words import load_notes
-from burmester.describe.quality_words import in_short, quality_note
+from burmester.describe.quality_words import in_short, load_notes, quality_note
 from burmester.errors import Advice
 from burmester.io.message import print_trimmed, show, wrapped
 from burmester.numerics.arrays import FloatArray

@@ -16,8 +16,7 @@ from numpy.typing import NDArray
 from burmester.numerics.arrays import ComplexArray, FloatArray, take
 from burmester.numerics.linear_algebra import matvec, one_thread, solve_or_shortest
 from burmester.polynomials.bilinear_fit import Parameters, Shape, equations, jacobian, newton_step
-from burmester.polynomials.elimination import eigen_points
-from burmester.polynomials.elimination_template import CHARTS, finite_count
+from burmester.polynomials.elimination import CHARTS, eigen_points, finite_count
 from burmester.polynomials.parameter_homotopy import ARRIVED, AWAY, LOST, tracked_points
 
 MAX_NEWTON_STEPS = 12  # from an eigenvector; two are usual

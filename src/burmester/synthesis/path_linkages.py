@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.curves.crank_linkages import CrankLinkages, linkages_of_five_points
-from burmester.curves.curve_descent import CurveFit
-from burmester.curves.path_fit import PathSearch
-from burmester.fourbar.linkage import Linkage, cognates
+from burmester.curves.path_fit import CurveFit, PathSearch
+from burmester.fourbar.cognates import cognates
+from burmester.fourbar.linkage import Linkage
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Evaluation

@@ -23,8 +23,7 @@ from burmester.describe.dimensions import (
     worst_errors,
 )
 from burmester.describe.dimensions import links as links_of
-from burmester.describe.load_words import load_notes
-from burmester.describe.quality_words import improvements
+from burmester.describe.quality_words import improvements, load_notes
 from burmester.dyads.selection import FoundDyad
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.outlines import inner_point

@@ -11,7 +11,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from burmester.describe.load_words import load_notes
+from burmester.describe.quality_words import load_notes
 from burmester.loads.load_curves import LoadCurves, MovingCurves, curves_in_time, load_curves
 from burmester.loads.loaded_motion import LoadedLinkage, letter
 from burmester.numerics.arrays import FloatArray

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from burmester.describe import six_bar_words
-from burmester.describe.load_words import load_notes
+from burmester.describe.quality_words import load_notes
 from burmester.mechanisms.transmission import transmission_angles
 from burmester.numerics.arrays import FloatArray, complex_of
 from burmester.sixbar.six_bars import RULE

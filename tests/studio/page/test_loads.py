@@ -3,7 +3,7 @@
 import pytest
 
 from burmester import synthesize
-from burmester.describe.load_words import load_notes
+from burmester.describe.quality_words import load_notes
 from burmester.io.spring_list import usual_springs
 from burmester.live.document import task_of
 from burmester.synthesis.balanced import springs_for

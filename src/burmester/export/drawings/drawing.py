@@ -28,10 +28,9 @@ from burmester.export.drawings.sheet import (
     notes_on,
     sheet_of,
 )
-from burmester.export.options import Options
+from burmester.export.options import Options, require_equal
 from burmester.export.parts.plate import Plate, moved, slot_outline
 from burmester.export.parts.plates import Assembly, assembly_of, pivots_of
-from burmester.export.reference import require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.loads.masses import body_named
 from burmester.numerics.arrays import FloatArray

@@ -19,14 +19,13 @@ from typing import Any
 
 import numpy as np
 
+from burmester.export.description import dxf_text, error_within
 from burmester.export.drawings.dimension_lines import DimensionLine
 from burmester.export.drawings.drawing import Drawing, Item, Kind, require_drawing
 from burmester.export.drawings.sheet import Sheet
-from burmester.export.escaping import dxf_text, error_within
-from burmester.export.options import Options, unit_of
+from burmester.export.options import Options, fault, require_equal, unit_of
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import stock_for
-from burmester.export.reference import fault, require_equal
 from burmester.mechanisms.bodies import GROUND
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate

@@ -23,7 +23,7 @@ from matplotlib.transforms import Affine2D, Bbox, IdentityTransform
 from pypdf import PageObject, PdfReader
 from pypdf.errors import PyPdfError
 
-from burmester.export.description import description, length_decimals
+from burmester.export.description import description, length_decimals, one_line
 from burmester.export.drawings.drawing import (
     Item,
     Kind,
@@ -36,10 +36,8 @@ from burmester.export.drawings.drawing import (
 )
 from burmester.export.drawings.pages import LETTERS, MARGIN, Page, Pages, pages_of
 from burmester.export.drawings.sheet import notes_on
-from burmester.export.escaping import one_line
-from burmester.export.options import Options
+from burmester.export.options import Options, fault, require_equal
 from burmester.export.parts.plates import Assembly, assembly_of, axis_deviation, pivots_of
-from burmester.export.reference import fault, require_equal
 from burmester.geometry.outlines import rounded_hull
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate

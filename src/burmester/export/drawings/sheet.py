@@ -14,10 +14,10 @@ import numpy as np
 
 from burmester.describe.decimals import figures_of
 from burmester.export.drawings.dimension_lines import LETTER_WIDTH, DimensionLine, dimension_lines
+from burmester.export.options import Reference
 from burmester.export.parts.plate import Plate, outline_points
 from burmester.export.parts.plates import Assembly
 from burmester.export.parts.stock import INCH, stock_for
-from burmester.export.reference import Reference
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.outlines import inner_point
 from burmester.numerics.arrays import FloatArray

@@ -17,12 +17,11 @@ from xml.sax.saxutils import unescape
 
 import numpy as np
 
+from burmester.export.description import error_within, xml_text
 from burmester.export.drawings.dimension_lines import DimensionLine
 from burmester.export.drawings.drawing import Drawing, Item, Kind, halved, require_drawing
-from burmester.export.escaping import error_within, xml_text
-from burmester.export.options import Options
+from burmester.export.options import Options, require_equal
 from burmester.export.parts.plates import Assembly
-from burmester.export.reference import require_equal
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 

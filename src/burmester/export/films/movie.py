@@ -39,8 +39,7 @@ from burmester.export.films.film import (
     looks_of,
     require_film,
 )
-from burmester.export.options import Options
-from burmester.export.reference import fault
+from burmester.export.options import Options, fault
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import FloatArray
 from burmester.plot.plane import X_AXIS_LENGTH, span_of

@@ -11,7 +11,7 @@ from typing import Final, final
 
 import numpy as np
 
-from burmester.export.escaping import number, xy
+from burmester.export.description import number, xy
 from burmester.export.models.dynamic_model import DynamicModel
 from burmester.loads.masses import body_named
 from burmester.loads.spring_laws import SpringLaw

@@ -16,9 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
+from burmester.export.options import Reference
 from burmester.export.parts.plate import Pin, Plate
 from burmester.export.parts.plates import Assembly
-from burmester.export.reference import Reference
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray

@@ -9,7 +9,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.reference import PRECISION, require_equal
+from burmester.export.options import PRECISION, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import GROUND, ORIGIN, Limb
 from burmester.numerics.arrays import FloatArray

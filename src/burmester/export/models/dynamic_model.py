@@ -26,10 +26,9 @@ from burmester.export.models.bodies import (
     rim,
     shapes,
 )
-from burmester.export.options import Options
+from burmester.export.options import PRECISION, Options, Reference, require_equal
 from burmester.export.parts.plate import SLOT_RUN_OUT, slot_outline
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import PRECISION, Reference, require_equal
 from burmester.geometry.outlines import outline_moments, rounded_hull
 from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
 from burmester.loads.masses import Masses

@@ -19,14 +19,19 @@ from xml.etree import ElementTree
 import numpy as np
 
 from burmester.cures import for_page, said
-from burmester.export.description import description
-from burmester.export.escaping import number, numbers_in, xml_attribute, xml_comment, xy
+from burmester.export.description import (
+    description,
+    number,
+    numbers_in,
+    xml_attribute,
+    xml_comment,
+    xy,
+)
 from burmester.export.models.applied_loads import AppliedLoads
 from burmester.export.models.bodies import Shape
 from burmester.export.models.body_tree import Body, Link, Site, Tree, require_pose, tree_of
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.options import Options
-from burmester.export.reference import PRECISION, require_equal
+from burmester.export.options import PRECISION, Options, require_equal
 from burmester.mechanisms.bodies import GROUND
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate

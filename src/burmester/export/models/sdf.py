@@ -19,12 +19,10 @@ from xml.etree import ElementTree
 import numpy as np
 
 from burmester.cures import for_page, said
-from burmester.export.description import description
-from burmester.export.escaping import number, xml_attribute, xml_comment, xy
+from burmester.export.description import description, number, xml_attribute, xml_comment, xy
 from burmester.export.models.body_tree import Body, Link, Site, require_pose, tree_of
 from burmester.export.models.dynamic_model import DynamicModel
-from burmester.export.options import Options
-from burmester.export.reference import PRECISION, require_equal
+from burmester.export.options import PRECISION, Options, require_equal
 from burmester.loads.masses import body_named
 from burmester.mechanisms.bodies import GROUND, ORIGIN
 from burmester.numerics.arrays import FloatArray

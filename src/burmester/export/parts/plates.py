@@ -18,12 +18,11 @@ import numpy as np
 
 from burmester.cures import Cure, Help
 from burmester.errors import InputError
-from burmester.export.options import Options, unit_of
+from burmester.export.options import Options, Reference, unit_of
 from burmester.export.parts.dimensions import WALL, Dimensions, dimensions_of
 from burmester.export.parts.links import Arrangement, Links
 from burmester.export.parts.plate import Pin, Plate, distances, plate_of
 from burmester.export.parts.stock import stock_for
-from burmester.export.reference import Reference
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray

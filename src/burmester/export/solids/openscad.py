@@ -17,11 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from burmester.export.description import description
-from burmester.export.escaping import number, one_line
-from burmester.export.options import Options
+from burmester.export.description import description, number, one_line
+from burmester.export.options import PRECISION, Options, Reference, as_rows, require_equal
 from burmester.export.parts.plates import Assembly, assembly_of
-from burmester.export.reference import PRECISION, Reference, as_rows, require_equal
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import GROUND, LinkPlaces
 from burmester.numerics.arrays import FloatArray

@@ -22,8 +22,8 @@ from typing import Final, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from burmester.export.escaping import step_text
-from burmester.export.options import Options
+from burmester.export.description import step_text
+from burmester.export.options import PRECISION, Options, fault
 from burmester.export.parts.plates import (
     Assembly,
     assembly_of,
@@ -32,7 +32,6 @@ from burmester.export.parts.plates import (
     pivots_of,
     rim_deviation,
 )
-from burmester.export.reference import PRECISION, fault
 from burmester.export.solids.solid_parts import area_of, collision, laid, parts_of, placed
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
