@@ -24,12 +24,13 @@ TOKEN_S: Final = 300.0  # that an address opens the page
 PROTOCOL: Final = "burmester"  # of the websocket; a browser sends a key only as another of these
 MOST_BYTES: Final = 2_000_000  # of what the page sends at once
 PASSED_OVER: Final = 16_000_000  # bytes that are heard before they are refused
-SHELL: Final = ("/", "/studio.mjs", "/studio.css", "/widget.css", "/studio.svg")
+SHELL: Final = ("/", "/studio.mjs", "/tools.mjs", "/studio.css", "/widget.css", "/studio.svg")
 OPEN: Final = (*SHELL, "/session")  # without the key
 
 _HEADERS: Final = (
     (b"content-security-policy", b"default-src 'self'; frame-ancestors 'none'; base-uri 'none'; "
-     b"form-action 'none'; object-src 'none'"),
+     b"form-action 'none'; object-src 'none'; "
+     b"img-src 'self' blob:; media-src blob:"),  # pictures and films that the page itself opened
     (b"x-content-type-options", b"nosniff"),
     (b"x-frame-options", b"DENY"),
     (b"referrer-policy", b"no-referrer"),

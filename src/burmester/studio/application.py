@@ -29,6 +29,7 @@ OF_RESULT = ("export", "result", "report", "improve")
 _STATIC = {
     "/": ("studio.html", "text/html; charset=utf-8"),
     "/studio.mjs": ("studio.mjs", "text/javascript; charset=utf-8"),
+    "/tools.mjs": ("tools.mjs", "text/javascript; charset=utf-8"),
     "/studio.css": ("studio.css", "text/css; charset=utf-8"),
     "/widget.css": ("widget.css", "text/css; charset=utf-8"),
     "/studio.svg": ("studio.svg", "image/svg+xml"),

@@ -40,6 +40,7 @@ def save(given: dict[str, Any]) -> None:
         "document": given.get("document"),
         "options": given.get("options") or {},
         "settings": given.get("settings") or {},
+        "picture": given.get("picture"),
     }
     place = folder()
     place.mkdir(mode=0o700, parents=True, exist_ok=True)

@@ -23,7 +23,7 @@ def test_a_finger_drags_a_pose(fingers):
     page, touch = fingers
     page.locator(".bs-scene").scroll_into_view_if_needed()
     before, scale = pose(page, 8), view(page)["scale"]
-    x, y = on_screen(page, *before[:2])
+    x, y = map(round, on_screen(page, *before[:2]))  # as a finger is
     touch("Start", (x, y))
     for k in range(1, 6):
         touch("Move", (x + 6 * k, y - 4 * k))

@@ -11,7 +11,6 @@ import { Chips } from "./chips.mjs";
 import { Compare } from "./compare.mjs";
 import { isOfPoints, isPoint } from "./document.mjs";
 import { CouplerCurves } from "./coupler_curve.mjs";
-import { Dimensions } from "./dimensions.mjs";
 import { FactsTable } from "./facts_table.mjs";
 import { listenToSpace } from "./keyboard.mjs";
 import { LiveLinkage } from "./live_linkage.mjs";
@@ -29,7 +28,6 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   const answers = new Answers(store), playing = new Playing(store, answers);
   const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
   const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
-  const dimensions = new Dimensions(store, scene, playing, answers);
   const cards = new Results(store, answers), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
   const cognates = new CognatePanel(store, answers), loads = new LoadCharts(answers, playing);
   const compare = new Compare(store, answers, playing, () => drawer.open("compare")), facts = new FactsTable(store, answers, playing, curves);
@@ -53,5 +51,5 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   listenToSpace(playing);
   playOnce(store, answers, playing);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
-  return { dimensions, answers, playing, live, surface, centrodes, curves, cards, charts, loads, space, cognates, compare, facts };
+  return { answers, playing, live, surface, centrodes, curves, cards, charts, loads, space, cognates, compare, facts };
 }

@@ -26,7 +26,7 @@ export class Autosave {
     if (!this.isOpen) return;
     this.isOpen = false;
     clearTimeout(this.timer);
-    const { document: task, options, name, settings, picture, filters, choice, history, connection } = this.store, text = { document: task, options, name, settings, picture };
+    const { document: task, options, name, settings, keptPicture: picture, filters, choice, history, connection } = this.store, text = { document: task, options, name, settings, picture };
     document.documentElement.dataset.kept = "true";
     try {
       sessionStorage.setItem(KEY, JSON.stringify({ ...text, filters, choice, history: history.kept(ROOM) }));
@@ -52,7 +52,15 @@ function tabName() {
 export function keptHere() {
   try {
     const kept = JSON.parse(sessionStorage.getItem(KEY) ?? "null");
-    return Array.isArray(kept?.document?.poses) ? kept : null;
+    if (!Array.isArray(kept?.document?.poses)) return null;
+    // A task that did not change from one entry to the next is one object again, so that its answer stays.
+    const seen = new Map(), shared = (value) => {
+      const key = JSON.stringify(value);
+      if (!seen.has(key)) seen.set(key, value);
+      return seen.get(key);
+    };
+    for (const each of [kept, ...(kept.history?.past ?? []), ...(kept.history?.future ?? [])]) Object.assign(each, { document: shared(each.document), options: shared(each.options) });
+    return kept;
   } catch {
     return null;
   }

@@ -5,7 +5,6 @@ import { act } from "../widget/kinematics.mjs";
 import { fixed, px } from "../widget/numbers.mjs";
 import { decimalsOf } from "../widget/tables.mjs";
 import { currentLinkage, limitedDyads } from "./conditions.mjs";
-import { button } from "./fields.mjs";
 import { setLimit, splitLimits } from "./document.mjs";
 import { Kept } from "./scene.mjs";
 
@@ -23,16 +22,18 @@ export class Dimensions {
     this.scene = scene;
     this.playing = playing;
     this.answers = answers;
-    this.element = button("Dimensions", () => {
-      this.isOn = !this.isOn;
-      put(this.element, "aria-pressed", this.isOn);
-      this.draw();
-    }, { "data-do": "dimensions", "aria-pressed": "false", title: "The lengths of the chosen linkage; click one to change it" });
     this.kept = new Kept(s("g", { class: "bs-dimensions" }), (key, item) => this.make(item), (group, item) => this.show(group, item));
     scene.layer("labels").append(this.kept.group);
     for (const each of ["shape", "place"]) playing.on(each, () => this.draw());
     scene.on("view", () => this.draw());
     store.on("document solved followed chosen", () => this.draw());
+  }
+
+  /** Show them, or no longer; whether they are shown. */
+  toggle() {
+    this.isOn = !this.isOn;
+    this.draw();
+    return this.isOn;
   }
 
   /** The links with two pins: { name, from, to, isDyad }; the length of a dyad's may be limited. */

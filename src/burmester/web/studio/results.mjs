@@ -10,12 +10,14 @@ import { QUICK } from "./store.mjs";
 
 const MOST = 40; // cards that are there at once, unless all of them are asked for
 
+const USUAL = { order: "rank", filter: "all", type: "" };
+
 export class Results {
   constructor(store, answers) {
     this.store = store;
     this.answers = answers;
     this.cards = new Map();
-    this.wanted = { order: "rank", filter: "all", type: "" };
+    this.wanted = { ...USUAL, ...store.filters };
     this.all = false;
     const choice = (name, entries, key) =>
       h("label", {}, `${name} `, h("select", { "data-choice": key, onchange: (event) => this.want(key, event.target.value) }, entries.map(([value, text]) => h("option", { value }, text))));
@@ -40,12 +42,19 @@ export class Results {
     answers.on("moved", () => this.pace.ask());
     answers.on("shown", () => this.update());
     store.on("pinned", () => this.arrange());
+    store.on("filters", () => this.filtered());
     store.on("state document", () => this.tell());
     this.arrange();
   }
 
   want(key, value) {
-    this.wanted[key] = value;
+    this.store.filter(key, value);
+  }
+
+  /** Show by the filters of the store, which undo takes back. */
+  filtered() {
+    Object.assign(this.wanted, USUAL, this.store.filters);
+    for (const select of /** @type {NodeListOf<HTMLSelectElement>} */ (this.element.querySelectorAll("[data-choice]"))) give(select, "value", this.wanted[select.dataset.choice ?? ""]);
     this.arrange();
   }
 

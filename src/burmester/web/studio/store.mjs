@@ -14,6 +14,7 @@ const MOST_SHOWN = 6; // linkages whose motion is asked for while dragging
 const FEWEST = 2; // poses that make a task
 export const QUICK = 1.2; // seconds; what cannot be followed is solved at once while a hand drags, if that takes no longer
 const NO_ANSWER = { linkages: [], dyads: [], best: [], warnings: [], pivot_map: null, family_map: null, outcome: { message: "Two poses or more make a task" } };
+const PICTURE = /^data:image\/jpeg;base64,[A-Za-z0-9+/=]+$/; // one that this page made
 const PLACED = "placed"; // chosen: the linkage whose pivots were put down by hand
 
 /** What decides whether a task can be followed from another one: how many poses it has, what is free, and whether it is a path. */
@@ -36,7 +37,8 @@ export class Store {
     this.name = name;
     this.settings = settings; // of exports: options of `burmester export`
     this.filters = filters; // of cards, by the names of their fields
-    this.picture = picture; // behind the plane: where it is, and how strong
+    this.images = new Map(); // data URLs of pictures, by their ids
+    this.picture = this.known(picture); // behind the plane: where it is, and how strong
     this.wanted = choice && { ...choice, document }; // what is chosen again when there is an answer to that document
     this.history = new History(history);
     this.history.onchange = () => this.emit("history");
@@ -132,14 +134,30 @@ export class Store {
     this.emit("filters");
   }
 
-  /** Where the picture behind the plane is, and how strong; null: none. */
+  /** A picture as it was kept, whose data go to the others; null where it is none that this page made. */
+  known(picture) {
+    if (!picture || typeof picture.data !== "string" || !PICTURE.test(picture.data)) return null;
+    const { data, ...rest } = picture, { place } = rest;
+    if (![rest.width, rest.height, rest.opacity, place?.turn, place?.scale, place?.x, place?.y].every(Number.isFinite)) return null;
+    this.images.set(rest.id, data);
+    return rest;
+  }
+
+  /** The picture as it is kept. */
+  get keptPicture() {
+    return this.picture && { ...this.picture, data: this.images.get(this.picture.id) };
+  }
+
+  /** Where the picture behind the plane is, and how strong; null: none.
+   * @param {any} changes @param {unknown} gesture */
   setPicture(changes, gesture = null) {
     this.history.record(this.version, gesture);
     this.picture = changes && { ...this.picture, ...changes };
     this.emit("picture");
   }
 
-  /** Another task in place of this one: one entry, too. */
+  /** Another task in place of this one: one entry, too.
+   * @param {any} task */
   replace({ document, options = {}, name = this.name, settings = this.settings, picture = null }) {
     this.history.record(this.version, null);
     this.tasks = (this.tasks ?? 0) + 1;
@@ -147,7 +165,7 @@ export class Store {
     this.options = options;
     this.name = name;
     this.settings = settings;
-    this.picture = picture;
+    this.picture = picture?.data ? this.known(picture) : picture;
     this.selection = null;
     this.reference = 0;
     this.placed = null;

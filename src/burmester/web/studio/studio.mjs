@@ -25,7 +25,6 @@ import { addResults } from "./answer_panels.mjs";
 import { Scene } from "./scene.mjs";
 import { Store } from "./store.mjs";
 import { TaskPanel } from "./task_panel.mjs";
-import { TransformPanel } from "./transform_panel.mjs";
 
 const EMPTY = "An empty task: add poses or points here, draw a path, paste rows of a spreadsheet, drop a file, or take a template.";
 const CURVE = "Drag a point of the curve, or draw another one: the linkages are looked for anew.";
@@ -43,7 +42,7 @@ function layOut(root, store, start) {
   const curve = new PathCurve(store, scene), path = new PathPanel(store, scene);
   const player = h("div", { id: "bs-player" }), cards = h("div", { id: "bs-results" }), drawer = new Drawer();
   const poses = h("details", { class: "bs-section bs-section-poses", "data-section": "poses", open: true }, h("summary", {}, "Poses"), table.element, path.element);
-  const left = sidePanel("left", "The task", h("div", { class: "bs-left" }, poses, panel.element, new TransformPanel(store, scene, start.form.options.filter(({ form }) => form === "length").map(({ key }) => key)).element));
+  const left = sidePanel("left", "The task", h("div", { class: "bs-left" }, poses, panel.element, ...laterSections(store, scene, banners, start.form)));
   const right = sidePanel("right", "Linkages", cards);
   root.replaceChildren(
     h("a", { class: "bs-skip", href: "#plane", onclick: (event) => (event.preventDefault(), scene.svg.focus()) }, "Skip to the plane"),
@@ -55,14 +54,52 @@ function layOut(root, store, start) {
       left, right, drawer.element),
   );
   scene.resize();
-  const { answers, playing, dimensions } = addResults(store, scene, { player, results: cards, drawer }, { panel, regions });
-  root.querySelector(".bs-bar")?.append(dimensions.element);
+  const { playing, answers } = addResults(store, scene, { player, results: cards, drawer }, { panel, regions });
+  root.querySelector(".bs-bar")?.append(dimensionsButton(store, scene, playing, answers));
   const loads = new LoadsPanel(store, scene, new LoadHandles(store, scene, playing), answers, start.form.loads);
   panel.element.querySelector("[data-section=requirements]").before(loads.element);
   listenToKeys(store, scene, files);
   new Autosave(store);
   files.opened = refitWhenSolved(store, scene);
   return { scene, banners, files, body, regions, panel, handles, table, curve, path };
+}
+
+/** What is loaded when it is first used.
+ * @returns {Promise<any>} */
+// @ts-ignore: the server has it under this name
+const tools = () => import("/tools.mjs");
+
+/** Shows the lengths of the chosen linkage. */
+function dimensionsButton(store, scene, playing, answers) {
+  let dimensions;
+  const made = button("Dimensions", async () => {
+    const { Dimensions } = await tools();
+    dimensions ??= new Dimensions(store, scene, playing, answers);
+    put(made, "aria-pressed", dimensions.toggle());
+  }, { "data-do": "dimensions", "aria-pressed": "false", title: "The lengths of the chosen linkage; click one to change it" });
+  return made;
+}
+
+/** Sections of the task whose scripts are loaded when they are first opened, or when a task comes with a picture. */
+function laterSections(store, scene, banners, form) {
+  const later = (name, title, make) => {
+    const element = h("details", { class: "bs-section", "data-section": name }, h("summary", {}, title));
+    let asked = false;
+    const load = async () => {
+      if (asked) return;
+      asked = true;
+      element.append(make(await tools()).element);
+    };
+    element.addEventListener("toggle", load);
+    return { element, load };
+  };
+  const lengths = form.options.filter((each) => each.form === "length").map(({ key }) => key);
+  const transform = later("transform", "Move, turn, mirror, scale", ({ TransformPanel }) => new TransformPanel(store, scene, lengths));
+  const picture = later("picture", "Picture or film behind the plane", ({ Backdrop }) => new Backdrop(store, scene, banners));
+  const show = () => store.picture && picture.load();
+  store.on("picture", show);
+  show();
+  return [transform.element, picture.element];
 }
 
 /** The head of the page: the task as a whole, and what leaves it. */

@@ -11,7 +11,8 @@ import { boxCorners } from "./region_geometry.mjs";
 const GRAVITY = 9.80665; // m/s²
 const SCALED = ["free_length", "greatest_length", "least_length", "length", "stroke", "rate_Nm_per_deg"]; // numbers of springs
 
-/** The similarity that leaves a point where it is. */
+/** The similarity that leaves a point where it is.
+ * @param {number[]} point @param {{ turn?: number, scale?: number, mirror?: boolean }} how */
 export function about([x, y], { turn = 0, scale = 1, mirror = false }) {
   const [u, v] = linear({ turn, scale, mirror }, [x, y]);
   return { turn, scale, mirror, x: x - u, y: y - v };
@@ -20,14 +21,16 @@ export function about([x, y], { turn = 0, scale = 1, mirror = false }) {
 /** Quarter turns that a similarity makes, 0 to 3; NaN where it turns by something else. */
 const quarters = ({ turn }) => (Number.isInteger(turn / 90) ? (((turn / 90) % 4) + 4) % 4 : NaN);
 
-/** A vector turned, mirrored and scaled. */
+/** A vector turned, mirrored and scaled.
+ * @param {any} by @param {number[]} vector */
 function linear(by, [x, y]) {
   const q = quarters(by), a = radians(by.turn), [c, s] = Number.isNaN(q) ? [Math.cos(a), Math.sin(a)] : [[1, 0], [0, 1], [-1, 0], [0, -1]][q];
   const v = by.mirror ? -y : y;
   return [by.scale * (c * x - s * v), by.scale * (s * x + c * v)];
 }
 
-/** Where a similarity takes a point. */
+/** Where a similarity takes a point.
+ * @param {any} by @param {number[]} point */
 export function moved(by, point) {
   const [x, y] = linear(by, point);
   return [tidy(x + by.x), tidy(y + by.y)];

@@ -23,7 +23,7 @@ export class TransformPanel {
     this.what = choice("What is moved", [["task", "the whole task"], ["poses", "the selected poses"]], () => this.draw(), { "data-key": "move-what" });
     this.point = choice("The point that stays", [], () => {}, { "data-key": "move-about" });
     this.fault = h("p", { class: "bs-fault", hidden: true, role: "alert" });
-    this.element = h("details", { class: "bs-section", "data-section": "transform", ontoggle: () => this.draw() }, h("summary", {}, "Move, turn, mirror, scale"),
+    this.element = h("div", {},
       h("p", { class: "bs-hint" }, "All conditions go along: limits, outline, surroundings, loads. Forces, masses and times stay."),
       this.what,
       h("div", { class: "bs-row" }, labelled("right", x.element), labelled("up", y.element), act("Move", () => ({ ...still, x: x.value, y: y.value }), "move-by")),
@@ -34,6 +34,7 @@ export class TransformPanel {
       h("div", { class: "bs-row" }, act("Bring that point to 0, 0", () => ({ ...still, x: -this.at[0], y: -this.at[1] }), "to-origin")),
       this.fault);
     store.on("document selection solved chosen", () => this.draw());
+    this.draw();
   }
 
   about(by) {
@@ -56,7 +57,7 @@ export class TransformPanel {
   }
 
   draw() {
-    if (!this.element.open) return;
+    if (this.element.isConnected && !this.element.checkVisibility()) return;
     const names = this.points.map(([name]) => name), before = this.point.value;
     if (names.join() !== [...this.point.options].map((each) => each.value).join()) this.point.replaceChildren(...names.map((name) => h("option", { value: name }, name)));
     if (names.includes(before)) this.point.value = before;

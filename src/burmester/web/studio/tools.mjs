@@ -1,0 +1,5 @@
+// What is loaded when it is first used: a bundle of its own.
+
+export { Backdrop } from "./backdrop.mjs";
+export { Dimensions } from "./dimensions.mjs";
+export { TransformPanel } from "./transform_panel.mjs";
