@@ -85,10 +85,11 @@ export class Scene {
     this.box = null;
     const { width, height } = this.svg.getBoundingClientRect(); // a pixel of the picture is one of the page
     if (!width || !height || (width === this.size.width && height === this.size.height)) return;
-    this.origin = { ...this.origin, left: this.origin.left + (width - this.size.width) / 2, top: this.origin.top + (height - this.size.height) / 2 };
+    const isHeld = Boolean(this.dragged); // the plane stays under a hand
+    if (!isHeld) this.origin = { ...this.origin, left: this.origin.left + (width - this.size.width) / 2, top: this.origin.top + (height - this.size.height) / 2 };
     this.size = { width, height };
     put(this.svg, "viewBox", `0 0 ${width} ${height}`);
-    if (this.isFitted) this.fit(this.isWhole);
+    if (this.isFitted && !isHeld) this.fit(this.isWhole);
     else this.update();
   }
 
