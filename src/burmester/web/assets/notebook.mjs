@@ -80,7 +80,7 @@ body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
 .bs-gap { flex: 1; }
 .bs-canvas { position: relative; min-height: 0; min-width: 0; }
 /* One line over the plane: nothing moves where it changes, and nothing is caught by it. */
-.bm .bs-line { position: absolute; left: 34px; right: 34px; top: 5px; text-align: center; pointer-events: none; color: var(--bm-muted); font-size: 0.82rem; line-height: 1.35; text-shadow: 0 0 3px var(--bm-panel), 0 0 3px var(--bm-panel), 0 0 3px var(--bm-panel); }
+.bm .bs-line { position: absolute; left: 40px; right: 110px; top: 5px; text-align: center; pointer-events: none; color: var(--bm-muted); font-size: 0.82rem; line-height: 1.35; text-shadow: 0 0 3px var(--bm-panel), 0 0 3px var(--bm-panel), 0 0 3px var(--bm-panel); }
 #bs-player { min-width: 0; padding: 5px 10px 3px; border-top: 1px solid var(--bm-faint); }
 .bs-sheets { display: none; }
 .bs-drawer { grid-area: drawer; position: relative; min-width: 0; min-height: 0; display: grid; grid-template: auto minmax(0, 1fr) / minmax(0, 1fr); height: min(var(--bs-height), 62vh); border-top: 1px solid var(--bm-line); background: var(--bm-bg); }
@@ -261,7 +261,7 @@ body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
   .bs-side, .bs-side.bs-folded { width: auto; border: 0; padding: 8px 12px 24px; }
   .bs-drawer, .bs-drawer.bs-closed { grid-area: side; height: auto; border: 0; }
   .bs-drawer.bs-below, .bs-grip { display: none; }
-  .bm .bs-line { left: 8px; right: 8px; top: 3px; font-size: 0.74rem; }
+  .bm .bs-line { left: 40px; right: 90px; top: 3px; font-size: 0.74rem; white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
   .bs-bar { padding: 2px 4px; }
 }
 @media print {
@@ -335,6 +335,7 @@ body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
 #bs-player .bm-now { font-size: 0.82rem; color: var(--bm-muted); white-space: nowrap; overflow: hidden; text-overflow: ellipsis; }
 .bs #bs-player .bm-button { min-height: 30px; padding: 1px 9px; font-size: 0.84rem; white-space: nowrap; }
 .bs #bs-player .bm-play { min-width: 76px; background: var(--bm-panel); color: var(--bm-accent); border-color: var(--bm-accent); }
+#bs-player select { min-height: 30px; font-size: 0.82rem; padding: 1px 4px; }
 #bs-player .bm-whole { font-size: 0.82rem; min-height: 30px; }
 .bs-player.bs-empty .bm-controls { display: none; }
 .bs-player-ways { display: flex; flex-wrap: wrap; gap: 2px 22px; }
@@ -379,6 +380,8 @@ body.bs { height: 100vh; height: 100dvh; min-height: 0; overflow: hidden; }
 .bs-facts { display: grid; gap: 16px; grid-template-columns: minmax(0, 1fr); }
 .bs-facts caption { position: static; width: auto; height: auto; clip-path: none; text-align: left; color: var(--bm-muted); padding: 2px 0; }
 @media (max-width: 759px) {
+  #bs-player .bm-row { flex-wrap: nowrap; overflow-x: auto; scrollbar-width: none; }
+  #bs-player .bm-row > * { flex: none; }
   #bs-player .bm-now { white-space: normal; max-height: 2.8em; font-size: 0.76rem; line-height: 1.35; }
   .bs-cards { grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 1fr)); }
 }
