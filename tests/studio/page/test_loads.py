@@ -63,7 +63,8 @@ def test_the_panel_is_there_for_tasks_with_loads_only(page):
     panel.get_by_text("Over time").click()
     assert "time (s)" in panel.inner_text()
     # The other driver bears something else, which nobody has computed.
-    page.locator("[data-driver]").last.check()
+    open_tab(page, "motion").locator("[data-driver]").last.check()
+    open_tab(page, "loads")
     page.wait_for_function("() => !document.querySelector('[data-panel=loads] .bm-panel')")
     choose(page, "task", "data-do=new")
     has_poses(page, 0)
