@@ -104,7 +104,7 @@ def test_the_spring_goes_with_the_body(browser, lid):
             assert (x, y) == pytest.approx((0.0, -80.0), abs=0.05)
             ends = best.motion(2001).body.act(np.array(POINT))
             assert np.hypot(*(ends - [u, v]).T).min() < 0.1
-        assert page.locator(".bm-hand").first.get_attribute("d").startswith("M")
+        assert page.locator(".bm-plane .bm-hand").first.get_attribute("d").startswith("M")
         assert "extension spring" in page.locator(".bm-keys").first.inner_text()
         assert said == []
 

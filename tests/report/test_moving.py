@@ -29,11 +29,12 @@ MOVED = """(shares) => shares.map((share) => {
     const [u, v] = rest.trim().split(/\\s+/).map(Number);
     return [seen(node, +x, +y), seen(node, u, to === "H" ? +y : v)];
   };
-  const all = (selector) => [...document.querySelectorAll(selector)];
-  const body = to.multiply(document.querySelector(".bm-coupler").getCTM());
+  const stage = document.querySelector(".bm-stage");
+  const all = (selector) => [...stage.querySelectorAll(selector)];
+  const body = to.multiply(document.querySelector(".bm-plane .bm-coupler").getCTM());
   const frame = svg.viewBox.baseVal;
   return {
-    origin: world(seen(document.querySelector(".bm-origin"))),
+    origin: world(seen(document.querySelector(".bm-plane .bm-origin"))),
     turn: Math.atan2(-body.b, body.a),
     scale: +scale,
     blocks: all(".bm-block").map((node) => ({

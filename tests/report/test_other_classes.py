@@ -49,5 +49,5 @@ def test_joints_are_where_the_mechanism_has_them(browser, make, tmp_path):
         assert {"".join(sorted(each)) for each in drawn["links"]} == {
             "".join(sorted(own)) for own in [*found.skeleton.links.values()][1:]
         }
-        assert page.locator(".bm-fixed-pin").count() == len(found.skeleton.drivers)
+        assert page.locator(".bm-plane .bm-fixed-pin").count() == len(found.skeleton.drivers)
         assert said == []

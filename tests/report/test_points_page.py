@@ -88,7 +88,7 @@ def test_points_have_no_frames_and_poses_have(browser, mixed, tmp_path):
 def test_a_body_is_drawn_at_points_only_where_a_linkage_takes_it(browser, mixed, tmp_path):
     body = Polygon(np.array([[0, 0], [9, 0], [9, 5.0]]))
     whole = synthesize(replace(mixed.task, body=body))
-    for result, where in ((whole, range(7)), (replace(whole, linkages=(), dyads=()), (0, 3, 6))):
+    for result, where in ((whole, (0, 6)), (replace(whole, linkages=(), dyads=()), (0, 3, 6))):
         with browsers.opened(browser, written(tmp_path, result)) as (page, _, _asked):
             drawn = page.evaluate(DRAWN)
             assert drawn["ghosts"] == [str(k + 1) for k in where]

@@ -197,7 +197,7 @@ def test_pivots_that_may_be_moved_are_no_alarm(browser, report, name):
             quiet = card.locator(".bm-quiet")
             assert ("bm-good" in card.get_attribute("class")) == found.usable
             assert card.locator(".bm-verdict").text_content()[0] == ("✓" if found.usable else "✕")
-            assert quiet.count() == (found in free)
+            assert bool(quiet.text_content()) == (found in free)
             if found in free:
                 assert "pivots" in quiet.text_content()
                 widest = max(each.half_width for each in found.uncertainty)

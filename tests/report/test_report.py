@@ -48,13 +48,15 @@ DRAWN = """() => {
     const x = +(node.getAttribute("cx") ?? 0), y = +(node.getAttribute("cy") ?? 0);
     return [(m.a * x + m.c * y + m.e - left) / scale, (top - (m.b * x + m.d * y + m.f)) / scale];
   };
-  const all = (selector) => [...document.querySelectorAll(selector)].map((node) => ({
+  const stage = document.querySelector(".bm-stage");
+  const all = (selector) => [...stage.querySelectorAll(selector)].map((node) => ({
     dyad: node.dataset.dyad, at: world(node),
   }));
-  const body = to.multiply(document.querySelector(".bm-coupler").getCTM());
+  const body = to.multiply(document.querySelector(".bm-plane .bm-coupler").getCTM());
   return {
     fixed: all(".bm-fixed-pin"), moving: all(".bm-coupler .bm-pin"),
-    origin: world(document.querySelector(".bm-origin")), turn: Math.atan2(-body.b, body.a),
+    origin: world(document.querySelector(".bm-plane .bm-origin")),
+    turn: Math.atan2(-body.b, body.a),
     said: document.querySelector(".bm-now").textContent, scale: +scale,
   };
 }"""
@@ -698,9 +700,9 @@ def test_a_linkage_that_cannot_be_driven_is_told_and_not_drawn_moving(
         page.click("[data-linkage=L2]")
         assert "cannot be shown moving" in page.locator(".bm-stage").text_content()
         assert page.locator(".bm-play").is_disabled()
-        assert page.locator(".bm-coupler").count() == 0
+        assert page.locator(".bm-plane .bm-coupler").count() == 0
         assert page.locator(".bm-runner").get_attribute("visibility") == "hidden"
         page.click("[data-linkage=L1]")
         assert page.locator(".bm-play").is_enabled()
-        assert page.locator(".bm-coupler").count() == 1
+        assert page.locator(".bm-plane .bm-coupler").count() == 1
         assert said == []

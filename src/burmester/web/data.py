@@ -86,6 +86,7 @@ def report_data(synthesis: Synthesis, face: Face = for_command) -> dict[str, Any
         "keep_out": _keep_out(task),
         "loads": loads_report(task),
         "scene": scene,
+        "span": synthesis.problem.motion_size,
         "motion": None
         if synthesis.motion is None
         else {
@@ -236,7 +237,6 @@ def _linkage(
         "led": [dyad_data(each, found.error.places) for each in (first, second)],
         "card": {
             "verdict": verdict,
-            "facts": _card(found, said, miss),
             "quiet": freedom,
             "reason": "; ".join(reasons) or None,
         },
@@ -253,22 +253,6 @@ def _misses(away: str, angle: str, unit: str) -> list[str]:
     length = away if away in ("-", "exact") else f"{away}{unit}"
     alone = away == "-" or angle == "free" or (away, angle) == ("exact", "exact")
     return [length] if alone else [length, angle]
-
-
-def _card(found: FoundLinkage, said: dict[str, Any], miss: list[str]) -> list[list[Any]]:
-    """The facts of a card: name, text or texts, and how they are shown."""
-    least, quality, links = said["transmission"], said["quality"], said["links"]
-    transmits = {"-": "–", "0°": "down to 0°"}.get(least, f"{least} or more")
-    facts: list[list[Any]] = [["worst miss", "–" if miss == ["-"] else miss]]
-    facts.append(["transmission", transmits])
-    if quality:
-        both = [quality["extent"], quality["sensitivity"]]
-        facts.append(["extent, sensitivity", both, "bm-detail"])
-    facts.append(["driver", dict(said["facts"])["driver"]])
-    if links:
-        return [*facts, ["links", [*links.values()], "bm-detail bm-links"]]
-    dyads = " · ".join(f"{each.id} ({type(each.dyad).__name__})" for each in found.dyads)
-    return [*facts, ["dyads", dyads, "bm-detail"]]
 
 
 def _story(synthesis: Synthesis, found: FoundLinkage, reasons: list[str], moves: bool) -> str:

@@ -73,7 +73,7 @@ def _generator(synthesis: FunctionSynthesis, found: FoundGenerator) -> dict[str,
     dots = dots if len(dots) <= MOST_DOTS else []
     title = "output (°)" + (", wanted as dots" if dots else "")
     transmits = {"–": "–", "0°": "down to 0°"}.get(transmission, f"{transmission} or more")
-    links = [f"{length:.6g}" for length in found.lengths.values()]
+    links = [f"{name} {length:.4g}" for name, length in found.lengths.items()]
     reasons = "; ".join(filter(None, (lacks, *found.shortcomings)))
     return {
         **report,
@@ -90,7 +90,7 @@ def _generator(synthesis: FunctionSynthesis, found: FoundGenerator) -> dict[str,
             "facts": [
                 ["greatest error", words.angle(found.max_error)],
                 ["transmission", transmits],
-                ["links", links, "bm-detail bm-links"],
+                ["links", links],
             ],
             "reason": f"It {reasons}" if reasons else None,
         },

@@ -152,7 +152,7 @@ def _six_bar(synthesis: Synthesis, found: FoundSixBar, scene: float) -> dict[str
                 ["driver", row[1] + turn],
                 ["transmission", f"{least} or more"],
                 ["extent", length_of(found.extent, synthesis.task)],
-                ["link ratio", figure(found.link_ratio), "bm-detail"],
+                ["link ratio", figure(found.link_ratio)],
             ],
             "reason": lacks if found.usable else told[1],
         },

@@ -99,6 +99,9 @@ def led(found):
 def test_cards_say_what_the_command_says(shared, result):
     names = shared.locator("[data-linkage]").evaluate_all("all => all.map(e => e.dataset.linkage)")
     assert names == [each["id"] for each in result["linkages"]]
+    poses = result["task"]["poses"]
+    sides = [np.ptp([each[key] for each in poses]) for key in "xy"]
+    span = max(math.hypot(*sides), result["length_per_radian"])
     for each in result["linkages"]:
         text = card(shared, each["id"]).inner_text()
         assert each["type"] in text
@@ -111,9 +114,9 @@ def test_cards_say_what_the_command_says(shared, result):
         said = re.search(r"[\d.]+", figure(shared, each["id"], "least"))[0]
         assert float(said) == pytest.approx(math.floor(10 * (least or 0)) / 10, abs=0.051)
         size = float(figure(shared, each["id"], "size").split()[0])
-        assert size == pytest.approx(each["quality"]["extent"], rel=0.051)
-        sensitivity = float(figure(shared, each["id"], "sensitivity"))
-        assert sensitivity == pytest.approx(each["quality"]["sensitivity"], rel=0.051)
+        assert size == pytest.approx(each["quality"]["extent"] * span, rel=0.051)
+        moved = float(re.search(r"moves it (\S+)", figure(shared, each["id"], "sensitivity"))[1])
+        assert moved == pytest.approx(0.1 * each["quality"]["sensitivity"], rel=0.051)  # by 0.1 mm
         for defect in [*each["defects"], *each["unmet"]]:
             if defect["kind"] in ("circuit", "branch"):
                 assert defect["message"] in text
@@ -268,12 +271,14 @@ def test_a_picked_point_draws_its_curve_and_goes_along(shared, result):
 
 def test_two_linkages_are_compared_at_the_same_pose(shared, result):
     card(shared, "L1").locator("button").first.click()
-    card(shared, "L2").get_by_text("Compare").click()
+    for name in ("L1", "L2"):
+        card(shared, name).get_by_text("Pin").click()
+    shared.locator(".bs-compare").scroll_into_view_if_needed()
     shared.wait_for_selector(".bs-compare .bm-coupler")
     idle(shared, 100)
     places = shared.evaluate(
-        """() => [...document.querySelectorAll(".bs-compare .bm-plane")].map((svg) => {
-          const found = svg.querySelector(".bm-coupler").getAttribute("transform");
+        """() => [...document.querySelectorAll(".bs-compare .bm-portrait")].map((svg) => {
+          const found = svg.querySelector(".bm-portrait-now .bm-coupler").getAttribute("transform");
           const [x, y] = found.match(/-?[\\d.]+/g).map(Number);
           const { scale, left, top } = svg.dataset;
           return [(x - left) / scale, (top - y) / scale];
@@ -285,11 +290,11 @@ def test_two_linkages_are_compared_at_the_same_pose(shared, result):
     assert away[pose] < 0.01
     assert places[1] == pytest.approx([other[pose]["x"], other[pose]["y"]], abs=0.01)
     rows = shared.locator(".bs-compared tbody tr").all_inner_texts()
-    worst = next(row for row in rows if row.startswith("worst miss")).split("\t")[1:]
+    worst = next(row for row in rows if row.startswith("misses by")).split("\t")[1:]
     for text, each in zip(worst, result["linkages"], strict=False):
         assert float(text.split()[0]) == pytest.approx(each["position_error"]["max"], rel=0.051)
     shared.get_by_text("End the comparison").click()
-    assert shared.locator(".bs-compare .bm-plane").first.is_hidden()
+    assert shared.locator(".bs-compare").is_hidden()
 
 
 def test_cards_are_sorted_filtered_and_pinned(shared, result):
@@ -306,11 +311,11 @@ def test_cards_are_sorted_filtered_and_pinned(shared, result):
     assert names() == sorted(worst, key=worst.get)
     status = shared.locator(".bs-results-status")
     assert "not shown" not in status.inner_text()
-    shared.locator("[data-choice=filter]").select_option("usable")
+    shared.locator("[data-chip=usable]").click()
     assert names() == [each["id"] for each in result["linkages"] if each["usable"]]
     hidden = sum(not each["usable"] for each in result["linkages"])
     assert status.inner_text().startswith(f"{hidden} not shown by the filter. ")
-    shared.locator("[data-choice=filter]").select_option("all")
+    shared.locator("[data-chip=all]").click()
     assert "not shown" not in status.inner_text()
     last = names()[-1]
     card(shared, last).get_by_text("Pin").click()

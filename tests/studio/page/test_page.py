@@ -140,11 +140,12 @@ def test_on_paper_stands_what_was_stated_and_every_number(page):
     page.emulate_media(media="screen")
     assert limits.is_visible()
     assert not facts.first.is_visible()
-    page.locator('[data-linkage="L2"]').get_by_text("Compare").click()
+    for name in ("L1", "L2"):
+        page.locator(f'[data-linkage="{name}"]').get_by_text("Pin").click()
     page.emulate_media(media="print")
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
-    assert page.locator(".bs-compare .bm-coupler").count() == 2
-    for each in page.locator(".bs-compare .bm-plane").all():  # as wide and high as it is drawn
+    assert page.locator(".bs-compare .bm-portrait-now .bm-coupler").count() == 2
+    for each in page.locator(".bs-compare .bm-portrait").all():  # as wide and high as it is drawn
         box = each.bounding_box()
         width, height = map(float, each.get_attribute("viewBox").split()[2:])
         assert box["width"] / box["height"] == pytest.approx(width / height, rel=0.02)

@@ -346,8 +346,8 @@ function placeAt(linkage, way, u, length) {
   };
   return project(linkage.led, place, length);
 }
-function placeOfJoints({ ground }, way, moving, u) {
-  const at = (values) => smooth(values, u), joints = { ...ground };
+function placeOfJoints({ ground: ground2 }, way, moving, u) {
+  const at = (values) => smooth(values, u), joints = { ...ground2 };
   for (const [name, [x, y]] of Object.entries(moving)) joints[name] = [at(x), at(y)];
   return { x: at(way.x), y: at(way.y), a: at(way.angle), joints };
 }
@@ -572,10 +572,514 @@ var Assemblies = class {
   }
 };
 
+// src/burmester/web/widget/travel.mjs
+var LONGEST_STEP = 0.015;
+var MOST_BETWEEN = 40;
+var LEAST_STRETCH = 1e-6;
+function stretchOf(linkage, index, whole = false) {
+  const last = (linkage?.ways[index]?.x.length ?? 2) - 1, frames = linkage.pose_errors.filter((row) => row.way === index).map((row) => row.frame);
+  const low = frames.reduce((a, b) => Math.min(a, b), last), high = frames.reduce((a, b) => Math.max(a, b), 0);
+  const isApart = high - low > LEAST_STRETCH, sense = frames[frames.length - 1] < frames[0] ? -1 : 1;
+  return { ...isApart && !whole ? { low, high } : { low: 0, high: last }, sense, isApart };
+}
+var placesOf = (data, linkage, way, stretch) => placesAlong(data, stretch, (u) => Number.isInteger(u) && !way.joints ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
+function placesAlong(data, { low, high }, at) {
+  const places = [at(low)];
+  let before = low;
+  const goTo = (u) => {
+    const next = at(u), last = places[places.length - 1];
+    const count = Math.min(MOST_BETWEEN, Math.floor(Math.hypot(next.x - last.x, next.y - last.y) / (LONGEST_STEP * data.scene)));
+    for (let k = 1; k <= count; k += 1) places.push(at(before + k / (count + 1) * (u - before)));
+    places.push(next);
+    before = u;
+  };
+  for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
+  goTo(high);
+  return places;
+}
+function wayOfMost({ ways }) {
+  const counts = ways.map((way) => way.poses.length);
+  return Math.max(0, counts.indexOf(Math.max(...counts)));
+}
+function driveAtTime({ time: { x, y } }, time) {
+  return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, time) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, time);
+}
+function alongLine(dyad, place) {
+  const [nx, ny] = normalOf(dyad);
+  const [x, y] = dyad.kind === "PR" ? act(place, dyad.moving_pivot) : back(place, dyad.fixed_pivot);
+  return nx * y - ny * x;
+}
+function travelOf(dyad, places) {
+  const along = places.map((place) => alongLine(dyad, place));
+  return [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
+}
+function pointOnLine(dyad, along) {
+  const [nx, ny] = normalOf(dyad), { offset } = dyad.line;
+  return [offset * nx - along * ny, offset * ny + along * nx];
+}
+
+// src/burmester/web/widget/framing.mjs
+var WIDEST = 4;
+var ROOM = 2.5;
+var SPARE = 0.75;
+var LEAST = 0.25;
+var MOST_PLACES = 400;
+var INSET = 12;
+var bounds = (points) => points.reduce(([x, y, u, v], [a, b]) => Number.isFinite(a + b) ? [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)] : [x, y, u, v], [Infinity, Infinity, -Infinity, -Infinity]);
+var placesAtPoses = (data, linkage) => data.poses.flatMap((pose, k) => {
+  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
+  return at.angle_deg === null ? [] : [{ x: at.x, y: at.y, a: radians(at.angle_deg), k }];
+});
+function farFrom(data) {
+  const [x, y, u, v] = bounds(data.poses.map((pose) => [pose.x, pose.y])), reach = (data.body ?? []).reduce((most, [a, b]) => Math.max(most, Math.hypot(a, b)), 0);
+  return (point) => !(Math.hypot(point[0] - (x + u) / 2, point[1] - (y + v) / 2) < Math.max(WIDEST * data.scene, reach));
+}
+function pivotsAt(linkage, places) {
+  const fixed2 = linkage.led.flatMap((dyad) => dyad.fixed_pivot ? [dyad.fixed_pivot] : []);
+  const own = linkage.led.flatMap((dyad) => dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : []);
+  return [...fixed2, ...places.flatMap((place) => [...own.map((point) => act(place, point)), ...Object.values(place.joints ?? {})])];
+}
+function nearPoints(data, linkage, places, { far = false, close = false } = {}) {
+  const isFar = farFrom(data), seen = (point) => far || !isFar(point);
+  const reached = linkage ? [...linkage.pose_errors.filter((row) => row.x !== null), ...places] : [];
+  const points = [...[...data.poses, ...reached].map(({ x, y }) => [x, y]), ...linkage ? [...pivotsAt(linkage, places), ...markPoints(data, places)] : []];
+  const some = places.filter((place, k) => k % Math.ceil(places.length / MOST_PLACES) === 0 && seen([place.x, place.y]));
+  const corners = data.body && !close ? [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner))) : [];
+  return [...points.filter(seen), ...corners];
+}
+function fitted(near, others, whole) {
+  const all = bounds([...near, ...others]);
+  const [x, y, u, v] = bounds(near), size = Math.max(u - x, v - y) || 1, reach = SPARE * size;
+  if (whole || !near.length || Math.max(all[2] - all[0], all[3] - all[1]) <= ROOM * size) return all;
+  return [Math.max(all[0], x - reach), Math.max(all[1], y - reach), Math.min(all[2], u + reach), Math.min(all[3], v + reach)];
+}
+function boxOf(data, linkage, places, { whole = false, close = false } = {}) {
+  const near = nearPoints(data, linkage, places, { far: whole, close }), regions = close ? [] : data.keep_out.flatMap((region) => region.outline);
+  const box = fitted(near, regions, whole || !linkage), least = LEAST * data.scene;
+  for (const k of [0, 1]) {
+    const lack = Math.max(0, least - (box[k + 2] - box[k]));
+    box[k] -= lack / 2;
+    box[k + 2] += lack / 2;
+  }
+  return box;
+}
+function viewOf(box, width, height, margin) {
+  const scale = Math.min((width - 2 * margin) / (box[2] - box[0]), (height - 2 * margin) / (box[3] - box[1]));
+  const left = width / 2 - scale * (box[0] + box[2]) / 2, top = height / 2 + scale * (box[1] + box[3]) / 2;
+  return { scale, left, top, width, height, X: (x) => left + scale * x, Y: (y) => top - scale * y };
+}
+function edgeTowards({ X, Y, width, height }, at) {
+  const x = X(at[0]), y = Y(at[1]), cx = width / 2, cy = height / 2;
+  if (x >= 0 && y >= 0 && x <= width && y <= height) return null;
+  const size = Math.hypot(x - cx, y - cy), u = (x - cx) / size, v = (y - cy) / size;
+  const reach = Math.min((cx - INSET) / Math.abs(u), (cy - INSET) / Math.abs(v));
+  return { x: cx + reach * u, y: cy + reach * v, angle: Math.atan2(-v, u) };
+}
+
+// src/burmester/web/widget/outlines.mjs
+var HATCH = 9;
+var PALEST = 0.45;
+var LONGEST_NAME = 28;
+var MANY_GHOSTS = 6;
+var patterns = 0;
+var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
+var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
+var hasGhost = (k, count) => count <= MANY_GHOSTS || k === 0 || k === count - 1;
+function ghosts(data, linkage, view) {
+  const group = s("g", { class: "bm-ghosts" });
+  if (!data.body) {
+    for (const row of linkage?.drawn ? linkage.pose_errors.filter((_, k) => hasGhost(k, linkage.pose_errors.length)) : []) group.append(plate(placeAt(linkage, linkage.ways[row.way], row.frame, data.chart.length), linkage, view));
+    return group;
+  }
+  const last = Math.max(1, data.poses.length - 1);
+  for (const { x, y, a, k } of placesAtPoses(data, linkage).filter((place) => !linkage || hasGhost(place.k, data.poses.length))) {
+    const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
+    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
+  }
+  return group;
+}
+var plate = (place, { drawn }, view) => s("path", { class: "bm-ghost", d: `${polyline([...drawn.find(({ kind }) => kind === "carried").joints].map((joint) => place.joints[joint] ?? [place.x, place.y]), view)}Z` });
+function keepOut(data, view) {
+  const group = s("g", { class: "bm-keep-out" });
+  if (!data.keep_out.length) return group;
+  const id = `bm-hatch-${patterns += 1}`;
+  group.append(
+    s(
+      "defs",
+      {},
+      s(
+        "pattern",
+        { id, width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+        s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` })
+      )
+    )
+  );
+  for (const region of data.keep_out) {
+    const d = closed(region.outline, view, [view.left, view.top]);
+    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
+  }
+  return group;
+}
+function keepOutNames(data, view, labels) {
+  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
+    const text = shortened(name, LONGEST_NAME);
+    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
+    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
+  });
+}
+
+// src/burmester/web/widget/mechanism.mjs
+var BODY_AXIS = AXIS + 10;
+var LETTER = 14;
+var TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
+var BLOCK_IN_SLOT = [18, 10];
+var SPARE2 = 5;
+var NAME = 15;
+var ARROW = 24;
+function mechanism(data, linkage, view, places) {
+  const drawn = new Mechanism(linkage);
+  drawn.shape(data, linkage, view, places);
+  return drawn;
+}
+var Mechanism = class {
+  constructor({ led, drawn: links = [], ground: ground2, names }) {
+    this.kinds = kindsOf(led);
+    this.outline = s("path", { class: "bm-body-outline" });
+    this.links = s("g");
+    this.blocks = s("g");
+    this.pins = s("g");
+    this.coupler = s("g", { class: "bm-coupler" });
+    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
+    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
+    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
+    this.coupler.append(...this.plates);
+    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
+    if (links.length) this.parts.push(...links.map((link) => new JointedLink(this, link)), new Joints(this, ground2, names));
+    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
+    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
+    this.marks = new LoadMarks();
+    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.marks.group, links.length ? null : this.letter);
+  }
+  /** Whether it can be given the dimensions of a linkage. */
+  fits({ led }) {
+    return kindsOf(led) === this.kinds;
+  }
+  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
+  shape(data, linkage, view, places) {
+    this.view = view;
+    this.led = linkage.led;
+    this.hasBody = Boolean(data.body);
+    if (this.hasBody) {
+      put(this.outline, "d", bodyOutline(data, view));
+      if (!this.outline.parentNode) this.group.prepend(this.outline);
+    } else {
+      this.outline.remove();
+    }
+    const corners = [[0, 0]];
+    linkage.led.forEach((dyad, side) => {
+      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
+      const more = this.parts[side].shape(dyad, view, places);
+      if (more) corners.push(more);
+    });
+    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
+    for (const plate2 of linkage.drawn ? [] : this.plates) put(plate2, "d", d);
+    for (const part of this.parts.slice(linkage.led.length)) part.shape(view);
+    this.marks.shape(data, linkage, view);
+    this.shapeArrow();
+  }
+  /** drive: where the driver is, for what is known over it only. */
+  show(place, drive = null) {
+    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
+    this.marks.show(place, drive);
+    put(this.coupler, "transform", at);
+    if (this.hasBody) put(this.outline, "transform", at);
+    for (const part of this.parts) part.show(place);
+    const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
+    put(this.letter, "transform", `translate(${px(view.X(x))} ${px(view.Y(y) + 4)})`);
+    const [driver] = this.led;
+    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
+  }
+  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
+  shapeArrow() {
+    const { arrow, view } = this, [driver] = this.led;
+    if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
+    if (!driver.fixed_pivot) return;
+    const [x, y] = driver.fixed_pivot;
+    put(arrow, "d", TURNING_ARROW);
+    put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
+  }
+};
+var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
+var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
+function onRail(dyad, place, view) {
+  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
+  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
+}
+var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
+function setPin(pin, [x, y], dyad) {
+  put(pin, "cx", px(x));
+  put(pin, "cy", px(y));
+  put(pin, "data-dyad", dyad.id);
+}
+var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
+var Bar = class {
+  constructor({ links, pins }, side) {
+    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    links.append(this.bar);
+    pins.append(this.ground);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
+    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
+  }
+};
+var BlockOnRail = class {
+  constructor({ blocks }, side) {
+    this.block = block(side, ...BLOCK);
+    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
+    blocks.append(this.block);
+  }
+  shape(dyad, view) {
+    this.dyad = dyad;
+    this.view = view;
+    put(this.block, "data-dyad", dyad.id);
+    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
+  }
+  show(place) {
+    put(this.block, "transform", onRail(this.dyad, place, this.view));
+  }
+};
+var Slot = class {
+  constructor({ blocks, pins, coupler }, side) {
+    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
+    this.strokes.push(s("path", { class: "bm-slot" }));
+    this.block = block(side, ...BLOCK_IN_SLOT);
+    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
+    coupler.append(...this.strokes);
+    blocks.append(this.block);
+    pins.append(this.ground);
+  }
+  /** Returns the middle of the slot, for the body's plate. */
+  shape(dyad, view, places) {
+    this.dyad = dyad;
+    this.view = view;
+    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE2) / view.scale;
+    const seen = (along) => inBody(pointOnLine(dyad, along), view);
+    const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
+    for (const stroke of this.strokes) put(stroke, "d", d);
+    for (const part of [this.strokes[3], this.block]) put(part, "data-dyad", dyad.id);
+    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
+    return seen((low + high) / 2);
+  }
+  show(place) {
+    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
+    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
+  }
+};
+var JointedLink = class {
+  constructor({ links }, { joints, kind }) {
+    this.joints = [...joints];
+    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
+    links.append(s("g", { class: `bm-link bm-${kind}${joints.length > 2 ? " bm-ternary" : ""}`, "data-link": joints.replace("M", "") }, this.strokes));
+  }
+  shape(view) {
+    this.view = view;
+  }
+  show(place) {
+    const d = `M${this.joints.map((joint) => inGround(place.joints[joint] ?? [place.x, place.y], this.view).map(px).join(" ")).join("L")}${this.joints.length > 2 ? "Z" : ""}`;
+    for (const stroke of this.strokes) put(stroke, "d", d);
+  }
+};
+var Joints = class {
+  constructor({ pins }, ground2, names) {
+    this.pins = [...Object.keys(ground2), ...Object.keys(names)].map((joint) => {
+      const pin = s("circle", { class: `bm-pin${joint in ground2 ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint });
+      return { joint, pin, link: [...names[joint] ?? ""], name: joint in ground2 ? null : s("text", { class: "bm-name", "text-anchor": "middle" }, joint) };
+    });
+    pins.append(...this.pins.map(({ pin }) => pin), ...this.pins.flatMap(({ name }) => name ?? []));
+  }
+  shape(view) {
+    this.view = view;
+  }
+  show({ joints }) {
+    for (const { joint, pin, link, name } of this.pins) {
+      const [x, y] = inGround(joints[joint], this.view);
+      put(pin, "cx", px(x));
+      put(pin, "cy", px(y));
+      if (!name) continue;
+      const [u, v] = outwards(link.map((each) => inGround(joints[each], this.view)), [x, y]);
+      put(name, "x", px(x + NAME * u));
+      put(name, "y", px(y + NAME * v + 4));
+    }
+  }
+};
+function outwards(corners, [x, y]) {
+  const middle = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
+  const u = x - middle[0], v = y - middle[1], size = Math.hypot(u, v);
+  return size > 1 ? [u / size, v / size] : [0, -1];
+}
+var Nothing = class {
+  shape() {
+  }
+  show() {
+  }
+};
+var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing, crank: Nothing };
+
+// src/burmester/web/widget/rail.mjs
+var LONGEST = 4e3;
+function railOf(dyad, places, view) {
+  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
+  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
+  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
+  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
+  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
+  const drawn = Math.min(half, LONGEST);
+  let hatch = "";
+  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
+  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
+}
+
+// src/burmester/web/widget/portrait.mjs
+var WIDTH = 300;
+var HEIGHTS = [110, 180];
+var MARGIN = 16;
+var BODY_ROOM = 3;
+var Portrait = class {
+  constructor() {
+    this.svg = s("svg", { class: "bm-portrait", viewBox: `0 0 ${WIDTH} ${HEIGHTS[0]}`, "aria-hidden": "true" });
+  }
+  /** Draw a linkage, if it is another one, or has other ways, than before. */
+  draw(data, linkage) {
+    if (this.ways === linkage.ways || !linkage.ways.length) return;
+    this.ways = linkage.ways;
+    this.linkage = linkage;
+    const bare = { ...data, ...linkage.picture, loads: null, keep_out: [] }, index = this.index = wayOfMost(linkage), way = linkage.ways[index];
+    const stretch = stretchOf(linkage, index), places = placesOf(bare, linkage, way, stretch), ends = stretch.sense < 0 ? [stretch.high, stretch.low] : [stretch.low, stretch.high];
+    const box = boxOf(bare, linkage, places), close = boxOf(bare, linkage, places, { close: true });
+    const held = sizeOf(box) > BODY_ROOM * sizeOf(close) ? close : box, [x, y, u, v] = held, height = Math.round(clamp((v - y) / (u - x) * (WIDTH - 2 * MARGIN) + 2 * MARGIN, HEIGHTS[0], HEIGHTS[1]));
+    const view = viewOf(held, WIDTH, height, MARGIN);
+    put(this.svg, "viewBox", `0 0 ${WIDTH} ${height}`);
+    Object.assign(this.svg.dataset, { scale: view.scale, left: view.left, top: view.top });
+    this.length = data.chart.length;
+    const at = (u2) => placeAt(linkage, way, u2, data.chart.length);
+    const one = (u2) => {
+      const drawn = new Mechanism(linkage);
+      drawn.shape(bare, linkage, view, places);
+      drawn.show(at(u2), linear(way.drive, u2));
+      return drawn;
+    };
+    const last = one(ends[1]);
+    last.group.classList.add("bm-portrait-last");
+    this.now = one(ends[0]);
+    this.now.group.classList.add("bm-portrait-now");
+    const path = s("path", { class: "bm-curve bm-here", d: polyline(places.map(({ x: x2, y: y2 }) => [x2, y2]), view) });
+    const poses = bare.poses.map(({ x: x2, y: y2 }) => s("circle", { class: "bm-portrait-pose", cx: px(view.X(x2)), cy: px(view.Y(y2)), r: 4 }));
+    this.svg.replaceChildren(...linkage.led.map((dyad) => ground(dyad, places, view)).filter(Boolean), path, last.group, ...poses, this.now.group);
+  }
+  /** Move it to a frame of one of its ways; back to its first pose where there is none. */
+  show(at) {
+    if (!this.now || !this.linkage) return;
+    const index = at?.way ?? this.index, stretch = stretchOf(this.linkage, index), u = at?.u ?? (stretch.sense < 0 ? stretch.high : stretch.low), way = this.linkage.ways[index];
+    this.now.show(placeAt(this.linkage, way, u, this.length ?? 1), linear(way.drive, u));
+  }
+};
+var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+function ground(dyad, places, view) {
+  if (dyad.kind === "PR") {
+    const { x, y, turned, paths } = railOf(dyad, places, view);
+    return s("g", { class: "bm-rail", transform: transform(x, y, turned) }, paths.map((d) => s("path", { class: "bm-ground", d })));
+  }
+  if (!dyad.fixed_pivot) return null;
+  const at = foot();
+  put(at, "transform", `translate(${px(view.X(dyad.fixed_pivot[0]))} ${px(view.Y(dyad.fixed_pivot[1]))})`);
+  return at;
+}
+
 // src/burmester/web/widget/cards.mjs
+var ERRORS = { mm: 0.1, cm: 0.01, m: 1e-4, um: 1, in: 5e-3, ft: 5e-4 };
+var LINK_DIGITS = 4;
+var ALIKE = 0.02;
+var missOf2 = ({ said }, data) => said.worst === "-" ? "–" : [said.worst === "exact" ? "nothing" : withUnit(said.worst, data), said.angle && !["-", "exact", "free"].includes(said.angle) ? said.angle : null].filter(Boolean).join(", ");
+var withUnit = (text, data) => `${text}${data.unit ? ` ${data.unit}` : ""}`;
+var sizeOf2 = (linkage, data) => (linkage.quality?.extent ?? NaN) * data.span;
+function sensitivityText({ quality }, data) {
+  const sensitivity = quality?.sensitivity ?? NaN, error = ERRORS[data.unit] ?? 10 ** Math.round(Math.log10(data.span / 1e3));
+  return [`${withUnit(figure(error), data)} of error`, Number.isFinite(sensitivity) ? `moves it ${withUnit(figure(error * sensitivity), data)}` : "–"];
+}
+var figuresOf = (linkage, data) => [
+  ["worst", "misses by", missOf2(linkage, data)],
+  ["least", "transmits", leastText(linkage.said.transmission)],
+  ["size", "size", Number.isFinite(sizeOf2(linkage, data)) ? withUnit(figure(sizeOf2(linkage, data)), data) : "–"],
+  ["sensitivity", ...sensitivityText(linkage, data)]
+];
+var leastText = (text) => ({ "-": "–", "–": "–", "0°": "down to 0°" })[text] ?? `${text} or more`;
+function differenceOf(linkage, best, data) {
+  if (!linkage.usable || !best?.usable || best.id === linkage.id) return "";
+  const size = sizeOf2(linkage, data) - sizeOf2(best, data), angle = leastOf(linkage) - leastOf(best), sense = (value, more, less) => value > 0 ? more : less;
+  const parts = [
+    Math.abs(size) > ALIKE * sizeOf2(best, data) ? `${withUnit(figure(Math.abs(size)), data)} ${sense(size, "larger", "smaller")}` : "",
+    Math.abs(angle) >= 0.5 ? `transmits ${fixed(Math.abs(angle), 0)}° ${sense(angle, "more", "less")}` : ""
+  ].filter(Boolean);
+  return parts.length ? `Than ${best.id}: ${parts.join(", ")}` : "";
+}
+var leastOf = (linkage) => linkage.least ?? linkage.min_transmission_angle_deg?.range ?? NaN;
+function verdictOf(linkage) {
+  if (linkage.card?.facts) return linkage.card.verdict;
+  if (!linkage.usable) return "✕ not usable";
+  return linkage.shortcomings?.length && !linkage.followed ? `✓ usable, but ${linkage.shortcomings.join("; ")}` : "✓ usable";
+}
+var Card = class {
+  /** @param {string} kind @param {() => void} onclick */
+  constructor(kind, onclick) {
+    this.name = h("b", {});
+    this.type = h("span", { class: "bm-type" });
+    this.was = h("span", { class: "bs-was" });
+    this.verdict = h("span", { class: "bm-verdict" });
+    this.portrait = new Portrait();
+    this.figures = h("dl", {});
+    this.differs = h("span", { class: "bm-differs" });
+    this.links = h("span", { class: "bm-lengths" });
+    this.quiet = h("span", { class: "bm-quiet" });
+    this.reason = h("span", { class: "bm-reason" });
+    this.help = h("span", { class: "bs-help" });
+    this.element = h(
+      "button",
+      { type: "button", class: kind, "aria-pressed": "false", onclick },
+      h("span", { class: "bm-choice-head" }, this.name, " ", this.type, " ", this.was),
+      this.portrait.svg,
+      this.verdict,
+      this.figures,
+      this.differs,
+      this.links,
+      this.quiet,
+      this.reason,
+      this.help
+    );
+  }
+  /** figures: [key, name, text] each; what is not given stays empty. */
+  show(data, linkage, { name = linkage.id, was = "", verdict = verdictOf(linkage), figures, differs = "", links = "", quiet = "", reason = "", help = "" }) {
+    this.portrait.draw(data, linkage);
+    for (const [element, text] of [[this.name, name], [this.type, linkage.type], [this.was, was], [this.verdict, verdict], [this.differs, differs], [this.links, links], [this.quiet, quiet], [this.reason, reason], [this.help, help]]) say(element, text);
+    const rows = this.figures.children, names = figures.map(([key, title]) => `${key} ${title}`).join();
+    if (names !== this.names) this.figures.replaceChildren(...figures.map(([key, title]) => h("div", {}, h("dt", {}, title), h("dd", { "data-figure": key }))));
+    this.names = names;
+    figures.forEach(([, , text], k) => say(rows[k].lastChild, text));
+  }
+};
 var Cards = class {
-  constructor(linkages, choose) {
-    const cards = this.cards = linkages.map((each, k) => cardOf(each, () => choose(k)));
+  constructor(data, linkages, choose) {
+    const cards = this.cards = linkages.map((each, k) => cardOf(data, each, linkages[0], () => choose(k)));
     this.element = h(
       "nav",
       { class: "bm-list", "aria-label": "Linkages, best first" },
@@ -594,18 +1098,18 @@ var Cards = class {
     this.cards.forEach((each, k) => each.setAttribute("aria-pressed", String(k === index)));
   }
 };
-var SIGNS = { "bm-detail bm-links": " " };
-function cardOf({ id, type, usable, card: { verdict, facts, quiet, reason } }, onclick) {
-  const parts = (text, kind) => Array.isArray(text) ? text.map((each, k) => [k ? SIGNS[kind] ?? ", " : "", h("span", { class: "bm-whole-word" }, each)]) : text;
-  return h(
-    "button",
-    { type: "button", class: `bm-choice ${usable ? "bm-good" : "bm-bad"}`, "aria-pressed": "false", "data-linkage": id, onclick },
-    h("span", { class: "bm-choice-head" }, h("b", {}, id), " ", h("span", { class: "bm-type" }, type)),
-    h("span", { class: "bm-verdict" }, verdict),
-    h("dl", {}, facts.map(([name, text, kind = null]) => [h("dt", { class: kind }, name), h("dd", { class: kind }, parts(text, kind))])),
-    quiet ? h("span", { class: "bm-quiet" }, quiet) : null,
-    reason ? h("span", { class: "bm-reason" }, reason) : null
-  );
+function cardOf(data, linkage, best, onclick) {
+  const { facts, quiet, reason } = linkage.card, links = Object.entries(linkage.said.links ?? {});
+  const card = new Card(`bm-choice ${linkage.usable ? "bm-good" : "bm-bad"}`, onclick);
+  put(card.element, "data-linkage", linkage.id);
+  card.show(data, linkage, {
+    figures: facts?.map(([name, text]) => [name, name, Array.isArray(text) ? text.join(", ") : text]) ?? figuresOf(linkage, data),
+    differs: facts ? "" : differenceOf(linkage, best, data),
+    links: links.length ? withUnit(links.map(([name, text]) => `${name} ${Number(Number(text).toPrecision(LINK_DIGITS))}`).join(", "), data) : "",
+    quiet: quiet ?? "",
+    reason: reason ?? ""
+  });
+  return card.element;
 }
 
 // src/burmester/web/widget/family_pairs.mjs
@@ -792,7 +1296,7 @@ var PartnerCurve = class {
 var TINTS = ["", "", "outside", "order", "branch", "circuit", "none"];
 var SHORT = ["works", "works", "outside limits or standard", "order defect", "branch defect", "circuit defect", ""];
 var SPECK = 6;
-var MARGIN = { left: 50, right: 8, top: 8, bottom: 26 };
+var MARGIN2 = { left: 50, right: 8, top: 8, bottom: 26 };
 var LARGEST = 520;
 var BESIDE = 620;
 var FamilyMap = class {
@@ -842,7 +1346,7 @@ var FamilyMap = class {
   build(linkage, index) {
     const { parent, svg, isCurve } = this, wide = Math.max(240, parent.clientWidth);
     const beside = isCurve && wide >= BESIDE, width = !isCurve ? wide : Math.min(LARGEST, beside ? Math.floor((wide - 16) / 2) : wide);
-    const margin = isCurve ? MARGIN : { left: 0, right: 0, top: 0, bottom: 0 };
+    const margin = isCurve ? MARGIN2 : { left: 0, right: 0, top: 0, bottom: 0 };
     const across = width - margin.left - margin.right;
     const down = isCurve ? across : Math.round(across * this.rows / this.columns);
     const height = down + margin.top + margin.bottom;
@@ -1098,10 +1602,10 @@ function intersections(c, o, d) {
 }
 
 // src/burmester/web/widget/ray_casting.mjs
-var WIDTH = 440;
+var WIDTH2 = 440;
 var TURNING_SHARE = 0.35;
 function drawStill(canvas, scene, size, turning) {
-  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH / size.width);
+  const share = turning ? TURNING_SHARE : Math.min(1, WIDTH2 / size.width);
   const width = Math.round(size.width * share), height = Math.round(size.height * share);
   canvas.width = width;
   canvas.height = height;
@@ -1666,8 +2170,8 @@ var MANY_POSES2 = 40;
 var HEADROOM = 1.32;
 var NO_ERROR = 1e-7;
 var TITLE = "Errors and transmission angle";
-var INSET = 8;
-var LONGEST_NAME = 16;
+var INSET2 = 8;
+var LONGEST_NAME2 = 16;
 var NAME_WIDTH = 11;
 var Plots = class {
   top = TOP;
@@ -1693,7 +2197,7 @@ var Plots = class {
     const go = (event) => {
       if (!this.way) return;
       const box = this.svg.getBoundingClientRect();
-      const at = (event.clientX - box.left - LEFT - INSET) / (this.width - LEFT - RIGHT - 2 * INSET);
+      const at = (event.clientX - box.left - LEFT - INSET2) / (this.width - LEFT - RIGHT - 2 * INSET2);
       const drive = this.driveAt(this.low + clamp(at, 0, 1) * (this.high - this.low));
       if (drive !== null) scrub(frameAt(this.way.drive, drive));
     };
@@ -1714,7 +2218,7 @@ var Plots = class {
     svg.setAttribute("aria-label", `${linkage.id}: ${TITLE.toLowerCase()} along the driver`);
     const poses = linkage.pose_errors.map((row, k) => ({ ...row, pose: data.poses[k] })).filter((row) => row.way === index && row.pose);
     const upright = poses.some(({ pose }) => pose.label !== pose.name);
-    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME).length));
+    const longest = Math.max(0, ...poses.map(({ pose }) => shortened(poseName(pose), LONGEST_NAME2).length));
     this.top = TOP + (upright ? 6.2 * longest + 6 : 0);
     const count = linkage.panels ? linkage.panels.length + 1 : way.loops ? 1 : nounOf(data) === "point" ? 2 : 3;
     const [driver] = linkage.led, slides = driver.kind === "PR";
@@ -1737,7 +2241,7 @@ var Plots = class {
     const base = this.top + (count > 1 ? count * PANEL + (count - 1) * GAP : ONLY), height = base + BOTTOM;
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     svg.setAttribute("height", height);
-    this.X = (at) => LEFT + INSET + (at - low) / (high - low) * (width - LEFT - RIGHT - 2 * INSET);
+    this.X = (at) => LEFT + INSET2 + (at - low) / (high - low) * (width - LEFT - RIGHT - 2 * INSET2);
     const ends = [Math.min(low, high), Math.max(low, high)], marks = turns ? angleTicks(ends[0], ends[1], Math.max(3, width / 70)) : ticks(ends[0], ends[1], width / 90);
     this.across = low > high ? marks.reverse() : marks;
     this.marks = [];
@@ -1869,7 +2373,7 @@ var Plots = class {
       if (x - last < NAME_WIDTH) continue;
       last = x;
       const text = s("text", { class: "bm-dot-name bm-upright", transform: `translate(${px(x + 4)} ${px(y)}) rotate(-90)` });
-      text.append(shortened(poseName(row.pose), LONGEST_NAME));
+      text.append(shortened(poseName(row.pose), LONGEST_NAME2));
       this.svg.append(s("g", {}, s("title", {}, poseName(row.pose)), text));
     }
   }
@@ -1909,48 +2413,6 @@ var Plots = class {
     }
   }
 };
-
-// src/burmester/web/widget/travel.mjs
-var LONGEST_STEP = 0.015;
-var MOST_BETWEEN = 40;
-var LEAST_STRETCH = 1e-6;
-function stretchOf(linkage, index, whole = false) {
-  const last = (linkage?.ways[index]?.x.length ?? 2) - 1, frames = linkage.pose_errors.filter((row) => row.way === index).map((row) => row.frame);
-  const low = frames.reduce((a, b) => Math.min(a, b), last), high = frames.reduce((a, b) => Math.max(a, b), 0);
-  const isApart = high - low > LEAST_STRETCH, sense = frames[frames.length - 1] < frames[0] ? -1 : 1;
-  return { ...isApart && !whole ? { low, high } : { low: 0, high: last }, sense, isApart };
-}
-var placesOf = (data, linkage, way, stretch) => placesAlong(data, stretch, (u) => Number.isInteger(u) && !way.joints ? { x: way.x[u], y: way.y[u], a: way.angle[u] } : placeAt(linkage, way, u, data.chart.length));
-function placesAlong(data, { low, high }, at) {
-  const places = [at(low)];
-  let before = low;
-  const goTo = (u) => {
-    const next = at(u), last = places[places.length - 1];
-    const count = Math.min(MOST_BETWEEN, Math.floor(Math.hypot(next.x - last.x, next.y - last.y) / (LONGEST_STEP * data.scene)));
-    for (let k = 1; k <= count; k += 1) places.push(at(before + k / (count + 1) * (u - before)));
-    places.push(next);
-    before = u;
-  };
-  for (let k = Math.floor(low) + 1; k < high; k += 1) goTo(k);
-  goTo(high);
-  return places;
-}
-function driveAtTime({ time: { x, y } }, time) {
-  return y[0] <= y[y.length - 1] ? valueAt({ x: y, y: x }, time) : valueAt({ x: [...y].reverse(), y: [...x].reverse() }, time);
-}
-function alongLine(dyad, place) {
-  const [nx, ny] = normalOf(dyad);
-  const [x, y] = dyad.kind === "PR" ? act(place, dyad.moving_pivot) : back(place, dyad.fixed_pivot);
-  return nx * y - ny * x;
-}
-function travelOf(dyad, places) {
-  const along = places.map((place) => alongLine(dyad, place));
-  return [along.reduce((a, b) => Math.min(a, b)), along.reduce((a, b) => Math.max(a, b))];
-}
-function pointOnLine(dyad, along) {
-  const [nx, ny] = normalOf(dyad), { offset } = dyad.line;
-  return [offset * nx - along * ny, offset * ny + along * nx];
-}
 
 // src/burmester/web/widget/load_plots.mjs
 var TITLE2 = "Loads";
@@ -2228,338 +2690,6 @@ var PivotMap = class {
   }
 };
 
-// src/burmester/web/widget/framing.mjs
-var WIDEST = 4;
-var ROOM = 2.5;
-var SPARE = 0.75;
-var LEAST = 0.25;
-var MOST_PLACES = 400;
-var INSET2 = 12;
-var bounds = (points) => points.reduce(([x, y, u, v], [a, b]) => Number.isFinite(a + b) ? [Math.min(x, a), Math.min(y, b), Math.max(u, a), Math.max(v, b)] : [x, y, u, v], [Infinity, Infinity, -Infinity, -Infinity]);
-var placesAtPoses = (data, linkage) => data.poses.flatMap((pose, k) => {
-  const row = linkage?.pose_errors[k], at = row && row.x !== null ? row : pose;
-  return at.angle_deg === null ? [] : [{ x: at.x, y: at.y, a: radians(at.angle_deg), k }];
-});
-function farFrom(data) {
-  const [x, y, u, v] = bounds(data.poses.map((pose) => [pose.x, pose.y])), reach = (data.body ?? []).reduce((most, [a, b]) => Math.max(most, Math.hypot(a, b)), 0);
-  return (point) => !(Math.hypot(point[0] - (x + u) / 2, point[1] - (y + v) / 2) < Math.max(WIDEST * data.scene, reach));
-}
-function pivotsAt(linkage, places) {
-  const fixed2 = linkage.led.flatMap((dyad) => dyad.fixed_pivot ? [dyad.fixed_pivot] : []);
-  const own = linkage.led.flatMap((dyad) => dyad.moving_pivot ? [dyad.moving_pivot] : dyad.kind === "RP" && places.length ? travelOf(dyad, places).map((end) => pointOnLine(dyad, end)) : []);
-  return [...fixed2, ...places.flatMap((place) => [...own.map((point) => act(place, point)), ...Object.values(place.joints ?? {})])];
-}
-function nearPoints(data, linkage, places, { far = false, close = false } = {}) {
-  const isFar = farFrom(data), seen = (point) => far || !isFar(point);
-  const reached = linkage ? [...linkage.pose_errors.filter((row) => row.x !== null), ...places] : [];
-  const points = [...[...data.poses, ...reached].map(({ x, y }) => [x, y]), ...linkage ? [...pivotsAt(linkage, places), ...markPoints(data, places)] : []];
-  const some = places.filter((place, k) => k % Math.ceil(places.length / MOST_PLACES) === 0 && seen([place.x, place.y]));
-  const corners = data.body && !close ? [...placesAtPoses(data, linkage), ...some].flatMap((place) => data.body.map((corner) => act(place, corner))) : [];
-  return [...points.filter(seen), ...corners];
-}
-function fitted(near, others, whole) {
-  const all = bounds([...near, ...others]);
-  const [x, y, u, v] = bounds(near), size = Math.max(u - x, v - y) || 1, reach = SPARE * size;
-  if (whole || !near.length || Math.max(all[2] - all[0], all[3] - all[1]) <= ROOM * size) return all;
-  return [Math.max(all[0], x - reach), Math.max(all[1], y - reach), Math.min(all[2], u + reach), Math.min(all[3], v + reach)];
-}
-function boxOf(data, linkage, places, { whole = false, close = false } = {}) {
-  const near = nearPoints(data, linkage, places, { far: whole, close }), regions = close ? [] : data.keep_out.flatMap((region) => region.outline);
-  const box = fitted(near, regions, whole || !linkage), least = LEAST * data.scene;
-  for (const k of [0, 1]) {
-    const lack = Math.max(0, least - (box[k + 2] - box[k]));
-    box[k] -= lack / 2;
-    box[k + 2] += lack / 2;
-  }
-  return box;
-}
-function viewOf(box, width, height, margin) {
-  const scale = Math.min((width - 2 * margin) / (box[2] - box[0]), (height - 2 * margin) / (box[3] - box[1]));
-  const left = width / 2 - scale * (box[0] + box[2]) / 2, top = height / 2 + scale * (box[1] + box[3]) / 2;
-  return { scale, left, top, width, height, X: (x) => left + scale * x, Y: (y) => top - scale * y };
-}
-function edgeTowards({ X, Y, width, height }, at) {
-  const x = X(at[0]), y = Y(at[1]), cx = width / 2, cy = height / 2;
-  if (x >= 0 && y >= 0 && x <= width && y <= height) return null;
-  const size = Math.hypot(x - cx, y - cy), u = (x - cx) / size, v = (y - cy) / size;
-  const reach = Math.min((cx - INSET2) / Math.abs(u), (cy - INSET2) / Math.abs(v));
-  return { x: cx + reach * u, y: cy + reach * v, angle: Math.atan2(-v, u) };
-}
-
-// src/burmester/web/widget/outlines.mjs
-var HATCH = 9;
-var PALEST = 0.45;
-var LONGEST_NAME2 = 28;
-var MANY_GHOSTS = 6;
-var patterns = 0;
-var closed = (points, view, [x, y]) => `M${points.map((each) => `${px(x + view.scale * each[0])} ${px(y - view.scale * each[1])}`).join("L")}Z`;
-var bodyOutline = (data, view) => closed(data.body, view, [0, 0]);
-var hasGhost = (k, count) => count <= MANY_GHOSTS || k === 0 || k === count - 1;
-function ghosts(data, linkage, view) {
-  const group = s("g", { class: "bm-ghosts" });
-  if (!data.body) {
-    for (const row of linkage?.drawn ? linkage.pose_errors.filter((_, k) => hasGhost(k, linkage.pose_errors.length)) : []) group.append(plate(placeAt(linkage, linkage.ways[row.way], row.frame, data.chart.length), linkage, view));
-    return group;
-  }
-  const last = Math.max(1, data.poses.length - 1);
-  for (const { x, y, a, k } of placesAtPoses(data, linkage).filter((place) => !linkage || hasGhost(place.k, data.poses.length))) {
-    const opacity = (PALEST + (1 - PALEST) * k / last).toFixed(3);
-    group.append(s("path", { class: "bm-ghost", d: bodyOutline(data, view), "data-pose": k + 1, opacity, transform: transform(view.X(x), view.Y(y), a) }));
-  }
-  return group;
-}
-var plate = (place, { drawn }, view) => s("path", { class: "bm-ghost", d: `${polyline([...drawn.find(({ kind }) => kind === "carried").joints].map((joint) => place.joints[joint] ?? [place.x, place.y]), view)}Z` });
-function keepOut(data, view) {
-  const group = s("g", { class: "bm-keep-out" });
-  if (!data.keep_out.length) return group;
-  const id = `bm-hatch-${patterns += 1}`;
-  group.append(
-    s(
-      "defs",
-      {},
-      s(
-        "pattern",
-        { id, width: HATCH, height: HATCH, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
-        s("path", { class: "bm-hatch", d: `M0 0V${HATCH}` })
-      )
-    )
-  );
-  for (const region of data.keep_out) {
-    const d = closed(region.outline, view, [view.left, view.top]);
-    group.append(s("g", { class: "bm-region" }, s("title", {}, region.name || "keep out"), s("path", { class: "bm-region-plain", d }), s("path", { class: "bm-region-edge", d, fill: `url(#${id})` })));
-  }
-  return group;
-}
-function keepOutNames(data, view, labels) {
-  return data.keep_out.filter(({ name }) => name).map(({ name, at: [x, y] }) => {
-    const text = shortened(name, LONGEST_NAME2);
-    labels.block(view.X(x), view.Y(y), 7.2 * text.length, 14);
-    return s("text", { class: "bm-region-name", x: px(view.X(x)), y: px(view.Y(y) + 4), "text-anchor": "middle" }, text);
-  });
-}
-
-// src/burmester/web/widget/mechanism.mjs
-var BODY_AXIS = AXIS + 10;
-var LETTER = 14;
-var TURNING_ARROW = "M17 -6A18 18 0 1 0 17 6m1.6 -7.5l-1.4 8.2l-7.4 -3.9";
-var BLOCK_IN_SLOT = [18, 10];
-var SPARE2 = 5;
-var NAME = 15;
-var ARROW = 24;
-function mechanism(data, linkage, view, places) {
-  const drawn = new Mechanism(linkage);
-  drawn.shape(data, linkage, view, places);
-  return drawn;
-}
-var Mechanism = class {
-  constructor({ led, drawn: links = [], ground, names }) {
-    this.kinds = kindsOf(led);
-    this.outline = s("path", { class: "bm-body-outline" });
-    this.links = s("g");
-    this.blocks = s("g");
-    this.pins = s("g");
-    this.coupler = s("g", { class: "bm-coupler" });
-    this.arrow = s("path", { class: "bm-drive-mark bm-side0" });
-    this.letter = s("text", { class: "bm-letter", "text-anchor": "middle" }, "M");
-    this.plates = [s("path", { class: "bm-plate-rim" }), s("path", { class: "bm-plate" })];
-    this.coupler.append(...this.plates);
-    this.parts = led.map((dyad, side) => new PARTS[dyad.kind](this, side));
-    if (links.length) this.parts.push(...links.map((link) => new JointedLink(this, link)), new Joints(this, ground, names));
-    this.coupler.append(s("path", { class: "bm-body-frame", d: axes(BODY_AXIS) }), s("circle", { class: "bm-origin", r: 4 }));
-    for (const part of this.parts) if (part.pin) this.coupler.append(part.pin);
-    this.marks = new LoadMarks();
-    this.group = s("g", { class: "bm-linkage" }, this.arrow, this.links, this.coupler, this.blocks, this.pins, this.marks.group, links.length ? null : this.letter);
-  }
-  /** Whether it can be given the dimensions of a linkage. */
-  fits({ led }) {
-    return kindsOf(led) === this.kinds;
-  }
-  /** The dimensions of a linkage in a picture; slots are as long as the places need. */
-  shape(data, linkage, view, places) {
-    this.view = view;
-    this.led = linkage.led;
-    this.hasBody = Boolean(data.body);
-    if (this.hasBody) {
-      put(this.outline, "d", bodyOutline(data, view));
-      if (!this.outline.parentNode) this.group.prepend(this.outline);
-    } else {
-      this.outline.remove();
-    }
-    const corners = [[0, 0]];
-    linkage.led.forEach((dyad, side) => {
-      if (dyad.moving_pivot) corners.push(inBody(dyad.moving_pivot, view));
-      const more = this.parts[side].shape(dyad, view, places);
-      if (more) corners.push(more);
-    });
-    const d = `M${hull(corners).map((corner) => corner.map(px).join(" ")).join("L")}Z`;
-    for (const plate2 of linkage.drawn ? [] : this.plates) put(plate2, "d", d);
-    for (const part of this.parts.slice(linkage.led.length)) part.shape(view);
-    this.marks.shape(data, linkage, view);
-    this.shapeArrow();
-  }
-  /** drive: where the driver is, for what is known over it only. */
-  show(place, drive = null) {
-    const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
-    this.marks.show(place, drive);
-    put(this.coupler, "transform", at);
-    if (this.hasBody) put(this.outline, "transform", at);
-    for (const part of this.parts) part.show(place);
-    const [x, y] = act(place, [LETTER / view.scale, -LETTER / view.scale]);
-    put(this.letter, "transform", `translate(${px(view.X(x))} ${px(view.Y(y) + 4)})`);
-    const [driver] = this.led;
-    if (driver.kind === "PR") put(this.arrow, "transform", `${onRail(driver, place, view)} translate(0 ${-ARROW})`);
-  }
-  /** A turning or sliding arrow at the driver, for eyes that tell no colours apart. */
-  shapeArrow() {
-    const { arrow, view } = this, [driver] = this.led;
-    if (driver.kind === "PR") put(arrow, "d", "M-26 0H26m-6 -5l6 5l-6 5M-20 -5l-6 5l6 5");
-    if (!driver.fixed_pivot) return;
-    const [x, y] = driver.fixed_pivot;
-    put(arrow, "d", TURNING_ARROW);
-    put(arrow, "transform", `translate(${px(view.X(x))} ${px(view.Y(y))}) rotate(-90)`);
-  }
-};
-var kindsOf = (led) => led.map((dyad) => dyad.kind).join();
-var inBody = ([x, y], view) => [view.scale * x, -view.scale * y];
-function onRail(dyad, place, view) {
-  const [x, y] = act(place, dyad.moving_pivot), [nx, ny] = normalOf(dyad);
-  return transform(view.X(x), view.Y(y), Math.atan2(nx, -ny));
-}
-var block = (side, width, height) => s("g", { class: `bm-block bm-side${side}` }, s("rect", { x: -width / 2, y: -height / 2, width, height, rx: 2 }));
-function setPin(pin, [x, y], dyad) {
-  put(pin, "cx", px(x));
-  put(pin, "cy", px(y));
-  put(pin, "data-dyad", dyad.id);
-}
-var inGround = ([x, y], view) => [view.X(x), view.Y(y)];
-var Bar = class {
-  constructor({ links, pins }, side) {
-    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
-    this.bar = s("g", { class: `bm-link bm-side${side}` }, this.strokes);
-    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4.5 });
-    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
-    links.append(this.bar);
-    pins.append(this.ground);
-  }
-  shape(dyad, view) {
-    this.dyad = dyad;
-    this.view = view;
-    for (const stroke of this.strokes) put(stroke, "d", `M0 0H${px(view.scale * dyad.radius)}`);
-    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
-    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
-  }
-  show(place) {
-    const { dyad, view } = this, [cx, cy] = dyad.fixed_pivot, [x, y] = act(place, dyad.moving_pivot);
-    put(this.bar, "transform", transform(view.X(cx), view.Y(cy), Math.atan2(y - cy, x - cx)));
-  }
-};
-var BlockOnRail = class {
-  constructor({ blocks }, side) {
-    this.block = block(side, ...BLOCK);
-    this.pin = s("circle", { class: "bm-pin", r: 4.5 });
-    blocks.append(this.block);
-  }
-  shape(dyad, view) {
-    this.dyad = dyad;
-    this.view = view;
-    put(this.block, "data-dyad", dyad.id);
-    setPin(this.pin, inBody(dyad.moving_pivot, view), dyad);
-  }
-  show(place) {
-    put(this.block, "transform", onRail(this.dyad, place, this.view));
-  }
-};
-var Slot = class {
-  constructor({ blocks, pins, coupler }, side) {
-    this.strokes = ["rim", "plate", "edge"].map((name) => s("path", { class: `bm-slot-${name}` }));
-    this.strokes.push(s("path", { class: "bm-slot" }));
-    this.block = block(side, ...BLOCK_IN_SLOT);
-    this.ground = s("circle", { class: "bm-pin bm-fixed-pin", r: 4 });
-    coupler.append(...this.strokes);
-    blocks.append(this.block);
-    pins.append(this.ground);
-  }
-  /** Returns the middle of the slot, for the body's plate. */
-  shape(dyad, view, places) {
-    this.dyad = dyad;
-    this.view = view;
-    const [low, high] = places.length ? travelOf(dyad, places) : [0, 0], end = (BLOCK_IN_SLOT[0] / 2 + SPARE2) / view.scale;
-    const seen = (along) => inBody(pointOnLine(dyad, along), view);
-    const d = `M${[seen(low - end), seen(high + end)].map((each) => each.map(px).join(" ")).join("L")}`;
-    for (const stroke of this.strokes) put(stroke, "d", d);
-    for (const part of [this.strokes[3], this.block]) put(part, "data-dyad", dyad.id);
-    setPin(this.ground, inGround(dyad.fixed_pivot, view), dyad);
-    return seen((low + high) / 2);
-  }
-  show(place) {
-    const { dyad, view } = this, [nx, ny] = normalOf(dyad), [cx, cy] = dyad.fixed_pivot;
-    put(this.block, "transform", transform(view.X(cx), view.Y(cy), place.a + Math.atan2(nx, -ny)));
-  }
-};
-var JointedLink = class {
-  constructor({ links }, { joints, kind }) {
-    this.joints = [...joints];
-    this.strokes = [s("path", { class: "bm-bar" }), s("path", { class: "bm-core" })];
-    links.append(s("g", { class: `bm-link bm-${kind}${joints.length > 2 ? " bm-ternary" : ""}`, "data-link": joints.replace("M", "") }, this.strokes));
-  }
-  shape(view) {
-    this.view = view;
-  }
-  show(place) {
-    const d = `M${this.joints.map((joint) => inGround(place.joints[joint] ?? [place.x, place.y], this.view).map(px).join(" ")).join("L")}${this.joints.length > 2 ? "Z" : ""}`;
-    for (const stroke of this.strokes) put(stroke, "d", d);
-  }
-};
-var Joints = class {
-  constructor({ pins }, ground, names) {
-    this.pins = [...Object.keys(ground), ...Object.keys(names)].map((joint) => {
-      const pin = s("circle", { class: `bm-pin${joint in ground ? " bm-fixed-pin" : ""}`, r: 4.5, "data-joint": joint });
-      return { joint, pin, link: [...names[joint] ?? ""], name: joint in ground ? null : s("text", { class: "bm-name", "text-anchor": "middle" }, joint) };
-    });
-    pins.append(...this.pins.map(({ pin }) => pin), ...this.pins.flatMap(({ name }) => name ?? []));
-  }
-  shape(view) {
-    this.view = view;
-  }
-  show({ joints }) {
-    for (const { joint, pin, link, name } of this.pins) {
-      const [x, y] = inGround(joints[joint], this.view);
-      put(pin, "cx", px(x));
-      put(pin, "cy", px(y));
-      if (!name) continue;
-      const [u, v] = outwards(link.map((each) => inGround(joints[each], this.view)), [x, y]);
-      put(name, "x", px(x + NAME * u));
-      put(name, "y", px(y + NAME * v + 4));
-    }
-  }
-};
-function outwards(corners, [x, y]) {
-  const middle = [0, 1].map((k) => corners.reduce((sum, corner) => sum + corner[k], 0) / corners.length);
-  const u = x - middle[0], v = y - middle[1], size = Math.hypot(u, v);
-  return size > 1 ? [u / size, v / size] : [0, -1];
-}
-var Nothing = class {
-  shape() {
-  }
-  show() {
-  }
-};
-var PARTS = { RR: Bar, PR: BlockOnRail, RP: Slot, PP: Nothing, crank: Nothing };
-
-// src/burmester/web/widget/rail.mjs
-var LONGEST = 4e3;
-function railOf(dyad, places, view) {
-  const [nx, ny] = normalOf(dyad), [low, high] = travelOf(dyad, places);
-  const half = view.scale * (high - low) / 2 + BLOCK[0], edge = BLOCK[1] / 2 + 1;
-  const [x, y] = ((at) => [view.X(at[0]), view.Y(at[1])])(pointOnLine(dyad, (low + high) / 2));
-  const bodySide = places.reduce((sum, place) => sum + nx * place.x + ny * place.y - dyad.line.offset, 0);
-  const turned = Math.atan2(nx, -ny) + (bodySide > 0 ? Math.PI : 0);
-  const drawn = Math.min(half, LONGEST);
-  let hatch = "";
-  for (let k = -drawn + 4; k < drawn - 2; k += 8) hatch += `M${px(k + 4)} ${edge}l-6 7`;
-  return { x, y, half, drawn, turned, paths: [`M${px(-half)} ${edge}H${px(half)}${hatch}`, `M${px(-half)} ${-edge}H${px(half)}`] };
-}
-
 // src/burmester/web/widget/plane.mjs
 var CLOSER = 0.4;
 var BESIDE_PIVOT = [16, 28, 40];
@@ -2570,7 +2700,7 @@ function factorFor(data, linkage) {
   const fits = FACTORS.filter((factor) => factor >= 1 && factor * worst < 0.3 * data.scene);
   return fits.length ? fits[fits.length - 1] : 1;
 }
-var sizeOf = ([x, y, u, v]) => Math.max(u - x, v - y);
+var sizeOf3 = ([x, y, u, v]) => Math.max(u - x, v - y);
 var standing = (dyad, places) => dyad.fixed_pivot ?? (dyad.kind === "PR" && places.length ? pointOnLine(dyad, travelOf(dyad, places).reduce((a, b) => (a + b) / 2)) : null);
 function hasFarPivots(data, linkage, places) {
   const isFar = farFrom(data);
@@ -2605,7 +2735,7 @@ var Plane = class {
     const width = Math.max(260, this.parent.clientWidth);
     const box = boxOf(data, linkage, this.places, { whole: far, close }), different = (other) => other.some((each, k) => each !== box[k]);
     this.cut = !far && different(boxOf(data, linkage, this.places, { whole: true }));
-    this.isLarge = close || Boolean(linkage) && sizeOf(boxOf(data, linkage, this.places, { close: true })) < CLOSER * sizeOf(box);
+    this.isLarge = close || Boolean(linkage) && sizeOf3(boxOf(data, linkage, this.places, { close: true })) < CLOSER * sizeOf3(box);
     const shape = (box[3] - box[1]) / (box[2] - box[0]);
     const own = clamp(width * clamp(shape, 0.45, 1), 260, clamp(0.62 * window.innerHeight, 340, 680));
     const height = Math.round(fill ? clamp(fill, own, 1.15 * width) : own);
@@ -2904,12 +3034,9 @@ var Player = class {
         this.steps[0],
         button("bm-small-step", "‹", "A small step back", () => this.step(-1)),
         button("bm-small-step", "›", "A small step on", () => this.step(1)),
-        this.steps[1],
-        this.speeds,
-        this.loops,
-        this.wholeLabel,
-        this.realLabel
+        this.steps[1]
       ),
+      h("div", { class: "bm-more" }, this.speeds, this.loops, this.wholeLabel, this.realLabel),
       this.readout
     );
   }
@@ -2926,8 +3053,7 @@ var Player = class {
   /** Another linkage, on the way with most poses, at the first of them. */
   load(linkage) {
     this.linkage = linkage;
-    const counts = linkage.ways.map((way) => way.poses.length);
-    this.take(Math.max(0, counts.indexOf(Math.max(...counts))));
+    this.take(wayOfMost(linkage));
   }
   /** Another way, at its first pose. */
   take(index) {
@@ -3284,7 +3410,7 @@ var Report = class {
     if (linkages.length) {
       this.player = new Player(data, (...now) => this.show(...now), () => this.rebuild());
       this.assemblies = new Assemblies(data, (index) => this.player.take(index));
-      this.cards = new Cards(linkages, (index) => this.choose(index));
+      this.cards = new Cards(data, linkages, (index) => this.choose(index));
       body.append(this.cards.element);
     }
     body.append(main);

@@ -61,7 +61,7 @@ function layOut(frame, kernel, { document: task }, turn) {
   new BodyEditor(store, scene);
   new Regions(store, scene);
   new PoseHandles(store, scene);
-  const results = new Results(store, answers), left = h("div", { class: "bn-left" }, bar(store, scene, kernel), scene.element, playing.element);
+  const results = new Results(store, answers, playing), left = h("div", { class: "bn-left" }, bar(store, scene, kernel), scene.element, playing.element);
   const ways = playing.element.querySelector(".bs-player-ways"), fold = h("details", { class: "bn-ways" }, h("summary", {}, "Driver and assembly"));
   ways.replaceWith(fold);
   fold.append(ways);

@@ -8,7 +8,6 @@ import { Centrodes } from "./centrodes.mjs";
 import { CognatePanel } from "./cognate_panel.mjs";
 import { Charts, LoadCharts } from "./charts.mjs";
 import { Chips } from "./chips.mjs";
-import { Compare } from "./compare.mjs";
 import { isOfPoints, isPoint } from "./document.mjs";
 import { CouplerCurves } from "./coupler_curve.mjs";
 import { FactsTable } from "./facts_table.mjs";
@@ -28,9 +27,9 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   const answers = new Answers(store), playing = new Playing(store, answers);
   const live = new LiveLinkage(answers, playing, scene), surface = new PivotSurface(store, answers, playing, scene);
   const centrodes = new Centrodes(answers, playing, scene), curves = new CouplerCurves(answers, playing, scene);
-  const cards = new Results(store, answers), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
+  const cards = new Results(store, answers, playing), charts = new Charts(answers, playing), space = new SpacePanel(answers, playing);
   const cognates = new CognatePanel(store, answers), loads = new LoadCharts(answers, playing);
-  const compare = new Compare(store, answers, playing, () => drawer.open("compare")), facts = new FactsTable(store, answers, playing, curves);
+  const facts = new FactsTable(store, answers, playing, curves);
   const ways = [...playing.element.querySelectorAll(".bs-player-ways, .bs-driver-note")];
   player.append(playing.element);
   walkByArrows(playing.element.querySelector(".bm-row"), "button, select, input").first();
@@ -42,7 +41,6 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   drawer.add("cognates", "Cognates", cognates.element, () => isOfPoints(store.document));
   drawer.add("pivots", "Pivots", surface.element, ofAngles);
   drawer.add("space", "Image space", space.element, ofAngles);
-  drawer.add("compare", "Compare", compare.element);
   drawer.add("facts", "Tables", facts.element);
   store.on("document", () => drawer.update());
   drawer.update();
@@ -51,5 +49,5 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   listenToSpace(playing);
   playOnce(store, answers, playing);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => answers.emit("answers"));
-  return { answers, playing, live, surface, centrodes, curves, cards, charts, loads, space, cognates, compare, facts };
+  return { answers, playing, live, surface, centrodes, curves, cards, charts, loads, space, cognates, facts };
 }

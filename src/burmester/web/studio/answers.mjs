@@ -20,7 +20,7 @@ export const PLACED = "placed"; // the id of the linkage whose pivots were put d
 
 /** What stands where nothing is known yet. */
 const NOTHING = {
-  poses: [], body: null, keep_out: [], loads: null, scene: 1, unit: null, dyads: [], linkages: [], dyads_title: "Dyads",
+  poses: [], body: null, keep_out: [], loads: null, scene: 1, span: 1, unit: null, dyads: [], linkages: [], dyads_title: "Dyads",
   chart: { origin: [0, 0], angle: 0, length: 1 }, space: { centre: [0, 0, 0], half: [1, 1, 1], quadrics: [] },
   pivot_map: null, family_map: null, transmission_limit: { deg: 40, said: "40°, a usual limit" }, keys: [], table: null, best: [], warnings: [], footnotes: "",
 };

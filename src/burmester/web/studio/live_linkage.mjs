@@ -13,6 +13,7 @@ import { smoothPath } from "../widget/smooth_path.mjs";
 import { UNSEEN } from "./answers.mjs";
 import { around } from "./name_places.mjs";
 
+const NARROW = 480; // pixels: in a narrower plane poses come before the body, of which they would be a small part
 const MOST_ACHIEVED = 240; // places at poses that are drawn
 const OFF = 27; // pixels from the middle of a foot to the name of its dyad
 const FOOT = 11; // pixels from a fixed pivot down to that middle
@@ -45,7 +46,7 @@ export class LiveLinkage {
     scene.layer("paths").append(this.paths);
     scene.layer("mechanism").append(this.holder);
     scene.layer("labels").append(this.labels, this.edges);
-    scene.hold?.(() => this.points());
+    scene.hold?.(() => this.points(scene.size.width < NARROW && !scene.isWhole));
     scene.on("closer", () => this.closer());
     answers.on("shown", () => scene.isFitted && scene.fit(scene.isWhole));
     playing.on("shape", () => this.shape());

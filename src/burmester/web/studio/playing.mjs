@@ -5,6 +5,7 @@ import { give, h, put, say } from "../widget/dom.mjs";
 import { frameAt } from "../widget/kinematics.mjs";
 import { fixed } from "../widget/numbers.mjs";
 import { Player } from "../widget/player.mjs";
+import { wayOfMost } from "../widget/travel.mjs";
 import { Events } from "./events.mjs";
 import { drivenByOther } from "./other_driver.mjs";
 import { Pace } from "./pacing.mjs";
@@ -88,8 +89,7 @@ export class Playing extends Events {
   }
 
   takeBest() {
-    const counts = this.linkage.ways.map((way) => way.poses.length);
-    this.player.way = Math.max(0, counts.indexOf(Math.max(...counts)));
+    this.player.way = wayOfMost(this.linkage);
     this.player.u = this.player.firstStop();
   }
 

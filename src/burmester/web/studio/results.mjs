@@ -3,6 +3,7 @@
 import { give, h, put, say } from "../widget/dom.mjs";
 import { clamp, listed } from "../widget/numbers.mjs";
 import { PLACED } from "./answers.mjs";
+import { Compare } from "./compare.mjs";
 import { FILTERS, ORDERS, arranged } from "./ordering.mjs";
 import { Pace } from "./pacing.mjs";
 import { ResultCard } from "./result_card.mjs";
@@ -13,7 +14,7 @@ const MOST = 40; // cards that are there at once, unless all of them are asked f
 const USUAL = { order: "rank", filter: "all", type: "" };
 
 export class Results {
-  constructor(store, answers) {
+  constructor(store, answers, playing) {
     this.store = store;
     this.answers = answers;
     this.cards = new Map();
@@ -21,7 +22,8 @@ export class Results {
     this.all = false;
     const choice = (name, entries, key) =>
       h("label", {}, `${name} `, h("select", { "data-choice": key, onchange: (event) => this.want(key, event.target.value) }, entries.map(([value, text]) => h("option", { value }, text))));
-    this.types = choice("Type", [["", "any"]], "type");
+    this.chips = h("div", { class: "bs-filters", role: "group", "aria-label": "Which linkages are shown" });
+    this.compare = new Compare(store, answers, playing);
     this.title = h("h2", {}, "Linkages");
     this.status = h("p", { class: "bs-results-status", role: "status" });
     this.doubt = h("p", { class: "bs-doubt" });
@@ -32,7 +34,8 @@ export class Results {
       "section",
       { class: "bs-results", "aria-label": "Linkages" },
       h("div", { class: "bs-results-head" }, this.title, this.status, this.doubt, this.gone,
-        h("div", { class: "bs-choices" }, choice("Show", Object.entries(FILTERS).map(([key, { name }]) => [key, name]), "filter"), choice("Sort by", Object.entries(ORDERS).map(([key, { name }]) => [key, name]), "order"), this.types)),
+        this.chips, h("div", { class: "bs-choices" }, choice("Sort by", Object.entries(ORDERS).map(([key, { name }]) => [key, name]), "order"))),
+      this.compare.element,
       this.list,
       this.more,
     );
@@ -66,7 +69,7 @@ export class Results {
   /** Cards in their order: new ones are made, those of linkages that go on keep their elements. */
   arrange() {
     const { answers, store, wanted } = this;
-    this.buildTypes();
+    this.buildChips();
     const every = arranged(answers.linkages, { ...wanted, pinned: store.pinned });
     const shown = this.all ? every : every.slice(0, MOST);
     const list = answers.placed ? [answers.placed, ...shown] : shown;
@@ -91,7 +94,6 @@ export class Results {
     return new ResultCard({
       choose: (id) => store.choose(id),
       pin: (id) => store.pin(id),
-      compare: (id) => store.compare(id),
       improve: (id) => this.improve(id),
       letGo: () => this.letGo(),
     });
@@ -104,21 +106,27 @@ export class Results {
     if (this.store.chosen === PLACED) this.store.choose(this.answers.linkages[0]?.id ?? null);
   }
 
-  buildTypes() {
-    const types = [...new Set(this.answers.linkages.map((each) => each.type))].sort(), key = types.join();
-    const select = this.types.querySelector("select");
-    if (key === this.typesKey) return;
-    this.typesKey = key;
-    if (!types.includes(this.wanted.type)) this.wanted.type = "";
-    select.replaceChildren(...["", ...types].map((type) => h("option", { value: type, selected: type === this.wanted.type }, type || "any")));
-    give(this.types, "hidden", types.length < 2);
+  /** A chip for each filter and for each type, with how many linkages it leaves. */
+  buildChips() {
+    const { answers: { linkages }, store: { pinned }, wanted } = this, types = [...new Set(linkages.map((each) => each.type))].sort();
+    if (!types.includes(wanted.type)) wanted.type = "";
+    const chip = (key, value, text, count) => ({ key, value, text: `${text} ${count}`, on: wanted[key] === value });
+    const chips = [
+      ...Object.entries(FILTERS).map(([value, { name, holds }]) => chip("filter", value, name, linkages.filter((each) => holds(each, pinned)).length)),
+      ...(types.length > 1 ? types.map((type) => chip("type", type, type, linkages.filter((each) => each.type === type).length)) : []),
+    ];
+    const said = JSON.stringify(chips);
+    if (said === this.chipsSaid) return;
+    this.chipsSaid = said;
+    this.chips.replaceChildren(...chips.map(({ key, value, text, on }) =>
+      h("button", { type: "button", class: "bs-filter", "data-chip": value, "aria-pressed": String(on), onclick: () => this.want(key, key === "type" && on ? "" : value) }, text)));
   }
 
   /** What the cards say, in the order in which they stand. */
   update() {
     const { answers, store } = this, { data, isOld, shown } = answers;
     for (const [linkage, card] of this.cards) {
-      card.show(linkage, { data, old: isOld && linkage.id !== PLACED, chosen: linkage === shown, pinned: store.pinned.has(linkage.id), compared: store.compared === linkage.id });
+      card.show(linkage, { data, old: isOld && linkage.id !== PLACED, best: answers.linkages[0], chosen: linkage === shown, pinned: store.pinned.has(linkage.id) });
     }
     this.tell();
   }

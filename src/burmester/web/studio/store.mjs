@@ -51,7 +51,6 @@ export class Store {
     this.progress = "";
     this.chosen = null;
     this.pinned = new Set();
-    this.compared = null;
     this.placed = null;
     this.whole = null; // the kind of tasks to which the last answer cannot be followed, as far as it is known
     this.task = 0; // another number for another task, which is no change of this one
@@ -192,9 +191,9 @@ export class Store {
     return { document, options, name, settings, task, filters, picture, choice };
   }
 
-  /** The linkages that are chosen, compared and pinned. */
+  /** The linkages that are chosen and pinned. */
   get choice() {
-    return { chosen: this.chosen, compared: this.compared, pinned: [...this.pinned] };
+    return { chosen: this.chosen, pinned: [...this.pinned] };
   }
 
   goTo(version) {
@@ -225,7 +224,7 @@ export class Store {
 
   /** The linkages whose motion is wanted while dragging. */
   get shown() {
-    return [...new Set([this.chosen, this.compared, ...this.pinned])].filter((id) => id && id !== PLACED).slice(0, MOST_SHOWN);
+    return [...new Set([this.chosen, ...this.pinned])].filter((id) => id && id !== PLACED).slice(0, MOST_SHOWN);
   }
 
   follow() {
@@ -415,7 +414,6 @@ export class Store {
     this.followedFor = null;
     for (const each of this.flying.values()) each.isOld = true; // it may go on from the answer before
     this.chosen = carried(this.chosen) ?? result.linkages[0]?.id ?? null;
-    this.compared = carried(this.compared);
     this.pinned = new Set([...this.pinned].map(carried).filter(Boolean));
     if (this.wanted?.document === document) this.takeWanted();
     this.messages = [];
@@ -425,9 +423,8 @@ export class Store {
 
   /** What was chosen of this task before it was left, as far as it is there. */
   takeWanted() {
-    const { chosen, compared, pinned = [] } = this.wanted, isThere = (id) => (id === PLACED ? Boolean(this.placed) : this.solved.linkages.some((each) => each.id === id));
+    const { chosen, pinned = [] } = this.wanted, isThere = (id) => (id === PLACED ? Boolean(this.placed) : this.solved.linkages.some((each) => each.id === id));
     if (isThere(chosen)) this.chosen = chosen;
-    this.compared = isThere(compared) ? compared : null;
     this.pinned = new Set(pinned.filter(isThere));
     this.wanted = null;
   }
@@ -493,12 +490,6 @@ export class Store {
     this.history.record(this.version, null);
     if (!this.pinned.delete(id)) this.pinned.add(id);
     this.emit("pinned");
-  }
-
-  compare(id) {
-    this.history.record(this.version, "compare");
-    this.compared = id === this.compared ? null : id;
-    this.emit("chosen");
   }
 
   /** { kind: "pose" | "limit" | "region" | "body", index }, or null; of several poses all are in `indices`. */

@@ -78,7 +78,7 @@ export class Mechanism {
   }
 
   /** drive: where the driver is, for what is known over it only. */
-  show(place, drive = null) {
+  show(place, /** @type {number | null} */ drive = null) {
     const { view } = this, at = transform(view.X(place.x), view.Y(place.y), place.a);
     this.marks.show(place, drive);
     put(this.coupler, "transform", at);

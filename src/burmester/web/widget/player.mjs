@@ -4,7 +4,7 @@ import { give, h, put, s, say } from "./dom.mjs";
 import { frameAt, linear, placeAt, smooth, valueAt } from "./kinematics.mjs";
 import { clamp, degrees, figure, fixed, px, radians } from "./numbers.mjs";
 import { calledOf, decimalsOf, missOf, nounOf, poseName, shortened } from "./tables.mjs";
-import { driveAtTime, stretchOf } from "./travel.mjs";
+import { driveAtTime, stretchOf, wayOfMost } from "./travel.mjs";
 
 const TURN_SECONDS = 7; // a whole turn of the driver, or a way there and back
 const TURN = 1e-6; // frames: a stretch that is shorter than its way by less is all of it
@@ -96,11 +96,8 @@ export class Player {
         button("bm-small-step", "‹", "A small step back", () => this.step(-1)),
         button("bm-small-step", "›", "A small step on", () => this.step(1)),
         this.steps[1],
-        this.speeds,
-        this.loops,
-        this.wholeLabel,
-        this.realLabel,
       ),
+      h("div", { class: "bm-more" }, this.speeds, this.loops, this.wholeLabel, this.realLabel),
       this.readout,
     );
   }
@@ -119,8 +116,7 @@ export class Player {
   /** Another linkage, on the way with most poses, at the first of them. */
   load(linkage) {
     this.linkage = linkage;
-    const counts = linkage.ways.map((way) => way.poses.length);
-    this.take(Math.max(0, counts.indexOf(Math.max(...counts))));
+    this.take(wayOfMost(linkage));
   }
 
   /** Another way, at its first pose. */

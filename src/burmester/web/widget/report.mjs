@@ -86,7 +86,7 @@ export class Report {
     if (linkages.length) {
       this.player = new Player(data, (...now) => this.show(...now), () => this.rebuild());
       this.assemblies = new Assemblies(data, (index) => this.player.take(index));
-      this.cards = new Cards(linkages, (index) => this.choose(index));
+      this.cards = new Cards(data, linkages, (index) => this.choose(index));
       body.append(this.cards.element);
     }
     body.append(main);

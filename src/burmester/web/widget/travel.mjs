@@ -44,6 +44,13 @@ function placesAlong(data, { low, high }, at) {
   return places;
 }
 
+/** The way of a linkage on which most of its poses are.
+ * @param {import("./types").Moved} linkage */
+export function wayOfMost({ ways }) {
+  const counts = ways.map((/** @type {any} */ way) => way.poses.length);
+  return Math.max(0, counts.indexOf(Math.max(...counts)));
+}
+
 /** The place of the driver at a time, in seconds, of a motion whose times are known over the driver.
  * @param {{ time: { x: number[], y: number[] } }} timed @param {number} time */
 export function driveAtTime({ time: { x, y } }, time) {
