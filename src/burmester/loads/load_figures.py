@@ -231,7 +231,7 @@ def _looked_at(linkage: LoadedLinkage) -> tuple[LoadedMotion, FloatArray]:
         if here.loads.hand is not None:
             push, rubs = here.hand_force(effort), np.abs(here.hand_force(here.friction))
             values += [push, rubs, push + rubs, np.abs(push) + rubs]
-            divisors.append(np.linalg.norm(here.hand_path, axis=-1))
+            divisors.append(here.hand_speed)
         return np.array(values), np.array(divisors)
 
     shares = with_peaks(even, look)
@@ -289,9 +289,10 @@ def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
     """The springs that are longer or shorter than they allow, with the poses concerned."""
     out = []
     for number, course in enumerate(loaded.springs, start=1):
-        if not course.off.any():
+        off = course.off(loaded.of.metre)
+        if not off.any():
             continue
-        drives = loaded.drive[course.off]
+        drives = loaded.drive[off]
         poses = sorted({each for at in (drives[0], drives[-1])
                         for each in poses_about(loaded, float(at))})  # fmt: skip
         least, most = course.spring.span

@@ -19,10 +19,16 @@ from burmester.loads.drive_in_time import Timing
 from burmester.loads.masses import Masses, body_named, require_links
 from burmester.loads.spring_laws import SpringLaw
 from burmester.mechanisms.bodies import GROUND, Bodies, Joint, LinkPlaces
-from burmester.mechanisms.rates import Rates, rates
-from burmester.numerics.arrays import FloatArray, wrapped_angle
+from burmester.mechanisms.rates import Rates, cross, rates, triples
+from burmester.numerics.arrays import (
+    ComplexArray,
+    FloatArray,
+    complex_of,
+    pairs_of,
+    wrapped_angle,
+)
 from burmester.tasks.length_units import MILLIMETRES
-from burmester.tasks.loads import SLACK, Drive, Loads, Spring
+from burmester.tasks.loads import BODY, SLACK, Drive, Loads, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 from burmester.verdicts.motion import Motion, Way
 
@@ -30,21 +36,44 @@ STILL = 1e-9  # of the greatest speed of a hand; less is none
 LOOKS = 361  # places along the motion at which a linkage is looked at
 
 
+class _Point(NamedTuple):
+    """A point of a body: the body's number, and in F the arm and the velocity (n,) of the point."""
+
+    body: int
+    arm: ComplexArray
+    speed: ComplexArray
+
+
 class SpringCourse(NamedTuple):
     """A spring along the motion: length and tension (n,), and the rate of its length (n,).
 
     At places (n,): metres, N, and metres for a unit of the driver.  Of torsion springs radians and
-    N m.  off: where it is longer or shorter than it allows; slack: the length of a coil spring at
-    which it begins to pull or to push.
+    N m.  ends: of a straight one both points, and the ways (n,) to which they are pulled.
     """
 
     spring: Spring
     length: FloatArray
     tension: FloatArray
     rate: FloatArray
-    energy: FloatArray
-    off: NDArray[np.bool_]
-    slack: float = np.inf
+    law: SpringLaw
+    ends: tuple[tuple[_Point, ComplexArray], ...] = ()
+
+    @property
+    def energy(self) -> FloatArray:
+        """What it stores (n,), J, up to a constant."""
+        return self.law.energy(self.length)
+
+    @property
+    def slack(self) -> float:
+        """The length of a coil spring at which it begins to pull or to push."""
+        return self.law.slack
+
+    def off(self, metre: float) -> NDArray[np.bool_]:
+        """Where (n,) it is longer or shorter than it allows, which a torsion spring never is."""
+        if self.spring.kind == "torsion":
+            return np.zeros(self.length.shape, dtype=bool)
+        least, most = (each * metre for each in self.spring.span)
+        return self.law.off(self.length, (least, most))
 
 
 @final
@@ -142,24 +171,27 @@ class LoadedMotion:
         reached = self.of.at_poses[np.isfinite(self.of.at_poses)]
         return -1.0 if reached[-1] < reached[0] else 1.0
 
-    def _arm(self, name: str, point: FloatArray) -> FloatArray:
-        """A point (2,) of a body from its origin, in F: (n, 2)."""
-        return self.places[name].rotate(point)
-
-    def _wrenches(self, name: str, force: FloatArray, arm: FloatArray) -> FloatArray:
-        """A force (n, 2) at an arm (n, 2) of a body as loads of all bodies: (n, k, 3)."""
-        out = np.zeros_like(self.rates.velocity)
-        if name != GROUND:
-            k = self.rates.bodies.index(name)
-            out[:, k, :2] = force
-            out[:, k, 2] = arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
-        return out
+    @cached_property
+    def centres(self) -> ComplexArray:
+        """The centres of mass from the origins of the bodies, in F: (k, n)."""
+        return self.rates.turn[:-1] * complex_of(self.masses.centre)[:, None]
 
     @cached_property
-    def centres(self) -> FloatArray:
-        """The centres of mass from the origins of the bodies, in F: (n, k, 2)."""
-        pairs = zip(self.rates.bodies, self.masses.centre, strict=True)
-        return np.stack([self._arm(name, centre) for name, centre in pairs], axis=1)
+    def _moved(self) -> ComplexArray:
+        """The velocities (k, n) of the centres of mass."""
+        return self.rates.speeds[:-1] + 1j * self.rates.spins[:-1] * self.centres
+
+    @cached_property
+    def _weights(self) -> ComplexArray:
+        """The weights (k, 1) of the bodies."""
+        return np.asarray(self.masses.mass[:, None] * complex(*self.loads.gravity))
+
+    def _point(self, link: str, at: tuple[float, float] | FloatArray) -> _Point:
+        """A point (2,) of a link that a task names, in the task's unit."""
+        name = body_named(link, self.bodies)
+        k = self.rates.number(name)
+        arm = self.rates.turn[k] * (complex(*at) * self.of.metre)
+        return _Point(k, arm, self.rates.speeds[k] + 1j * self.rates.spins[k] * arm)
 
     @cached_property
     def springs(self) -> tuple[SpringCourse, ...]:
@@ -170,23 +202,17 @@ class LoadedMotion:
             if each.kind != "counterweight"
         )
 
-    def _ends(self, spring: Spring) -> list[tuple[str, FloatArray]]:
-        names = [body_named(each.link, self.bodies) for each in spring.ends]
-        points = [np.array(each.point) * self.of.metre for each in spring.ends]
-        return [(name, self._arm(name, at)) for name, at in zip(names, points, strict=True)]
-
     def _straight(self, spring: Spring) -> SpringCourse:
         law = SpringLaw.of(spring, self.of.metre, self.loads.celsius)
-        one, two = self._ends(spring)
-        apart = self._point(*two) - self._point(*one)
-        length = np.linalg.norm(apart, axis=-1)
-        speed = self.rates.of_point(*two)[0] - self.rates.of_point(*one)[0]
-        rate = (speed * _directions(apart, length)).sum(axis=-1)
-        least, most = (each * self.of.metre for each in spring.span)
-        off = law.off(length, (least, most))
-        return SpringCourse(
-            spring, length, law.tension(length), rate, law.energy(length), off, law.slack
-        )
+        one, two = (self._point(each.link, each.point) for each in spring.ends)
+        origins = self.rates.at[two.body] - self.rates.at[one.body]
+        apart = origins * self.rates.tree.size + two.arm - one.arm
+        length = np.abs(apart)
+        # Where two points are one, a spring pulls nowhere.
+        way = apart / np.where(length > 0, length, 1.0)
+        rate = _dot(two.speed - one.speed, way)
+        tension = law.tension(length)
+        return SpringCourse(spring, length, tension, rate, law, ((one, way), (two, -way)))
 
     def _torsion(self, spring: Spring) -> SpringCourse:
         names = [body_named(each.link, self.bodies) for each in spring.ends]
@@ -198,41 +224,36 @@ class LoadedMotion:
         there = self.places[names[1]].angle - self.places[names[0]].angle
         angle = near + wrapped_angle(there - near)
         stiff = spring.count * np.degrees(spring["rate_Nm_per_deg"])
-        rate = self.rates.of_body(names[1])[0][:, 2] - self.rates.of_body(names[0])[0][:, 2]
-        moment = stiff * (angle - free)
-        off = np.zeros(angle.shape, dtype=bool)
-        return SpringCourse(spring, angle, moment, rate, moment**2 / (2 * stiff), off)
-
-    def _point(self, name: str, arm: FloatArray) -> FloatArray:
-        return self.places[name].translation + arm
+        one, two = (self.rates.number(name) for name in names)
+        rate = self.rates.spins[two] - self.rates.spins[one]
+        law = SpringLaw(0.0, float(stiff), float(free))
+        return SpringCourse(spring, angle, law.tension(angle), rate, law)
 
     @cached_property
     def applied(self) -> FloatArray:
         """The loads W (n, k, 3) of the bodies: forces in F, moments about their origins."""
-        loads, out = self.loads, np.zeros_like(self.rates.velocity)
-        weights = self.masses.mass[:, None] * loads.gravity
-        out[..., :2] += weights
-        out[..., 2] += self.centres[..., 0] * weights[:, 1] - self.centres[..., 1] * weights[:, 0]
-        body = self.bodies.body
-        out[:, self.rates.bodies.index(body), 2] += loads.torque
-        for force, acts in zip(loads.forces, self._acting, strict=True):
-            own = np.broadcast_to(force.force, (len(out), 2))
-            turned = self._arm(body, force.force) if force.frame == "M" else own
-            arm = self._arm(body, force.at * self.of.metre)
-            out += self._wrenches(body, turned * acts[:, None], arm)
+        loads, body = self.loads, self.rates.number(self.bodies.body)
+        force = np.zeros(self.rates.at.shape, dtype=complex)
+        moment = np.zeros(force.shape)
+        force[:-1] += self._weights
+        moment[:-1] += cross(self.centres, self._weights)
+        moment[body] += loads.torque
+
+        def exert(point: _Point, pull: ComplexArray) -> None:
+            force[point.body] += pull
+            moment[point.body] += cross(point.arm, pull)
+
+        for each, acts in zip(loads.forces, self._acting, strict=True):
+            turned = self.rates.turn[body if each.frame == "M" else -1]
+            exert(self._point(BODY, each.at), turned * (complex(*each.force) * acts))
         for course in self.springs:
             if course.spring.kind == "torsion":
                 for end, sign in zip(course.spring.ends, (1.0, -1.0), strict=True):
-                    name = body_named(end.link, self.bodies)
-                    if name != GROUND:
-                        out[:, self.rates.bodies.index(name), 2] += sign * course.tension
-                continue
-            one, two = self._ends(course.spring)
-            apart = self._point(*two) - self._point(*one)
-            pull = _directions(apart, course.length) * course.tension[:, None]
-            out += self._wrenches(one[0], pull, one[1])
-            out -= self._wrenches(two[0], pull, two[1])
-        return out
+                    k = self.rates.number(body_named(end.link, self.bodies))
+                    moment[k] += sign * course.tension
+            for point, way in course.ends:
+                exert(point, way * course.tension)
+        return triples(force[:-1], moment[:-1])
 
     @cached_property
     def _acting(self) -> list[FloatArray]:
@@ -251,18 +272,16 @@ class LoadedMotion:
 
     def carried(self, speed: FloatArray, push: FloatArray) -> FloatArray:
         """M a (n, k, 3) where the driver has speeds (n,) and accelerations (n,)."""
-        speed, push = speed[:, None], push[:, None]
-        out = np.zeros_like(self.rates.velocity)
-        for k, name in enumerate(self.rates.bodies):
-            arm = self.centres[:, k]
-            v, a = self.rates.of_point(name, arm)
-            force = self.masses.mass[k] * (a * speed**2 + v * push)
-            turned = self.rates.acceleration[:, k, 2:] * speed**2
-            turned = (turned + self.rates.velocity[:, k, 2:] * push)[:, 0]
-            out[:, k, :2] = force
-            out[:, k, 2] = arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]
-            out[:, k, 2] += self.masses.inertia[k] * turned
-        return out
+        turning = self.rates.spins[:-1] * push + self.rates.bends[1][:-1] * speed**2
+        force = self.masses.mass[:, None] * (self._bent * speed**2 + self._moved * push)
+        moment = cross(self.centres, force) + self.masses.inertia[:, None] * turning
+        return triples(force, moment)
+
+    @cached_property
+    def _bent(self) -> ComplexArray:
+        """The accelerations (k, n) of the centres of mass."""
+        origins, spins = self.rates.bends
+        return origins[:-1] + (1j * spins[:-1] - self.rates.spins[:-1] ** 2) * self.centres
 
     @cached_property
     def effort(self) -> FloatArray:
@@ -272,15 +291,12 @@ class LoadedMotion:
     @cached_property
     def gross(self) -> FloatArray:
         """The efforts (n,) of all weights, forces and springs, none taken from another."""
-        out = np.abs(self.loads.torque * self.rates.of_body(self.bodies.body)[0][:, 2])
-        for k, name in enumerate(self.rates.bodies):
-            moved = self.rates.of_point(name, self.centres[:, k])[0]
-            out += np.abs(self.masses.mass[k] * moved @ self.loads.gravity)
+        k = self.rates.number(self.bodies.body)
+        out = np.abs(self.loads.torque * self.rates.spins[k])
+        out += np.abs(_dot(self._moved, self._weights)).sum(axis=0)
         for force, acts in zip(self.loads.forces, self._acting, strict=True):
-            moved = self.rates.of_point(
-                self.bodies.body, self._arm(self.bodies.body, force.at * self.of.metre)
-            )[0]
-            out += acts * np.linalg.norm(force.force) * np.linalg.norm(moved, axis=-1)
+            moved = self._point(BODY, force.at).speed
+            out += acts * np.linalg.norm(force.force) * np.abs(moved)
         for course in self.springs:
             out += np.abs(course.tension * course.rate)
         return np.asarray(out)
@@ -300,38 +316,37 @@ class LoadedMotion:
     @cached_property
     def inertia(self) -> tuple[FloatArray, FloatArray]:
         """The reduced inertia I (n,) and its derivative by the driver's coordinate."""
-        total, slope = np.zeros(self.drive.shape), np.zeros(self.drive.shape)
-        for k, name in enumerate(self.rates.bodies):
-            v, a = self.rates.of_point(name, self.centres[:, k])
-            turn, bent = self.rates.velocity[:, k, 2], self.rates.acceleration[:, k, 2]
-            total += self.masses.mass[k] * (v * v).sum(-1) + self.masses.inertia[k] * turn**2
-            slope += 2 * self.masses.mass[k] * (v * a).sum(-1)
-            slope += 2 * self.masses.inertia[k] * turn * bent
-        return total, slope
+        mass, inertia = self.masses.mass, self.masses.inertia
+        turn, bent = self.rates.spins[:-1], self.rates.bends[1][:-1]
+        total = mass @ np.abs(self._moved) ** 2 + inertia @ turn**2
+        return total, 2 * (mass @ _dot(self._moved, self._bent) + inertia @ (turn * bent))
 
     @cached_property
     def energy(self) -> FloatArray:
         """The potential energy (n,) in J of weights and springs, up to a constant."""
-        at = np.stack([self.places[name].translation for name in self.rates.bodies], axis=1)
-        weights = self.masses.mass[:, None] * self.loads.gravity
-        height = -((at + self.centres) * weights).sum(axis=(1, 2))
+        centres = self.rates.at[:-1] * self.rates.tree.size + self.centres
+        height = -_dot(centres, self._weights).sum(axis=0)
         return sum((each.energy for each in self.springs), start=height)
 
     @cached_property
     def hand_path(self) -> FloatArray:
         """The rate (n, 2) at which the point of the hand moves, metres for a unit of the driver."""
         assert self.loads.hand is not None
-        arm = self._arm(self.bodies.body, self.loads.hand * self.of.metre)
-        return self.rates.of_point(self.bodies.body, arm)[0]
+        return pairs_of(self._point(BODY, self.loads.hand).speed)
 
     def hand_force(self, effort: FloatArray) -> FloatArray:
         """The force (n,) of a hand that takes the driver's effort, positive along its way.
 
         nan where the point of the hand stands still: there none moves the linkage.
         """
-        speed = np.linalg.norm(self.hand_path, axis=-1)
+        speed = self.hand_speed
         moves = speed > STILL * np.nanmax(speed, initial=0.0)
         return np.asarray(self.sense * effort / np.where(moves, speed, np.nan))
+
+    @cached_property
+    def hand_speed(self) -> FloatArray:
+        """How far (n,) the point of the hand moves for a unit of the driver, metres."""
+        return np.asarray(np.hypot(*self.hand_path.T))
 
     @cached_property
     def pins(self) -> dict[str, FloatArray]:
@@ -345,9 +360,9 @@ class LoadedMotion:
         return dict(sorted(named.items()))
 
 
-def _directions(apart: FloatArray, length: FloatArray) -> FloatArray:
-    """Unit vectors (n, 2); zero where two points are one, and a spring pulls nowhere."""
-    return apart / np.where(length > 0, length, 1.0)[:, None]
+def _dot(one: ComplexArray, other: ComplexArray) -> FloatArray:
+    """Scalar products of vectors (*,)."""
+    return one.real * other.real + one.imag * other.imag
 
 
 def letter(joint: Joint) -> str:

@@ -14,7 +14,7 @@ from typing import NamedTuple, TypeAlias, final
 import numpy as np
 
 from burmester.geometry.displacement import Displacement
-from burmester.numerics.arrays import FloatArray, complex_of
+from burmester.numerics.arrays import FloatArray, complex_of, pairs_of
 
 # Joints (*, 2) by their letters; and those of each link, in the frame of that link.
 Joints: TypeAlias = Mapping[str, FloatArray]
@@ -173,16 +173,16 @@ class Skeleton(NamedTuple):
 
         frames: of one mechanism.  Angles are within half a turn; nan where there is no joint.
         """
-        out = {}
-        for link in self.links:
-            ends = tuple(self.axis(link))
-            there, here = (complex_of(joints[end]) for end in reversed(ends))
-            far, near = (complex_of(frames[link][end]) for end in reversed(ends))
-            turn = (there - here) / (far - near)
-            turn = turn / np.abs(turn)
-            origin = here - turn * near
-            out[link] = Displacement(np.stack([origin.real, origin.imag], -1), np.angle(turn))
-        return out
+        axes = [(link, *self.axis(link)) for link in self.links]
+        here, there = (complex_of(np.array([joints[each[end]] for each in axes])) for end in (1, 2))
+        near, far = (
+            np.array([complex(*frames[each[0]][each[end]]) for each in axes]) for end in (1, 2)
+        )
+        over = (slice(None), *[None] * (here.ndim - 1))
+        turn = (there - here) / (far - near)[over]
+        turn = turn / np.abs(turn)
+        origin, angle = pairs_of(here - turn * near[over]), np.angle(turn)
+        return {each[0]: Displacement(origin[k], angle[k]) for k, each in enumerate(axes)}
 
     def lengths(self, frames: Frames) -> dict[str, float]:
         """The distances between joints of one link: {"AB": 30.0, ...}."""

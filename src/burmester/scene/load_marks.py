@@ -107,7 +107,8 @@ def hand_arrow(chosen: Candidate, places: LinkPlaces, size: float) -> FloatArray
         return None
     one = LinkPlaces({name: places[name][None] for name in ("ground", *bodies.moving)})
     body = one[bodies.body]
-    (way,), _ = rates(bodies, one).of_point(bodies.body, body.rotate(loads.hand))
+    arm = body.rotate(loads.hand)
+    (way,) = rates(bodies, one).of_point(bodies.body, arm)
     speed = float(np.hypot(*way))
     if not speed > 0:
         return None

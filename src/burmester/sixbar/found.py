@@ -17,7 +17,7 @@ from burmester.mechanisms.branches import Branch
 from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.mechanisms.transmission import least_transmission_angle
-from burmester.numerics.arrays import ComplexArray, FloatArray
+from burmester.numerics.arrays import ComplexArray, FloatArray, pairs_of
 from burmester.requirements.requirement import Figures
 from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.kinds import KINDS, SixBar
@@ -139,8 +139,7 @@ class FoundSixBar(LinkageAtPoses):
 
         nan beyond where the linkage locks.
         """
-        there = self._joints(drive)
-        places = np.stack([there.real, there.imag], axis=-1)
+        places = pairs_of(self._joints(drive))
         return {name: places[..., k, :] for k, name in enumerate(self.skeleton.joints)}
 
     def links(self, drive: FloatArray) -> dict[str, Displacement]:
