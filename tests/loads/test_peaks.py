@@ -3,9 +3,17 @@
 import numpy as np
 import pytest
 
-from burmester.loads.peaks import with_peaks
+from burmester.loads.peaks import Seen, with_peaks
 
 EVEN = np.linspace(0.0, 1.0, 361)
+
+
+def about_peaks(force, apart):
+    """The places and the forces there; what is seen beside them comes in their order as well."""
+    places, seen = with_peaks(EVEN, lambda x: Seen(force(x)[None], apart(x)[None], x[None]))
+    assert (seen.others[0] == places).all()
+    assert (seen.values[0] == force(places)).all()
+    return places, seen.values[0]
 
 
 @pytest.mark.parametrize("width", [1e-1, 1e-2, 1e-3, 1e-4])
@@ -21,7 +29,7 @@ def test_a_force_near_a_dead_point_is_found(seed, width):
     def force(x):
         return sign / apart(x) + np.sin(9 * x)
 
-    found = force(with_peaks(EVEN, lambda x: (force(x)[None], apart(x)[None])))
+    _, found = about_peaks(force, apart)
     dense = force(at + width * np.linspace(-1, 1, 20_001))
     assert np.abs(found).max() == pytest.approx(np.abs(dense).max(), rel=1e-3)
     if width < 1e-3:  # even places alone would not do in most of the cases
@@ -29,8 +37,8 @@ def test_a_force_near_a_dead_point_is_found(seed, width):
 
 
 def test_a_smooth_force_needs_no_more_places():
-    seen = with_peaks(EVEN, lambda x: (np.sin(7 * x)[None], 1 + x[None]))
-    assert seen is EVEN
+    places, _ = about_peaks(lambda x: np.sin(7 * x), lambda x: 1 + x)
+    assert places is EVEN
 
 
 @pytest.mark.parametrize("kink", [0.1234, 0.5001, 0.9])
@@ -40,5 +48,5 @@ def test_a_kink_is_followed(kink):
     def force(x):
         return np.where(x < kink, 3 * x / kink, 3 - 40 * (x - kink))
 
-    found = force(with_peaks(EVEN, lambda x: (force(x)[None], np.ones((1, len(x))))))
+    _, found = about_peaks(force, np.ones_like)
     assert found.max() == pytest.approx(3.0, rel=1e-3)

@@ -220,7 +220,7 @@ def _course_of(linkage: LoadedLinkage) -> _Course:
         lever = 1 / np.maximum(np.linalg.norm(loaded.hand_path, axis=-1), 1e-12)
     return _Course(
         loaded,
-        SpringClearance.of(loaded),
+        SpringClearance.of(loaded, linkage.found.task),
         loaded.effort,
         lever,
         at.translation,

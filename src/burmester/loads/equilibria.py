@@ -14,7 +14,10 @@ import numpy as np
 from burmester.numerics.arrays import FloatArray
 
 FINER: Final = 16  # looks between two places where a pair of roots may be
-NARROWINGS: Final = 8  # each to a part of FINER; the last is 1e-13 of the motion
+NARROWINGS: Final = 10  # at most; each to a part of FINER, or much less where the effort is smooth
+CLOSE: Final = 1e-13  # of the motion; a root between places that are as near is found
+EVEN: Final = np.linspace(0.0, 1.0, FINER + 1)[1:-1]
+BESIDE: Final = np.concatenate([sign * 10.0 ** -np.arange(1.0, 9.0) for sign in (1.0, -1.0)])
 
 
 class Equilibrium(NamedTuple):
@@ -41,8 +44,7 @@ def equilibria(
     low, high = effort[:-2], effort[2:]
     turns = (np.abs(effort[1:-1]) <= np.minimum(np.abs(low), np.abs(high))) & (low * high > 0)
     near |= np.append(turns, False) | np.append(False, turns)
-    inside = np.linspace(0, 1, FINER + 1)[1:-1]
-    more = (shares[:-1, None] + np.diff(shares)[:, None] * inside)[near].ravel()
+    more = (shares[:-1, None] + np.diff(shares)[:, None] * EVEN)[near].ravel()
     if len(more):
         shares, order = np.unique(np.concatenate([shares, more]), return_index=True)
         effort = np.concatenate([effort, at(more)])[order]
@@ -54,14 +56,23 @@ def equilibria(
     crossed = np.flatnonzero(sign[:-1] * sign[1:] < 0)
     if len(crossed):
         below, above = shares[crossed], shares[crossed + 1]
+        ends = np.stack([effort[crossed], effort[crossed + 1]], axis=1)
         rising = sign[crossed + 1] > 0
-        steps = np.linspace(0.0, 1.0, FINER + 1)
+        every = np.arange(len(crossed))
         for _ in range(NARROWINGS):
-            there = below[:, None] + (above - below)[:, None] * steps
-            signs = at(there[:, 1:-1].ravel()).reshape(len(there), -1) > 0
-            before = (signs != rising[:, None]).sum(axis=1)  # looks that are before the root
-            every = np.arange(len(there))
+            # Where the effort is smooth, the root is next to that of the chord.
+            chord = ends[:, :1] / (ends[:, :1] - ends[:, 1:])
+            parts = np.concatenate([EVEN + 0 * chord, np.clip(chord + BESIDE, 0.0, 1.0)], axis=1)
+            there = below[:, None] + (above - below)[:, None] * np.sort(parts, axis=1)
+            values = at(there.ravel()).reshape(there.shape)
+            there = np.column_stack([below, there, above])
+            values = np.column_stack([ends[:, 0], values, ends[:, 1]])
+            looks = (values[:, 1:-1] > 0) != rising[:, None]
+            before = looks.sum(axis=1)  # looks that are before the root
             below, above = there[every, before], there[every, before + 1]
+            ends = np.stack([values[every, before], values[every, before + 1]], axis=1)
+            if (above - below <= CLOSE).all():
+                break
         found += [
             Equilibrium(float(share), bool(up == (sense > 0)))
             for share, up in zip((below + above) / 2, rising, strict=True)

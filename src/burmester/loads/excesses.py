@@ -61,7 +61,7 @@ def excesses(found: LinkageAtPoses) -> FloatArray:
     if PIN_FORCE in asked:
         forces = loaded.pin_forces(-loaded.applied).values()
         out += [_beyond(np.hypot(*force.T), asked[PIN_FORCE]) for force in forces]
-    out += [*_rests(loaded), _strokes(loaded)]
+    out += [*_rests(linkage, loaded), _strokes(loaded)]
     return np.concatenate(out)
 
 
@@ -78,19 +78,19 @@ def _outside(values: FloatArray, low: float, high: float) -> list[FloatArray]:
     return [np.asarray(each / size + MARGIN) for each in sides]
 
 
-def _rests(loaded: LoadedMotion) -> list[FloatArray]:
+def _rests(linkage: LoadedLinkage, loaded: LoadedMotion) -> list[FloatArray]:
     """How much too great the efforts are at the poses where it stays, or too small to close."""
-    found, of = loaded.of.found, loaded.of
+    found = linkage.found
     asked, scale = found.task.requirements.bounds, float(np.nanmax(loaded.gross, initial=0.0))
     out, scale = [], scale or 1.0
-    names = found.task.names or ("",) * len(of.pose_shares)
+    names = found.task.names or ("",) * len(linkage.pose_shares)
     stays = [
         {str(k + 1), name} & asked.get(STAYS_AT, frozenset()) != set()
         for k, name in enumerate(names)
     ]
     if any(stays):
-        shares = np.nan_to_num(of.pose_shares[np.array(stays)])
-        there = of.at(shares)
+        shares = np.nan_to_num(linkage.pose_shares[np.array(stays)])
+        there = linkage.at(shares)
         out.append((np.abs(there.effort) - there.friction) / scale + MARGIN)
     if CLOSES_FROM in asked:
         angle = loaded.places[loaded.bodies.body].angle

@@ -13,7 +13,7 @@ from burmester.mechanisms.rates import rates
 from burmester.numerics.arrays import FloatArray
 from burmester.tasks.loads import Drive, malformed
 from burmester.verdicts.judged_linkage import LinkageAtPoses
-from burmester.verdicts.motion import Motion
+from burmester.verdicts.motion import by_driver
 
 
 class PointMotion(NamedTuple):
@@ -79,7 +79,7 @@ def kinematics(found: LinkageAtPoses, drive: Drive, count: int) -> Kinematics:
     if timing.missed is not None:
         raise malformed(f"{found.id} {timing.missed}", help="give times that its driver can keep")
     course = course_of(timing, count)
-    motion = Motion.of_driver(travel, course.share)
+    motion = by_driver(travel)(course.share)
     bodies = found.bodies
     places = motion.links or found.bodies_at(motion.drive, motion.places)
     by_drive = rates(bodies, places)

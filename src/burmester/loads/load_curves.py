@@ -107,7 +107,7 @@ def load_curves(linkage: LoadedLinkage, shares: FloatArray) -> LoadCurves:
     moving = None
     if drive is not None and (timing := linkage.timing(drive)).missed is None:
         first, last = linkage.at(2).drive.tolist()
-        moving = _moving(at, course_through(timing, (at.drive - first) / (last - first)))
+        moving = _moving(linkage, at, course_through(timing, (at.drive - first) / (last - first)))
     return LoadCurves(
         at.rates.turns,
         shares,
@@ -129,7 +129,7 @@ def curves_in_time(
     """The driver (n,), and the linkage, at so many times, evenly from beginning to end."""
     course = course_of(linkage.timing(drive), count)
     at = linkage.at_driver(course.share)
-    return _counted(at, at.drive), _moving(at, course)
+    return _counted(at, at.drive), _moving(linkage, at, course)
 
 
 def swing_from(linkage: LoadedLinkage, pose: int, seconds: float) -> SwingCurves:
@@ -162,9 +162,9 @@ def _springs(at: LoadedMotion) -> tuple[SpringCurve, ...]:
     )
 
 
-def _moving(at: LoadedMotion, course: Course) -> MovingCurves:
+def _moving(linkage: LoadedLinkage, at: LoadedMotion, course: Course) -> MovingCurves:
     """Places (n,) of a course in time."""
-    first, last = at.of.at(2).drive.tolist()
+    first, last = linkage.at(2).drive.tolist()
     way = last - first
     speed, push = course.speed * way, course.acceleration * way
     resisted = at.carried(speed, push) - at.applied

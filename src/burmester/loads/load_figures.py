@@ -13,17 +13,23 @@ from burmester.errors import Finding, InputError
 from burmester.loads.drive_in_time import course_at
 from burmester.loads.equilibria import equilibria
 from burmester.loads.loaded_motion import LOOKS, LoadedLinkage, LoadedMotion
-from burmester.loads.peaks import with_peaks
+from burmester.loads.masses import body_named
+from burmester.loads.peaks import Seen, with_peaks
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.loads import OF_LOADS
 from burmester.requirements.requirement import Figures
+from burmester.requirements.loads import (
+    BODY_ACCELERATION,
+    BODY_SPEED,
+    DRIVER_TORQUE,
+    OF_LOADS,
+)
 from burmester.requirements.table import violations
 from burmester.tasks.loads import Drive, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 
 Found = TypeVar("Found", bound=LinkageAtPoses)
 
-SAME_SHARE = 1e-9  # of the motion; a place that is nearer to a pose is the pose
+IN_TIME = frozenset({DRIVER_TORQUE, BODY_SPEED, BODY_ACCELERATION})
 HELD = 1e-9  # of the greatest effort of all loads, each by itself; less is none
 
 
@@ -71,41 +77,176 @@ class DriveFigures(NamedTuple):
     acceleration: float
 
 
+class _Looked(NamedTuple):
+    """A linkage at shares (n,) of its motion, closer about its extremes.
+
+    rows: (n,) each, by what they are; see `_seen`.
+    """
+
+    shares: FloatArray
+    rows: dict[str, FloatArray]
+
+
 @final
 @dataclass(frozen=True, eq=False)
 class LoadFigures:
-    """Of one linkage from the first pose to the last.
+    """Of one linkage from the first pose to the last; each is computed where somebody reads it."""
 
-    motion: at shares (n,) along it, closer about its extremes.  effort: that holds it still.
-    hand: of a hand in place of the driver, positive where it pushes along its way; None where there
-    is no hand.  rub: how much more of it the friction of gas springs takes, at most, in N.
-    pins: the greatest force of each, in N.
-    stays: the poses, from 0, at which friction holds it, or nothing needs to.
-    findings: springs that are longer or shorter than they allow.
-    measures: what is held to requirements, fields of `requirements.requirement`.
-    """
-
-    motion: LoadedMotion
-    shares: FloatArray
-    effort: Extremes
-    hand: Extremes | None
-    rub: float
-    pins: dict[str, float]
-    stays: tuple[int, ...]
-    springs: tuple[SpringFigures, ...]
-    drive: DriveFigures | None
-    findings: tuple[Finding, ...]
-    measures: Mapping[str, Any]
+    linkage: LoadedLinkage
 
     @property
     def turns(self) -> bool:
         """Whether its driver turns: efforts are N m then, else N."""
-        return self.motion.rates.turns
+        return self.linkage.looked[1].rates.turns
+
+    @cached_property
+    def _looked(self) -> _Looked:
+        linkage = self.linkage
+        even, first = linkage.looked
+        none = _none(first)  # rounding of an effort that is balanced everywhere has no peaks
+        names = _names(first)
+
+        def look(shares: FloatArray) -> Seen:
+            return _seen(first if shares is even else linkage.at(shares), none)
+
+        shares, seen = with_peaks(even, look)
+        rows = [*seen.values, *seen.others]
+        return _Looked(shares, dict(zip(names, rows, strict=True)))
+
+    def _extremes(self, name: str) -> Extremes:
+        rows = self._looked.rows
+        return extremes(self.linkage, rows["drive"], rows[name])
+
+    @cached_property
+    def effort(self) -> Extremes:
+        """That holds it still."""
+        return self._extremes("effort")
+
+    @cached_property
+    def hand(self) -> Extremes | None:
+        """Of a hand in place of the driver, positive where it pushes along its way, if there is."""
+        return None if self.linkage.loads.hand is None else self._extremes("hand")
+
+    @cached_property
+    def rub(self) -> float:
+        """How much more of the hand the friction of gas springs takes, at most, in N."""
+        return 0.0 if self.hand is None else _greatest(self._looked.rows["rub"])
+
+    @cached_property
+    def pins(self) -> dict[str, float]:
+        """The greatest force of each pin, in N."""
+        rows = self._looked.rows
+        return {
+            name.removeprefix("pin "): _greatest(row)
+            for name, row in rows.items()
+            if name.startswith("pin ")
+        }
+
+    @cached_property
+    def stays(self) -> tuple[int, ...]:
+        """The poses, from 0, at which friction holds it, or nothing needs to."""
+        shares, rows = self._looked
+        reached = np.flatnonzero(np.isfinite(self.linkage.pose_shares))
+        at = np.searchsorted(shares, self.linkage.pose_shares[reached])
+        held = np.abs(rows["effort"][at]) <= rows["friction"][at] + _none(self.linkage.looked[1])
+        return tuple(int(k) for k in reached[held])
+
+    @cached_property
+    def springs(self) -> tuple[SpringFigures, ...]:
+        """Its springs, but for counterweights."""
+        out, metre = [], self.linkage.metre
+        for k, course in enumerate(self.linkage.looked[1].springs):
+            length, tension = (self._looked.rows[f"{what} {k}"] for what in ("length", "tension"))
+            turned = course.spring.kind == "torsion"
+            length = np.degrees(length) if turned else length / metre
+            ends = ((float(each.min()), float(each.max())) for each in (length, tension))
+            out.append(SpringFigures(course.spring, *ends))
+        return tuple(out)
+
+    @cached_property
+    def drive(self) -> DriveFigures | None:
+        """In time; None where the task states no drive, or the linkage cannot keep it."""
+        return in_time(self.linkage)
 
     @cached_property
     def rests(self) -> tuple[Rest, ...]:
         """Its equilibria."""
-        return _rests(self.motion, self.shares)
+        (shares, rows), linkage, first = self._looked, self.linkage, self.linkage.looked[1]
+        rests = equilibria(
+            shares, rows["effort"], first.sense, lambda at: linkage.at(at).effort, _none(first)
+        )
+        if not rests:
+            return ()
+        drives = linkage.at(np.array([each.share for each in rests])).drive
+        return tuple(
+            Rest(float(np.degrees(at)) if self.turns else float(at), each.stable,
+                 poses_about(linkage, float(at)))
+            for each, at in zip(rests, drives, strict=True)
+        )  # fmt: skip
+
+    @cached_property
+    def findings(self) -> tuple[Finding, ...]:
+        """Springs that are longer or shorter than they allow, and times it cannot keep."""
+        linkage, loads = self.linkage, self.linkage.loads
+        missed = None if loads.drive is None else linkage.timing(loads.drive).missed
+        own = () if springs_fit(linkage) else self._off_springs
+        return own if missed is None else (*own, Finding("drive", missed))
+
+    @property
+    def _off_springs(self) -> tuple[Finding, ...]:
+        out, rows = [], self._looked.rows
+        for k, course in enumerate(self.linkage.looked[1].springs):
+            length = rows[f"length {k}"]
+            off = course.off(length, self.linkage.metre)
+            if not off.any():
+                continue
+            drives = rows["drive"][off]
+            poses = sorted({each for at in (drives[0], drives[-1])
+                            for each in poses_about(self.linkage, float(at))})  # fmt: skip
+            least, most = course.spring.span
+            length = length / self.linkage.metre
+            message = (
+                f"is {length.min():.4g} to {length.max():.4g} long along the motion, and may be "
+                f"{least:.4g} to {most:.4g}"
+            )
+            kind = f"{course.spring.kind} spring {k + 1}"
+            out.append(Finding("spring", f"its {kind} {message}", tuple(k - 1 for k in poses)))
+        return tuple(out)
+
+    @cached_property
+    def measures(self) -> Mapping[str, Any]:
+        """What is held to requirements, fields of `requirements.requirement.Figures`.
+
+        Those in time only where the task bounds one of them.
+        """
+        task, rows = self.linkage.found.task, self._looked.rows
+        names = task.names or ("",) * len(self.linkage.pose_shares)
+        timed = not IN_TIME.isdisjoint(task.requirements.bounds)
+        drive = self.drive if timed else None
+        hand = self.hand is not None
+        out = {
+            "hand_force": _greatest(rows["either way"]) if hand else np.nan,
+            "hand_least": float(np.fmin.reduce(rows["onwards"])) if hand else np.nan,
+            "hand_greatest": float(np.fmax.reduce(rows["onwards"])) if hand else np.nan,
+            "driver_torque": (self.effort if drive is None else drive.effort).magnitude
+            if self.turns
+            else np.nan,  # one that slides has none
+            "pin_force": max(self.pins.values()),
+            "stays": frozenset(word for k in self.stays for word in (str(k + 1), names[k]) if word),
+            "closes": self._closes,
+        }
+        if drive is not None:
+            out |= {"body_speed": drive.speed, "body_acceleration": drive.acceleration}
+        return out
+
+    @property
+    def _closes(self) -> float:
+        """How far the body may be turned from the first pose, and closes by itself, in radians."""
+        rows = self._looked.rows
+        angle = np.abs(rows["angle"] - rows["angle"][0])
+        back = self.linkage.looked[1].sense * rows["effort"] > rows["friction"]
+        open_ = np.flatnonzero(~back)
+        return float(angle[open_[0]] if len(open_) else np.inf)
 
 
 def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
@@ -113,52 +254,11 @@ def load_figures(found: LinkageAtPoses) -> LoadFigures | None:
     if found.task.loads is None:
         return None
     try:
-        linkage = LoadedLinkage.of(found)
+        return LoadFigures(LoadedLinkage.of(found))
     except InputError as error:
         if error.code != "E163":
             raise
         return None
-    loaded, shares = _looked_at(linkage)
-    effort = loaded.effort
-    hand, rub, pushed, onwards = None, 0.0, np.nan, np.full(1, np.nan)
-    if loaded.loads.hand is not None:
-        static, rubs = (np.abs(loaded.hand_force(each)) for each in (effort, loaded.friction))
-        hand, rub = extremes(loaded, loaded.hand_force(effort)), float(np.nanmax(rubs, initial=0))
-        pushed = float(np.nanmax(static + rubs, initial=0.0))
-        onwards = loaded.hand_force(effort) + rubs
-    pins = {
-        name: float(np.nanmax(np.hypot(*force.T), initial=0.0))
-        for name, force in loaded.pins.items()
-    }
-    most, stays, drive = extremes(loaded, effort), _stays(loaded, shares), in_time(linkage)
-    findings = spring_findings(loaded) + drive_findings(linkage)
-    names = found.task.names or ("",) * len(linkage.at_poses)
-    measures = {
-        "hand_force": pushed,
-        "hand_least": float(np.fmin.reduce(onwards)),
-        "hand_greatest": float(np.fmax.reduce(onwards)),
-        "driver_torque": (most if drive is None else drive.effort).magnitude
-        if loaded.rates.turns
-        else np.nan,  # one that slides has none
-        "pin_force": max(pins.values()),
-        "stays": frozenset(word for k in stays for word in (str(k + 1), names[k]) if word),
-        "closes": _closes(loaded),
-    }
-    if drive is not None:
-        measures |= {"body_speed": drive.speed, "body_acceleration": drive.acceleration}
-    return LoadFigures(
-        loaded,
-        shares,
-        most,
-        hand,
-        rub,
-        pins,
-        stays,
-        tuple(_spring(loaded, k) for k in range(len(loaded.springs))),
-        drive,
-        findings,
-        measures,
-    )
 
 
 def loaded(found: Found) -> Found:
@@ -183,25 +283,26 @@ def missed(found: LinkageAtPoses, figures: LoadFigures) -> tuple[Finding, ...]:
     """What a linkage does not keep of what is asked of its loads."""
     bounds = found.task.requirements.bounds
     asked = {each: bound for each, bound in bounds.items() if each in OF_LOADS}
-    return violations(asked, Figures(**figures.measures), found.unit)
+    return violations(asked, Figures(**figures.measures), found.unit) if asked else ()
 
 
-def extremes(loaded: LoadedMotion, values: FloatArray) -> Extremes:
-    """The least and the greatest of values (n,) along a motion."""
+def extremes(linkage: LoadedLinkage, drive: FloatArray, values: FloatArray) -> Extremes:
+    """The least and the greatest of values (n,) where the driver is at (n,)."""
     if not np.isfinite(values).any():
         return Extremes(np.nan, np.nan, ((1, 1), (1, 1)))
     low, high = int(np.nanargmin(values)), int(np.nanargmax(values))
-    between = (poses_about(loaded, float(loaded.drive[k])) for k in (low, high))
+    between = (poses_about(linkage, float(drive[k])) for k in (low, high))
     return Extremes(float(values[low]), float(values[high]), (next(between), next(between)))
 
 
-def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
+def poses_about(linkage: LoadedLinkage, drive: float) -> tuple[int, int]:
     """The numbers, from 1, of the poses before and behind a place of the driver."""
-    met = loaded.sense * loaded.of.at_poses
+    sense = linkage.looked[1].sense
+    met = sense * linkage.at_poses
     order = np.argsort(met)
     order = order[np.isfinite(met[order])]
     slack = HELD * float(np.ptp(met[order]))
-    at = loaded.sense * drive
+    at = sense * drive
     before = order[met[order] <= at + slack]
     behind = order[met[order] >= at - slack]
     return int(before[-1] if len(before) else order[0]) + 1, int(
@@ -209,108 +310,62 @@ def poses_about(loaded: LoadedMotion, drive: float) -> tuple[int, int]:
     ) + 1
 
 
-def _looked_at(linkage: LoadedLinkage) -> tuple[LoadedMotion, FloatArray]:
-    """A linkage at shares (n,) of its motion: even ones, the poses, and more about extremes."""
-    met = linkage.pose_shares[np.isfinite(linkage.pose_shares)]
-    even = np.linspace(0.0, 1.0, LOOKS)
-    apart = np.abs(even[:, None] - met).min(axis=1, initial=1.0)
-    even = np.unique(np.concatenate([even[apart > SAME_SHARE], met]))
-    first = linkage.at(even)
-    none = _none(first)  # rounding of an effort that is balanced everywhere has no peaks
-
-    def look(shares: FloatArray) -> tuple[FloatArray, FloatArray]:
-        here = first if shares is even else linkage.at(shares)
-        effort = np.where(np.abs(here.effort) <= none, 0.0, here.effort)
-        pins = np.array([np.hypot(*force.T) for force in here.pins.values()])
-        values = [effort, *np.where(pins <= HELD * np.nanmax(pins, initial=0.0), 0.0, pins)]
-        divisors = [np.abs(here.rates.closeness)]
-        for course in here.springs:
-            values += [course.length, course.tension]
-            if course.spring.kind != "torsion":
-                divisors.append(course.length)
-        if here.loads.hand is not None:
-            push, rubs = here.hand_force(effort), np.abs(here.hand_force(here.friction))
-            values += [push, rubs, push + rubs, np.abs(push) + rubs]
-            divisors.append(here.hand_speed)
-        return np.array(values), np.array(divisors)
-
-    shares = with_peaks(even, look)
-    return (first if shares is even else linkage.at(shares)), shares
-
-
-def _rests(loaded: LoadedMotion, shares: FloatArray) -> tuple[Rest, ...]:
-    rests = equilibria(
-        shares, loaded.effort, loaded.sense, lambda at: loaded.of.at(at).effort, _none(loaded)
-    )
-    if not rests:
-        return ()
-    drives = loaded.of.at(np.array([each.share for each in rests])).drive
-    return tuple(
-        Rest(float(np.degrees(at)) if loaded.rates.turns else float(at), each.stable,
-             poses_about(loaded, float(at)))
-        for each, at in zip(rests, drives, strict=True)
-    )  # fmt: skip
-
-
-def _stays(loaded: LoadedMotion, shares: FloatArray) -> tuple[int, ...]:
-    """The poses at which the friction of springs, or nothing, is enough to hold it."""
-    reached = np.flatnonzero(np.isfinite(loaded.of.pose_shares))
-    at = np.searchsorted(shares, loaded.of.pose_shares[reached])
-    held = np.abs(loaded.effort[at]) <= loaded.friction[at] + _none(loaded)
-    return tuple(int(k) for k in reached[held])
+def _greatest(values: FloatArray) -> float:
+    """The greatest of values (n,) that are not negative; 0 where there is none."""
+    return float(np.nanmax(values, initial=0.0))
 
 
 def _none(loaded: LoadedMotion) -> float:
     """The effort below which there is none but rounding."""
-    return HELD * float(np.nanmax(loaded.gross, initial=0.0))
+    return HELD * _greatest(loaded.gross)
 
 
-def _closes(loaded: LoadedMotion) -> float:
-    """How far the body may be turned from the first pose, and closes by itself, in radians."""
-    angle = loaded.places[loaded.bodies.body].angle
-    angle = np.abs(angle - angle[0])
-    back = loaded.sense * loaded.effort > loaded.friction
-    open_ = np.flatnonzero(~back)
-    return float(angle[open_[0]] if len(open_) else np.inf)
+def _names(here: LoadedMotion) -> list[str]:
+    """What the rows are of what is seen."""
+    springs = [f"{what} {k}" for k in range(len(here.springs)) for what in ("length", "tension")]
+    hand = [] if here.loads.hand is None else ["hand", "rub", "onwards", "either way"]
+    pins = [f"pin {name}" for name in here.pins]
+    return ["effort", *pins, *springs, *hand, "drive", "friction", "angle"]
 
 
-def _spring(loaded: LoadedMotion, k: int) -> SpringFigures:
-    course = loaded.springs[k]
-    turned = course.spring.kind == "torsion"
-    length = np.degrees(course.length) if turned else course.length / loaded.of.metre
-    return SpringFigures(
-        course.spring,
-        (float(length.min()), float(length.max())),
-        (float(course.tension.min()), float(course.tension.max())),
-    )
+def _seen(here: LoadedMotion, none: float) -> Seen:
+    """A linkage at places (n,): effort, pins, springs and hand; driver, friction and body."""
+    effort = np.where(np.abs(here.effort) <= none, 0.0, here.effort)
+    pins = np.array([np.hypot(*force.T) for force in here.pins.values()])
+    values = [effort, *np.where(pins <= HELD * _greatest(pins), 0.0, pins)]
+    divisors = [np.abs(here.rates.closeness)]
+    for course in here.springs:
+        values += [course.length, course.tension]
+        if course.spring.kind != "torsion":
+            divisors.append(course.length)
+    if here.loads.hand is not None:
+        push, rubs = here.hand_force(effort), np.abs(here.hand_force(here.friction))
+        values += [push, rubs, push + rubs, np.abs(push) + rubs]
+        divisors.append(here.hand_speed)
+    others = [here.drive, here.friction, here.places[here.bodies.body].angle]
+    return Seen(np.array(values), np.array(divisors), np.array(others))
 
 
-def spring_findings(loaded: LoadedMotion) -> tuple[Finding, ...]:
-    """The springs that are longer or shorter than they allow, with the poses concerned."""
-    out = []
-    for number, course in enumerate(loaded.springs, start=1):
-        off = course.off(loaded.of.metre)
-        if not off.any():
+def springs_fit(linkage: LoadedLinkage) -> bool:
+    """Whether the springs surely are as long as they may be; False where that is to be looked at.
+
+    Between three places a smooth length is beyond the middle one by less than their second
+    difference.
+    """
+    (_, there), metre = linkage.looked, linkage.metre
+    for spring in linkage.loads.springs:
+        if spring.kind in ("torsion", "counterweight"):
             continue
-        drives = loaded.drive[off]
-        poses = sorted({each for at in (drives[0], drives[-1])
-                        for each in poses_about(loaded, float(at))})  # fmt: skip
-        least, most = course.spring.span
-        length = course.length / loaded.of.metre
-        message = (
-            f"is {length.min():.4g} to {length.max():.4g} long along the motion, and may be "
-            f"{least:.4g} to {most:.4g}"
+        least, most = (each * metre for each in spring.span)
+        one, two = (
+            there.places[body_named(end.link, linkage.bodies)].act(np.array(end.point) * metre)
+            for end in spring.ends
         )
-        kind = f"{course.spring.kind} spring {number}"
-        out.append(Finding("spring", f"its {kind} {message}", tuple(k - 1 for k in poses)))
-    return tuple(out)
-
-
-def drive_findings(linkage: LoadedLinkage) -> tuple[Finding, ...]:
-    """Why its driver cannot move in time as the task states; () where it can."""
-    drive = linkage.loads.drive
-    missed = None if drive is None else linkage.timing(drive).missed
-    return () if missed is None else (Finding("drive", missed),)
+        length = np.hypot(*(two - one).T)
+        slack = float(np.abs(np.diff(length, 2)).max(initial=0.0))
+        if not (length.min() - slack > least and length.max() + slack < most):
+            return False
+    return True
 
 
 def in_time(linkage: LoadedLinkage) -> DriveFigures | None:
@@ -323,23 +378,18 @@ def in_time(linkage: LoadedLinkage) -> DriveFigures | None:
         return None
     first, last = linkage.drives(linkage.way(np.array([0.0, 1.0]))).tolist()
 
-    def seen(parts: FloatArray) -> tuple[LoadedMotion, FloatArray]:
-        """It at parts (n,) of the time, with effort, speed and acceleration: (3, n)."""
+    def look(parts: FloatArray) -> Seen:
+        """At parts (n,) of the time: effort, speed and acceleration; the driver."""
         course = course_at(timing, parts)
         here = linkage.at_driver(course.share)
         speed, push = course.speed * (last - first), course.acceleration * (last - first)
         effort = here.rates.effort(here.carried(speed, push) - here.applied)
-        number = here.rates.bodies.index(here.bodies.body)
+        number = here.rates.number(here.bodies.body)
         moved = (np.hypot(*each[:, number, :2].T) for each in here.rates.in_time(speed, push))
-        return here, np.stack([effort, *moved])
+        values = np.stack([effort, *moved])
+        return Seen(values, np.abs(here.rates.closeness)[None], here.drive[None])
 
-    def look(parts: FloatArray) -> tuple[FloatArray, FloatArray]:
-        here, values = whole if parts is even else seen(parts)
-        return values, np.abs(here.rates.closeness)[None]
-
-    even = np.linspace(0.0, 1.0, LOOKS)
-    whole = seen(even)
-    parts = with_peaks(even, look)
-    loaded, values = whole if parts is even else seen(parts)
-    speed, acceleration = (float(np.nanmax(each)) / linkage.metre for each in values[1:])
-    return DriveFigures(drive, extremes(loaded, values[0]), speed, acceleration)
+    _, seen = with_peaks(np.linspace(0.0, 1.0, LOOKS), look)
+    effort = extremes(linkage, seen.others[0], seen.values[0])
+    speed, acceleration = (float(np.nanmax(each)) / linkage.metre for each in seen.values[1:])
+    return DriveFigures(drive, effort, speed, acceleration)

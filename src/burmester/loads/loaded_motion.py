@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import NamedTuple, Self, final
+from typing import NamedTuple, Protocol, Self, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,10 +30,11 @@ from burmester.numerics.arrays import (
 from burmester.tasks.length_units import MILLIMETRES
 from burmester.tasks.loads import BODY, SLACK, Drive, Loads, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses
-from burmester.verdicts.motion import Motion, Way
+from burmester.verdicts.motion import Motion, Way, by_driver
 
 STILL = 1e-9  # of the greatest speed of a hand; less is none
 LOOKS = 361  # places along the motion at which a linkage is looked at
+SAME_SHARE = 1e-9  # of the motion; a place that is nearer to a pose is the pose
 
 
 class _Point(NamedTuple):
@@ -68,21 +69,54 @@ class SpringCourse(NamedTuple):
         """The length of a coil spring at which it begins to pull or to push."""
         return self.law.slack
 
-    def off(self, metre: float) -> NDArray[np.bool_]:
-        """Where (n,) it is longer or shorter than it allows, which a torsion spring never is."""
+    def off(self, length: FloatArray, metre: float) -> NDArray[np.bool_]:
+        """Whether lengths (n,) are beyond what it allows, which those of torsion never are."""
         if self.spring.kind == "torsion":
-            return np.zeros(self.length.shape, dtype=bool)
+            return np.zeros(length.shape, dtype=bool)
         least, most = (each * metre for each in self.spring.span)
-        return self.law.off(self.length, (least, most))
+        return self.law.off(length, (least, most))
+
+
+class UnderLoads(Protocol):
+    """A linkage under loads, as its places need to know it.
+
+    bodies, masses: in metres and kg; a unit of the task has so many metres.
+    at_poses: (N,), the driver's coordinate at the poses, nan where it reaches none.
+    looks: the driver's coordinate (n,) and the places of the bodies along the whole motion, by
+    which the turns of torsion springs count.
+    """
+
+    @property
+    def loads(self) -> Loads: ...
+    @property
+    def metre(self) -> float: ...
+    @property
+    def bodies(self) -> Bodies: ...
+    @property
+    def masses(self) -> Masses: ...
+    @property
+    def at_poses(self) -> FloatArray: ...
+    @property
+    def looks(self) -> tuple[FloatArray, LinkPlaces]: ...
+
+
+class LoadedBodies(NamedTuple):
+    """Bodies under loads that are known at some places only; see `UnderLoads`."""
+
+    loads: Loads
+    metre: float
+    bodies: Bodies
+    masses: Masses
+    at_poses: FloatArray
+    looks: tuple[FloatArray, LinkPlaces]
 
 
 @final
 @dataclass(frozen=True, eq=False)
 class LoadedLinkage:
-    """A linkage of a task with loads.
+    """A linkage of a task with loads; see `UnderLoads`.
 
-    way: its motion in the task's unit, whose unit has so many metres.  bodies, masses: in metres
-    and kg.  at_poses: (N,), the driver's coordinate at the poses, nan where it reaches none.
+    way: its motion in the task's unit.
     """
 
     found: LinkageAtPoses
@@ -90,9 +124,6 @@ class LoadedLinkage:
     way: Way
     metre: float
     bodies: Bodies
-    masses: Masses
-    pose_shares: FloatArray
-    at_poses: FloatArray
 
     @classmethod
     def of(cls, found: LinkageAtPoses) -> Self:
@@ -102,12 +133,47 @@ class LoadedLinkage:
         metre = MILLIMETRES[found.unit or ""] / 1000
         bodies = found.bodies.scaled(metre)
         require_links(loads, bodies)
-        masses = Masses.of(bodies, loads, found.task.body, metre)
-        shares = way(np.zeros(1)).pose_shares
-        motion = way(np.nan_to_num(shares))
-        at_poses = motion.drive * (1.0 if motion.in_turns else metre)
-        at_poses = np.where(np.isfinite(shares), at_poses, np.nan)
-        return cls(found, loads, way, metre, bodies, masses, shares, at_poses)
+        return cls(found, loads, way, metre, bodies)
+
+    @cached_property
+    def masses(self) -> Masses:
+        """What the bodies weigh."""
+        return Masses.of(self.bodies, self.loads, self.found.task.body, self.metre)
+
+    @cached_property
+    def pose_shares(self) -> FloatArray:
+        """The shares (N,) of the motion at which poses are met; nan of those that are not."""
+        return self.way(np.zeros(1)).pose_shares
+
+    @cached_property
+    def at_poses(self) -> FloatArray:
+        """The driver's coordinate (N,) at the poses."""
+        shares, (even, motion) = self.pose_shares, self._looks
+        met = np.isfinite(shares)
+        out = np.full(shares.shape, np.nan)
+        out[met] = self.drives(motion)[np.searchsorted(even, shares[met])]
+        return out
+
+    @cached_property
+    def _looks(self) -> tuple[FloatArray, Motion]:
+        """The shares (n,), even ones and those of poses, and the motion there."""
+        met = self.pose_shares[np.isfinite(self.pose_shares)]
+        even = np.linspace(0.0, 1.0, LOOKS)
+        apart = np.abs(even[:, None] - met).min(axis=1, initial=1.0)
+        even = np.unique(np.concatenate([even[apart > SAME_SHARE], met]))
+        return even, self.way(even)
+
+    @cached_property
+    def looks(self) -> tuple[FloatArray, LinkPlaces]:
+        """The driver's coordinate and the bodies' places along the motion, from end to end."""
+        looked = self.looked[1]
+        return looked.drive, looked.places
+
+    @cached_property
+    def looked(self) -> tuple[FloatArray, LoadedMotion]:
+        """It at even shares (n,) of its motion and at its poses, and these shares."""
+        shares, motion = self._looks
+        return shares, self._moved(motion)
 
     def at(self, shares: FloatArray | int = LOOKS) -> LoadedMotion:
         """It at shares (n,) of its motion, or so many of them."""
@@ -121,19 +187,15 @@ class LoadedLinkage:
 
     def at_driver(self, shares: FloatArray) -> LoadedMotion:
         """It at shares (n,) of what the driver goes."""
-        return self._moved(Motion.of_driver(self.way, shares))
+        return self._moved(self._by_driver(shares))
 
     @cached_property
-    def looks(self) -> tuple[FloatArray, LinkPlaces]:
-        """The driver's coordinate and the bodies' places along the motion, from end to end."""
-        motion = self.way(np.linspace(0.0, 1.0, LOOKS))
-        drive = motion.drive * (1.0 if motion.in_turns else self.metre)
-        return drive, motion.links or self.found.bodies_at(motion.drive, motion.places)
+    def _by_driver(self) -> Way:
+        return by_driver(self.way)
 
     def _moved(self, motion: Motion) -> LoadedMotion:
         places = motion.links or self.found.bodies_at(motion.drive, motion.places)
-        places = places.scaled(self.metre)
-        return LoadedMotion(self, self.drives(motion), places, rates(self.bodies, places))
+        return LoadedMotion(self, self.drives(motion), places.scaled(self.metre))
 
     def drives(self, motion: Motion) -> FloatArray:
         """The driver's coordinate (n,) along a motion, radians or metres."""
@@ -145,10 +207,14 @@ class LoadedLinkage:
 class LoadedMotion:
     """A loaded linkage at places (n,): its driver's coordinate there, radians or metres."""
 
-    of: LoadedLinkage
+    of: UnderLoads
     drive: FloatArray
     places: LinkPlaces
-    rates: Rates
+
+    @cached_property
+    def rates(self) -> Rates:
+        """How its bodies move for a unit of the driver."""
+        return rates(self.bodies, self.places)
 
     @property
     def loads(self) -> Loads:

@@ -8,7 +8,7 @@ the determinant of the loops, is least and may be much less in between.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,28 +21,33 @@ MOST: Final = 4096  # places added in a round; where more would be, the values a
 ROUNDS: Final = 4  # the last intervals are 1e-6 of the motion
 NARROW: Final = 0.5  # of a divisor; where it bends more from one place to the next it is narrow
 
-Looks = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 
+class Seen(NamedTuple):
+    """What is seen at places (n,).
 
-def with_peaks(places: FloatArray, look: Looks) -> FloatArray:
-    """Places (n,), ascending, and those about the peaks of what is seen there.
-
-    look: values (q, n), whose greatest and least are told, and divisors (r, n), not negative.
+    values: (q, n), whose greatest and least are told; divisors: (r, n), not negative; others:
+    (s, n), whose peaks nobody asks for.
     """
-    values, divisors = look(places)
+
+    values: FloatArray
+    divisors: FloatArray
+    others: FloatArray
+
+
+def with_peaks(places: FloatArray, look: Callable[[FloatArray], Seen]) -> tuple[FloatArray, Seen]:
+    """Places (n,), ascending, and those about the peaks of what is seen there; and all that."""
+    seen = look(places)
     for _ in range(ROUNDS):
-        near = _near(values, divisors)
+        near = _near(seen.values, seen.divisors)
         if not near.any() or near.sum() * (PARTS - 1) > MOST:
             break
         low, wide = places[:-1][near], np.diff(places)[near]
         more = (low[:, None] + wide[:, None] * np.arange(1, PARTS) / PARTS).ravel()
         order = np.argsort(np.concatenate([places, more]), kind="stable")
-        seen = look(more)
-        places, values, divisors = (
-            np.concatenate(both, axis=-1)[..., order]
-            for both in ((places, more), (values, seen[0]), (divisors, seen[1]))
-        )
-    return places
+        places = np.concatenate([places, more])[order]
+        both = zip(seen, look(more), strict=True)
+        seen = Seen(*(np.concatenate(each, axis=-1)[:, order] for each in both))
+    return places, seen
 
 
 def _near(values: FloatArray, divisors: FloatArray) -> NDArray[np.bool_]:

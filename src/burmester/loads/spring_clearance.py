@@ -20,6 +20,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Polygon, feet
 from burmester.loads.loaded_motion import LoadedMotion
 from burmester.numerics.arrays import FloatArray
+from burmester.tasks.motion_task import Task
 from burmester.tasks.surroundings import Surroundings
 
 PIN: Final = 0.4  # of the links' width: diameter of a pin, as in plates that are exported
@@ -39,9 +40,9 @@ class SpringClearance:
     around: Surroundings
 
     @classmethod
-    def of(cls, loaded: LoadedMotion) -> Self:
-        """That of a linkage."""
-        task, unit = loaded.of.found.task, 1 / loaded.of.metre
+    def of(cls, loaded: LoadedMotion, task: Task) -> Self:
+        """That of a linkage of a task."""
+        unit = 1 / loaded.of.metre
         around, places = task.surroundings or Surroundings(), loaded.places.scaled(unit)
         pins = [
             places[joint.holder].act(joint.holes[joint.holder] * unit)

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Final, cast
+from typing import Final
 
 import numpy as np
 
-from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
+from burmester.loads.loaded_motion import LoadedBodies, LoadedMotion
 from burmester.loads.masses import Masses
 from burmester.mechanisms.bodies import LinkPlaces, bodies_of_skeleton, plate_names
-from burmester.mechanisms.rates import rates
 from burmester.numerics.arrays import pairs_of
 from burmester.requirements.loads import DRIVER_TORQUE, HAND_FORCE, PIN_FORCE
 from burmester.sixbar.candidates import Candidates
@@ -36,10 +35,8 @@ def load_excess(found: Candidates, k: int, task: Task) -> float:
     places = LinkPlaces({named[link]: each for link, each in there.items()}).scaled(metre)
     drive = np.unwrap(there[skeleton.crank(pivot)].angle)
     masses = Masses.of(bodies, loads, task.body, metre)
-    nothing = cast("Any", None)  # no place between the poses is looked at
-    shares = (drive - drive[0]) / (drive[-1] - drive[0])
-    of = LoadedLinkage(nothing, loads, nothing, metre, bodies, masses, shares, drive)
-    loaded = LoadedMotion(of, drive, places, rates(bodies, places))
+    of = LoadedBodies(loads, metre, bodies, masses, drive, (drive, places))
+    loaded = LoadedMotion(of, drive, places)
     borne = {DRIVER_TORQUE: np.abs(loaded.effort)}
     if loads.hand is not None:
         pushed = [np.abs(loaded.hand_force(each)) for each in (loaded.effort, loaded.friction)]

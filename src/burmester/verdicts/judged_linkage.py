@@ -14,6 +14,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
 from burmester.requirements.requirement import Figures
+from burmester.requirements.loads import OF_LOADS
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.motion import Configuration, Motion, Way
 
@@ -100,8 +101,10 @@ class LinkageAtPoses(JudgedLinkage):
         return False
 
     def with_loads(self, figures: Figures) -> Figures:
-        """Figures, and what it bears."""
-        return figures if self.loads is None else figures._replace(**self.loads.measures)
+        """Figures, and what it bears where the task bounds it."""
+        if self.loads is None or not {*OF_LOADS} & {*self.task.requirements.bounds}:
+            return figures
+        return figures._replace(**self.loads.measures)
 
     @property
     @abstractmethod

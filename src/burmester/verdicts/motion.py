@@ -79,18 +79,23 @@ class Motion:
         share = np.linspace(0.0, 1.0, count) if isinstance(count, int) else np.asarray(count, float)
         return chosen.travel(whole)(share)
 
-    @classmethod
-    def of_driver(cls, way: Way, share: FloatArray) -> Motion:
-        """The motion at shares (n,) of what the driver goes, which may be others of the motion."""
-        few = np.linspace(0.0, 1.0, PROBES)
-        drive = way(few).drive
-        if np.abs(drive - drive[0] - (drive[-1] - drive[0]) * few).max() < CLOSE * np.ptp(drive):
-            return way(share)  # the driver's own coordinate tells how far the motion is
-        table = np.linspace(0.0, 1.0, LOOKS)
-        drive = way(table).drive
-        first, whole = drive[0], drive[-1] - drive[0]
-        gone = (drive - first) / whole
-        slope = np.maximum(np.gradient(gone, table), 1 / LOOKS)
+
+Way: TypeAlias = Callable[[FloatArray], Motion]  # the motion at shares (n,) of it
+
+
+def by_driver(way: Way) -> Way:
+    """A motion at shares (n,) of what the driver goes, which may be others of the motion."""
+    few = np.linspace(0.0, 1.0, PROBES)
+    drive = way(few).drive
+    if np.abs(drive - drive[0] - (drive[-1] - drive[0]) * few).max() < CLOSE * np.ptp(drive):
+        return way  # the driver's own coordinate tells how far the motion is
+    table = np.linspace(0.0, 1.0, LOOKS)
+    drive = way(table).drive
+    first, whole = drive[0], drive[-1] - drive[0]
+    gone = (drive - first) / whole
+    slope = np.maximum(np.gradient(gone, table), 1 / LOOKS)
+
+    def there(share: FloatArray) -> Motion:
         at = np.interp(share, gone, table)
         for _ in range(CORRECTIONS):
             off = share - (way(at).drive - first) / whole
@@ -99,5 +104,4 @@ class Motion:
                 break
         return way(at)
 
-
-Way: TypeAlias = Callable[[FloatArray], Motion]  # the motion at shares (n,) of it
+    return there

@@ -30,14 +30,12 @@ from burmester.export.options import PRECISION, Options, Reference, require_equa
 from burmester.export.parts.plate import SLOT_RUN_OUT, slot_outline
 from burmester.export.parts.plates import Assembly, assembly_of
 from burmester.geometry.outlines import outline_moments, rounded_hull
-from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
+from burmester.loads.loaded_motion import LoadedBodies, LoadedLinkage, LoadedMotion
 from burmester.loads.masses import Masses
 from burmester.mechanisms.bodies import ORIGIN
-from burmester.mechanisms.rates import rates
 from burmester.numerics.arrays import FloatArray
 from burmester.synthesis.result import Candidate
 from burmester.tasks.loads import STANDARD_GRAVITY, Loads
-from burmester.verdicts.motion import Motion
 
 HINGE_MARGIN: Final = math.radians(5)  # by which a hinge may leave the range used, at each end
 DAMPING_RATE: Final = 0.1  # 1/s: a link alone on its joint loses its speed at this rate
@@ -197,17 +195,12 @@ class DynamicModel:
             np.array([each.centre[:2] for each in own]),
             np.array([each.inertia[2, 2] for each in own]),
         )
-        drive = self.joints.at_poses[:, self.motor]
-        unknown = np.full(drive.shape, np.nan)
-
-        def way(share: FloatArray) -> Motion:  # only where the turns of torsion springs count
-            return found.travel()(share)
-
-        linkage = LoadedLinkage(
-            found, loads, way, reference.scale, reference, masses, unknown, drive
-        )
-        there = reference.at_poses
-        return LoadedMotion(linkage, drive, there, rates(reference, there))
+        drive, metre = self.joints.at_poses[:, self.motor], reference.scale
+        there, looks = reference.at_poses, (drive, reference.at_poses)
+        if any(each.kind == "torsion" for each in loads.springs):
+            looks = LoadedLinkage.of(found).looks
+        of = LoadedBodies(loads, metre, reference, masses, drive, looks)
+        return LoadedMotion(of, drive, there)
 
     def require_body(
         self, name: str, mass: float, centre: ArrayLike, inertia: ArrayLike, origin: ArrayLike = 0.0
