@@ -25,7 +25,13 @@ BOX     X,Y:X,Y, two corners in the unit of the poses"""
 @click.option("--on-body", metavar="BOX", help="Where it may attach on the body, in its frame.")
 @click.option("--with-linkage", is_flag=True, help="Move pivots too, within what is asked.")
 @click.option("--json", "as_json", is_flag=True, help="Print one JSON object and nothing else.")
-@click.option("-o", "file", metavar="FILE", help="Write the task with the best spring to FILE.")
+@click.option(
+    "-o",
+    "file",
+    metavar="FILE",
+    help="Write the task with the best spring to FILE; to FILE.json the linkage with it, as "
+    "`burmester judge` does.",
+)
 @click.option("--force", is_flag=True, help="Write FILE even if it exists.")
 def balance(
     poses: str,
@@ -47,11 +53,14 @@ def balance(
     """
     from burmester.cli.progress_line import working
     from burmester.io import files
-    from burmester.io.balance_table import balance_data, corners_of, show_balance
+    from burmester.io.balance_table import balance_data, corners_of, is_result, show_balance
+    from burmester.io.result import json_line, synthesis_data
     from burmester.io.spring_list import in_pairs, springs_of_file, usual_springs
     from burmester.live.document import document_of, task_file
     from burmester.synthesis.balanced import BalanceRegions
     from burmester.synthesis.balanced import balance as balanced
+    from burmester.synthesis.judgement import judge_linkage
+    from burmester.verdicts.found_linkage import FoundLinkage
 
     if file is not None:
         files.require_writable(file, force=force, source=poses)
@@ -65,7 +74,12 @@ def balance(
         regions = BalanceRegions(corners_of("--ground", ground), corners_of("--on-body", on_body))
         answer, found = balanced(task, offers, regions, with_linkage=with_linkage)
     if file is not None and found:
-        files.write(file, task_file(document_of(found[0].found.task)), force=force)
+        best = found[0].found
+        if is_result(file) and isinstance(best, FoundLinkage):
+            content = json_line(synthesis_data(judge_linkage(best.task, best.linkage)))
+        else:
+            content = task_file(document_of(best.task))
+        files.write(file, content, force=force)
     if as_json:
         print_json(balance_data(answer, found))
     else:

@@ -56,6 +56,7 @@ def balance_data(answer: Synthesis, found: Sequence[Balanced]) -> dict[str, Any]
                 "keeps_all": each.keeps,
                 "greatest": each.worst,
                 "greatest_without": each.before,
+                **({} if each.reserve is None else {"reserve_N": each.reserve}),
                 **_moved_data(each),
                 "spring": loads_data(each.found.task.loads)["springs"][-1],
                 **load_figures_data(each.figures, each.found.task.names),
@@ -132,7 +133,7 @@ def show_balance(
     one, two = best.spring.ends
     console.print(Text(f"It goes from {_point(one.point)} on the ground to {_point(two.point)} on "
                        "the body."))  # fmt: skip
-    for note in (*_moved(best, unit), *load_notes(best.figures, task)):
+    for note in (*_reserve(best), *_moved(best, unit), *load_notes(best.figures, task)):
         console.print(Text(note))
     rows = [
         [
@@ -152,7 +153,27 @@ def show_balance(
         f"\nFound by a search among {count(offers, 'spring')}; that none is better is not proved."
     ))  # fmt: skip
     if file is not None:
-        console.print(Text(f"Wrote the task with {best.offer.name} to {file}."))
+        what = best.found.id if is_result(file) else "the task"
+        console.print(Text(f"Wrote {what} with {best.offer.name} to {file}."))
+        if best.unmoved is not None and not is_result(file):
+            console.print(Text("The task has no pivots: name a .json file to keep them."))
+
+
+def is_result(file: str) -> bool:
+    """Whether a file by its name is to hold a linkage, and not a task."""
+    return file.lower().endswith(".json")
+
+
+def _reserve(best: Balanced) -> list[str]:
+    """How far the hand stays inside its corridor."""
+    if best.reserve is None:
+        return []
+    least, most = (best.figures.measures[f"hand_{each}"] for each in ("least", "greatest"))
+    where = "inside" if best.reserve >= 0 else "outside"
+    return [
+        f"On its way the hand pushes with {least:.3g} to {most:.3g} N, {abs(best.reserve):.2g} N "
+        f"{where} its corridor."
+    ]
 
 
 def _point(at: tuple[float, float]) -> str:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from burmester.errors import InputError
-from burmester.fourbar.linkage import Linkage
+from burmester.fourbar.defects import judge
 from burmester.fourbar.linkage_batch import DIMENSIONS, LinkageBatch
 from burmester.geometry.displacement import Displacement
 from burmester.linkages.evaluation import Candidates, Evaluation
@@ -27,6 +27,7 @@ from burmester.refinement.constraints import ConstraintSlopes, ConstraintValues
 from burmester.refinement.defect_free_search import FEW_POSES, refined_on_branch
 from burmester.refinement.target import Target
 from burmester.requirements.loads import KINDS_OF_LOADS
+from burmester.tasks.motion_task import characteristic_length
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import closest_usable, digits_leave_open
 from burmester.wording import count
@@ -131,18 +132,36 @@ class _Bearing:
     ) -> ConstraintValues:
         own = batch.from_canonical(self.target.frames)
         there = self.target.frames.from_canonical(self.target.places_of(rows))
-        value = [self._excesses(own.linkage(k), there[k]) for k in range(len(own))]
-        return np.array(value), np.zeros(self.number, dtype=bool)
+        error, task = self.found.error, self.found.task
+        lost = np.full((len(own), len(error.angle), 3), np.nan)
+        places = replaced(Displacement.from_poses(lost), (slice(None), self.index), there)
+        length = characteristic_length(task)
+        missed = np.hypot(error.position, length * error.angle)
+        verdicts = judge(
+            own,
+            places,
+            missed=np.tile(missed, (len(own), 1)),
+            reach=np.inf,
+            length=length,
+            any_order=task.requirements.any_order,
+        )
+        beside = [
+            replace(
+                self.found,
+                linkage=own.linkage(k),
+                verdict=verdict,
+                error=replace(error, places=places[k]),
+            )
+            for k, verdict in enumerate(verdicts)
+        ]
+        return np.array([*map(self._excesses, beside)]), np.zeros(self.number, dtype=bool)
 
-    def _excesses(self, linkage: Linkage, there: Displacement) -> FloatArray:
-        """Of one linkage at places of the poses that are looked at; nan where it does not move."""
+    def _excesses(self, found: FoundLinkage) -> FloatArray:
+        """Those of one linkage; nan where it does not move."""
         from burmester.loads.excesses import excesses  # noqa: PLC0415  tasks with loads only
 
-        lost = np.full((len(self.found.error.angle), 3), np.nan)
-        places = replaced(Displacement.from_poses(lost), self.index, there)
-        error = replace(self.found.error, places=places)
         try:
-            return excesses(replace(self.found, linkage=linkage, error=error))
+            return excesses(found)
         except InputError:
             return np.full(self.number, np.nan)
 

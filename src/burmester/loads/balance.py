@@ -21,9 +21,10 @@ from burmester.loads.loaded_motion import LoadedLinkage, LoadedMotion
 from burmester.loads.spring_clearance import SpringClearance
 from burmester.loads.spring_laws import NOMINAL, SpringLaw
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.loads import CLOSES_FROM, STAYS_AT
+from burmester.requirements.loads import CLOSES_FROM, HAND_FORCE, STAYS_AT
 from burmester.tasks.load_table import SpringKind
 from burmester.tasks.loads import BODY, GROUND, End, Spring
+from burmester.tasks.motion_task import Task
 from burmester.verdicts.judged_linkage import LinkageAtPoses
 
 PLACES: Final = 61  # along the motion, at which a grid is looked at
@@ -66,6 +67,8 @@ class Balanced:
     worst: the greatest force of the hand with the friction of the spring, N, or the torque of the
     driver where there is no hand;
     before: without the spring.  keeps: whether all that is asked of its loads is kept.
+    cost: what is made least: `worst`, or how far a hand with a corridor is from its middle, at
+    most.  reserve: how far it stays inside, N, below zero outside; None without a corridor.
     unmoved: the best with the pivots where they were, if they were moved for the spring.
     """
 
@@ -76,7 +79,14 @@ class Balanced:
     worst: float
     before: float
     keeps: bool
+    cost: float
+    reserve: float | None = None
     unmoved: Balanced | None = None
+
+    @property
+    def order(self) -> tuple[bool, float]:
+        """Those that keep all that is asked are first, then those with less cost."""
+        return not self.keeps, self.cost
 
 
 class _Course(NamedTuple):
@@ -85,6 +95,7 @@ class _Course(NamedTuple):
     effort, lever: (n,), the driver's effort and what a unit of it is at the hand; origin (n, 2),
     cos, sin (n,): of the body, in metres; motion: (n, 3), its rates.
     stays: the places of poses at which it has to stay; closes: (n,), where it has to close.
+    corridor: of the hand.
     """
 
     loaded: LoadedMotion
@@ -96,6 +107,7 @@ class _Course(NamedTuple):
     motion: FloatArray
     stays: NDArray[np.intp]
     closes: NDArray[np.bool_]
+    corridor: tuple[float, float] | None
 
     def spans(self, ground: FloatArray, body: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Lengths (n, m) of springs between points (m, 2), metres, and their rates."""
@@ -112,7 +124,12 @@ class _Course(NamedTuple):
         """How much springs (m,) leave to the hand: N, and more for what they do not keep."""
         effort = self.effort[:, None] + law.tension(length) * rate
         held = friction * np.abs(rate)
-        out = ((np.abs(effort) + held) * self.lever[:, None]).max(axis=0)
+        if self.corridor is None:
+            force = np.abs(effort) + held
+            out = (force * self.lever[:, None]).max(axis=0)
+        else:
+            onwards = (self.loaded.sense * effort + held) * self.lever[:, None]
+            out = np.abs(onwards - sum(self.corridor) / 2).max(axis=0)
         if len(self.stays):
             slips = np.maximum(np.abs(effort) - held, 0.0) * self.lever[:, None]
             out = out + 2 * slips[self.stays].max(axis=0)
@@ -188,7 +205,7 @@ def balanced(
             told.append(start)
         if sum(each.keeps for each in out) == most:
             break
-    return sorted(out, key=lambda each: (not each.keeps, each.worst))[:most]
+    return sorted(out, key=lambda each: each.order)[:most]
 
 
 def _span(spring: Spring, metre: float) -> tuple[float, float]:
@@ -228,7 +245,14 @@ def _course_of(linkage: LoadedLinkage) -> _Course:
         loaded.rates.of_body(loaded.bodies.body)[0],
         np.searchsorted(np.unique([*shares, *stays]), stays),
         turned < np.radians(asked.get(CLOSES_FROM, 0.0)),
+        _corridor(linkage.found.task),
     )
+
+
+def _corridor(task: Task) -> tuple[float, float] | None:
+    """The least and the greatest push of a hand that a task asks for, if it asks for both."""
+    bound = task.requirements.bounds.get(HAND_FORCE)
+    return bound if isinstance(bound, tuple) else None
 
 
 def _improved(
@@ -287,7 +311,13 @@ def _verified(
     if figures.hand is not None:
         worst = float(figures.measures["hand_force"])
     before = float((np.abs(course.effort) * course.lever).max())
-    return Balanced(loaded, offer, spring, figures, worst, before, not missed(loaded, figures))
+    cost, reserve = worst, None
+    if (corridor := course.corridor) is not None:
+        least, most = (float(figures.measures[f"hand_{each}"]) for each in ("least", "greatest"))
+        reserve = min(least - corridor[0], corridor[1] - most)
+        cost = (corridor[1] - corridor[0]) / 2 - reserve
+    keeps = not missed(loaded, figures)
+    return Balanced(loaded, offer, spring, figures, worst, before, keeps, cost, reserve)
 
 
 def filled(offer: Offer, least: float, greatest: float, rise: float) -> Iterator[Offer]:

@@ -58,7 +58,8 @@ def balance(
 ) -> tuple[Synthesis, list[Balanced]]:
     """The answer of a task without bounds on its loads, and its linkages with springs.
 
-    Those that keep all bounds come first, then those with the least force of the hand.
+    Those that keep all bounds come first, then those with the least force of the hand, or with the
+    most reserve in its corridor.
     with_linkage: whether pivots move too, of the best few; the poses stay as near as is asked.
     Raises InputError E134 where the task has no loads.
     """
@@ -74,13 +75,13 @@ def balance(
         step(f"looking at springs for {found.id}")
         own = replace(found, task=replace(found.task, requirements=asked))
         out += springs_for(own, offers, regions, EACH)
-    out.sort(key=_order)
+    out.sort(key=lambda each: each.order)
     if with_linkage:
         first = {each.found.id: each for each in reversed(out)}
-        for each in sorted(first.values(), key=_order)[:MOST_MOVED]:
+        for each in sorted(first.values(), key=lambda each: each.order)[:MOST_MOVED]:
             if time_for(f"moving the pivots of {each.found.id}"):
                 out += _moved(each, answer, offers, regions)
-        out.sort(key=_order)
+        out.sort(key=lambda each: each.order)
     return answer, out
 
 
@@ -91,10 +92,6 @@ def nothing_to_balance() -> InputError:
         "there is nothing to balance: the task has no loads",
         help="state the mass of the body and where the hand is, in the table loads",
     )
-
-
-def _order(balanced: Balanced) -> tuple[bool, float]:
-    return not balanced.keeps, balanced.worst
 
 
 def springs_for(
@@ -137,8 +134,8 @@ def _moved(
         for each in _refined(found, answer.problem):
             own = replace(each, id=f"{given.id}'", task=bare)
             better += springs_for(own, offers, regions, 1)
-        one = min(better, key=_order, default=best)
-        gains = one.keeps > best.keeps or one.worst < ENOUGH * best.worst
+        one = min(better, key=lambda each: each.order, default=best)
+        gains = one.keeps > best.keeps or one.cost < ENOUGH * best.cost
         if gains and one.keeps >= best.keeps:
             best = one
         elif share < MOST_SHARE:

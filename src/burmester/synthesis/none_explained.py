@@ -17,10 +17,13 @@ from burmester.cures import Help
 from burmester.errors import InputError
 from burmester.fourbar.linkage_batch import LinkageBatch
 from burmester.geometry.regions import Polygon
+from burmester.linkages.bearing_linkages import only_bears_too_much
 from burmester.linkages.evaluation import Candidates, Evaluation, at_given_poses
 from burmester.linkages.from_dyads import target_of
 from burmester.numerics.arrays import FloatArray
 from burmester.progress import time_for
+from burmester.requirements.loads import KINDS_OF_LOADS, OF_LOADS
+from burmester.requirements.table import excess
 from burmester.requirements.table import without as looser
 from burmester.synthesis.loosening import Loosening, loosened, loosened_all_around
 from burmester.synthesis.result import Synthesis
@@ -172,14 +175,27 @@ class _FewPoses(_Search):
 
     def loosened_alone(self) -> Iterator[Loosening]:
         """Each limit loosened alone, where that is enough."""
-        for limit in stated_limits(self.task):
+        limits = list(stated_limits(self.task))
+        bearing = self._bearing(limits)
+        if bearing:  # all but loads can be kept: no other limit is to blame
+            limits = [each for each in limits if each.kind in KINDS_OF_LOADS]
+        for limit in limits:
             if not time_for(f"looking without the limit on {limit.kind}"):
                 continue
-            for found in self._nearest([limit], self.assumed)[:1]:
+            for found in bearing or self._nearest([limit], self.assumed)[:1]:
                 told = self.tried(limit, found)
                 if told is not None:
                     told = self._least(limit, told)
                     yield replace(told, message=told.message + self._share(limit))
+
+    def _bearing(self, limits: Sequence[StatedLimit]) -> list[FoundLinkage]:
+        """The linkage that keeps all limits but those of loads, and these most nearly; or none."""
+        of_loads = [each for each in limits if each.kind in KINDS_OF_LOADS]
+        if not of_loads or not time_for("looking without the limits on loads"):
+            return []
+        found = filter(only_bears_too_much, self._nearest(of_loads, self.assumed))
+        asked = {each: b for each, b in self.task.requirements.bounds.items() if each in OF_LOADS}
+        return sorted(found, key=lambda each: float(excess(asked, each.figures)))[:1]
 
     def _least(self, limit: StatedLimit, most: Loosening) -> Loosening:
         """The least loosening found, by looking within half of one that is enough, all around."""
@@ -217,10 +233,12 @@ class _FewPoses(_Search):
         return f" ({few:,} of {count:,} links clear it at all poses, {which} touch it at {at})"
 
     def loosened_together(self) -> list[Loosening]:
-        """Limits that have to be loosened together: those of the dyads, or else all."""
+        """Limits that have to be loosened together: of loads, of the dyads, or else all."""
         every = list(stated_limits(self.task))
-        of_dyads = [each for each in every if each.kind in DYADS]
-        tries = [(of_dyads, self.assumed)] if len(of_dyads) < len(every) else []
+        parts = [
+            [each for each in every if each.kind in kinds] for kinds in (KINDS_OF_LOADS, DYADS)
+        ]
+        tries = [(each, self.assumed) for each in parts if len(each) < len(every)]
         for limits, assumed in (*tries, (every, self.assumed), (every, self.far)):
             if len(limits) < 2:
                 continue
