@@ -11,7 +11,7 @@ from burmester.progress import shown
 from burmester.sixbar.six_bars import SixBarOptions
 from burmester.synthesis.six_bars import synthesize_six_bars
 from burmester.tasks.limits import Limits
-from burmester.tasks.loads import Loads, Mass
+from burmester.tasks.loads import End, Loads, Mass, Spring
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
 from burmester.tasks.requirements import Requirements
@@ -189,3 +189,26 @@ def test_a_search_under_loads_finds_one_that_bears_less_than_those_that_transmit
         places, x = each.body(each.drive), np.array(lid)
         assert places.translation == pytest.approx(x[:, :2], abs=1e-6)
         assert np.exp(1j * places.angle) == pytest.approx(np.exp(1j * np.radians(x[:, 2])))
+
+
+def test_a_search_under_loads_counts_a_torsion_spring():
+    """How far it is turned follows from the whole motion; its energy is added to the weight's."""
+    lid = [(0, 0, 0), (2.91, -17.17, 22.5), (10.95, -41.07, 45), (23.91, -67.22, 67.5),
+           (43.76, -92.31, 90)]  # fmt: skip
+    numbers = {"rate_Nm_per_deg": 0.03, "free_deg": 120.0}
+    spring = Spring("torsion", (End("ground", (0.0, 0.0)), End("body", (0.0, 0.0))), numbers)
+    weight = Mass(4.0, np.array([210.0, 9.0]))
+    loads = Loads(body=weight, hand=np.array([420.0, 0.0]), springs=(spring,))
+    given = replace(Task.from_rows(lid, angle_unit="deg"), length_unit="mm", loads=loads)
+    asked = replace(given, requirements=Requirements(hand_force_N=12.0))
+    found = synthesize_six_bars(asked, SixBarOptions(chains=4, kind="Stephenson III")).six_bars
+    assert len(found)
+    for each in found:
+        places = each.body(each.along(20001))
+        height = places.act(np.array([210.0, 9.0]))[:, 1] / 1000
+        turned = np.degrees(np.unwrap(places.angle)) - 120
+        energy = 4 * 9.80665 * height + 0.03 * np.degrees(1) * np.radians(turned) ** 2 / 2
+        way = np.hypot(*np.diff(places.act(np.array([420.0, 0.0])) / 1000, axis=0).T)
+        force = np.abs(np.diff(energy) / way).max()
+        assert force == pytest.approx(each.loads.hand.magnitude, rel=1e-3)
+        assert force <= 12

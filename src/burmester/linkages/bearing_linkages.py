@@ -26,7 +26,12 @@ from burmester.progress import goes_on, step
 from burmester.refinement.constraints import ConstraintSlopes, ConstraintValues
 from burmester.refinement.defect_free_search import FEW_POSES, refined_on_branch
 from burmester.refinement.target import Target
-from burmester.requirements.loads import KINDS_OF_LOADS
+from burmester.requirements.loads import (
+    DRIVER_TORQUE,
+    HAND_FORCE,
+    KINDS_OF_LOADS,
+    PIN_FORCE,
+)
 from burmester.tasks.motion_task import characteristic_length
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.verdicts.ranking import closest_usable, digits_leave_open
@@ -36,6 +41,7 @@ MOST: Final = 4  # linkages that are refined
 ENOUGH: Final = 2  # of them, if one has led to another linkage
 STEPS: Final = 30  # of a refinement
 SAME: Final = 1e-3  # motion sizes; linkages whose dimensions differ by less are one
+TWICE: Final = 2.0  # so much too great a force is not halved by moving pivots a little
 QUOTIENTS: Final = DifferenceQuotients(stride=1e-6)
 
 
@@ -57,7 +63,11 @@ def bearing_linkages(
     """
     problem, closest = evaluation.problem, closest_usable(found)
     most = math.inf if closest is None else closest.combined_error
-    near = [each for each in found if only_bears_too_much(each) and each.combined_error < most]
+    near = [
+        each
+        for each in found
+        if only_bears_too_much(each) and each.combined_error < most and _is_within_reach(each)
+    ]
     path = evaluation.target.path
     near = near[:MOST] if path is None or path.crank_angles is None else []
     if near:
@@ -75,6 +85,15 @@ def bearing_linkages(
             and not any(_alike(one, other, SAME * problem.motion_size) for other in out)
         ]
     return out
+
+
+def _is_within_reach(found: FoundLinkage) -> bool:
+    """Whether none of its greatest forces is more than twice its bound."""
+    return not any(
+        float(each.excess(found.figures, bound)) > math.log(TWICE)
+        for each, bound in found.task.requirements.bounds.items()
+        if each in (HAND_FORCE, DRIVER_TORQUE, PIN_FORCE) and not isinstance(bound, tuple)
+    )
 
 
 def _alike(one: FoundLinkage, other: FoundLinkage, most: float) -> bool:
