@@ -158,7 +158,7 @@ def test_escape_gives_a_drag_up(page):
     page.mouse.move(x, y)
     page.mouse.down()
     page.mouse.move(x + 50, y + 30, steps=4)
-    assert pose(page, 8) != before
+    assert drawn(page, 8)[0] > before[0] + 1  # the table may lag behind a hand
     page.keyboard.press("Escape")
     assert pose(page, 8) == before
     page.mouse.move(x + 90, y)

@@ -90,7 +90,7 @@ def test_a_region_in_the_way_is_seen_broken_and_the_task_is_refused(page):
 def test_limits_are_dragged_and_seen_met_or_broken(page):
     section(page, "limits")
     limit = page.locator('.bs-limit[data-limit="0"]')
-    state = page.locator(".bs-limit-box").first.locator(".bs-state")
+    state = page.locator("[data-section=limits] .bs-limit-box").first.locator(".bs-state")
     assert (limit.get_attribute("data-plane"), limit.get_attribute("data-shape")) == ("F", "box")
     assert "bs-met" in limit.get_attribute("class")
     # The task's limits hold for both dyads; each gets its own, and the first one's moves away.
@@ -120,7 +120,7 @@ def test_limits_are_dragged_and_seen_met_or_broken(page):
     point = kept(page)["limits"][0]["fixed_pivot"]["point"]
     assert point == pytest.approx([120, -60], abs=1 / scale)
     assert state.count() == 1
-    field = page.locator(".bs-limit-box").first.locator(".bs-number").first
+    field = page.locator("[data-section=limits] .bs-limit-box").first.locator(".bs-number").first
     assert number(field.input_value()) == point[0]
     field.fill("110")
     field.press("Enter")
