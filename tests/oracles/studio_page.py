@@ -44,6 +44,19 @@ UNANSWERED = """(() => {
 })()"""
 
 
+# Of a chest's lid, driven by a four-bar: five poses leave few linkages, found at once.
+LID_OF_FIVE = """length_unit = "mm"
+angle_unit = "deg"
+poses = [
+  { x = 0, y = 0, angle = 0 },
+  { x = 2.91, y = -17.171, angle = 22.5 },
+  { x = 10.949, y = -41.071, angle = 45 },
+  { x = 23.907, y = -67.224, angle = 67.5 },
+  { x = 43.763, y = -92.311, angle = 90 },
+]
+"""
+
+
 @contextmanager
 def studio_page(browser, visitor, *, width=1400, height=900, **options):
     """The page of a studio, solved once; its errors are in `wrong`, its requests in `asked`."""

@@ -49,7 +49,10 @@ HELP = (
 
 
 def read_linkage(
-    source: str | os.PathLike[str], id: str | None = None, unit: str | None = None
+    source: str | os.PathLike[str],
+    id: str | None = None,
+    unit: str | None = None,
+    data: bytes | None = None,
 ) -> Linkage | SixBar | tuple[GivenDyad, GivenDyad]:
     """The linkage of a result, or that in another file, or on standard input ("-").
 
@@ -57,12 +60,12 @@ def read_linkage(
     they stand.
 
     id: of a linkage of a result, the first if None; unit: of the lengths of the task, which a file
-    that states one has to share.
+    that states one has to share; data: the bytes of the file, where they are known.
     """
     path = os.fspath(source)
     label = "<stdin>" if path == "-" else printable(path)
     try:
-        data = read_source(path)
+        data = read_source(path) if data is None else data
     except InputError as error:
         error.message = error.message.replace("the poses", "the linkage")
         error.where = error.where or label

@@ -33,8 +33,10 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
         if isinstance(asked, dict) and _is_plain(asked.get(key))
     )
     best, chosen = given.get("linkage"), ""
-    if isinstance(best, str) and best[:1] == "L" and best[1:].isdecimal():
+    if isinstance(best, str) and best[:1] in ("L", "S") and best[1:].isdecimal():
         chosen = f" --linkage {best}"
+    if six_bars := chosen.startswith(" --linkage S"):
+        how = " --six-bars"
     dyads = _dyads(given.get("dyads"))
     made = f"{name}-by-hand" if dyads is not None else name  # the result that has the linkage
     file = f"{name}-{best if chosen else 'linkage'}"
@@ -48,7 +50,7 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
         ("write the report", f"burmester report {name}.toml{how}"),
         ("open the task here again", f"burmester studio {name}.toml"),
     ]
-    if chosen:
+    if chosen and not six_bars:
         again = f"burmester judge {name}.toml --linkage {name}.json --id {best} --improve"
         rows.insert(2, ("look for better linkages near this one", again))
     if dyads is not None:

@@ -16,6 +16,7 @@ from burmester.fourbar.linkage import Linkage
 from burmester.io.saved import read_result
 from burmester.report.page import page_of
 from burmester.studio.commands import plain_name
+from burmester.synthesis.given_linkage import OpenLink
 from burmester.values import real_numbers
 
 _TYPES: Final = {  # of the options of an export, as JSON has them
@@ -43,18 +44,34 @@ def dyads_of(given: Any) -> Linkage:
 
     Raises InputError E153 for what is none.
     """
-    links = given if isinstance(given, list) else []
-    if len(links) != 2 or not all(isinstance(each, dict) for each in links):
-        raise InputError("E153", "two links make a linkage", help="give two links")
     first, second = (
         RR(
             real_numbers(each.get("fixed_pivot"), (2,), "a fixed pivot", code="E153"),
             real_numbers(each.get("moving_pivot"), (2,), "a moving pivot", code="E153"),
             real_numbers(each.get("radius"), (), "a length", code="E153"),
         )
-        for each in links
+        for each in links_of(given)
     )
     return Linkage(first, second)
+
+
+def links_of(given: Any) -> list[dict[str, Any]]:
+    """Two tables, of a link each; raises InputError E153 for what is none."""
+    links = given if isinstance(given, list) else []
+    if len(links) != 2 or not all(isinstance(each, dict) for each in links):
+        raise InputError("E153", "two links make a linkage", help="give two links")
+    return links
+
+
+def links_data(found: Any, name: str) -> list[dict[str, Any]]:
+    """The links of what `read_linkage` found, as `links_of` takes them; raises InputError E153."""
+    dyads = (found.first, found.second) if isinstance(found, Linkage) else found
+    if not isinstance(dyads, tuple) or not all(isinstance(e, RR | OpenLink) for e in dyads):
+        message = "the page judges four-bars of two links"
+        help = "give this file to the command: `burmester judge POSES --linkage FILE`"
+        raise InputError("E153", message, where=name, help=help)
+    names = ("fixed_pivot", "moving_pivot", "radius")
+    return [{e: getattr(each, e).tolist() for e in names if hasattr(each, e)} for each in dyads]
 
 
 def formats() -> list[dict[str, Any]]:

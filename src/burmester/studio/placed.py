@@ -21,6 +21,8 @@ from burmester.fourbar.linkage import Linkage
 from burmester.geometry.displacement import Displacement
 from burmester.io.linkage_data import number
 from burmester.numerics.arrays import FloatArray
+from burmester.studio.exports import links_of
+from burmester.synthesis.given_linkage import OpenLink
 from burmester.synthesis.judgement import judge_linkage
 from burmester.tasks.motion_task import Task
 from burmester.tasks.options import SynthesisOptions
@@ -33,9 +35,18 @@ PLANES: Final = ("F", "M")
 def placed(task: Task, pivots: Any, options: SynthesisOptions, frames: int) -> dict[str, Any]:
     """The dyads of one or two pivots, and the linkage that two of them make, judged.
 
-    pivots: [{"plane": "F" or "M", "at": [x, y]}].  Raises InputError E153 for what is no pivot.
+    pivots: [{"plane": "F" or "M", "at": [x, y]}]; or both pivots of two links, to be judged as
+    they are: [{"fixed_pivot": [x, y], "moving_pivot": [x, y], "radius": r}] x 2, where lengths that
+    are left out follow from the poses.  Raises InputError E153 for what is no pivot.
     """
-    dyads = [_dyad(task, *each) for each in _pivots(pivots)]
+    whole = isinstance(pivots, list) and any(
+        isinstance(each, dict) and "fixed_pivot" in each for each in pivots
+    )
+    dyads = (
+        [_link(task, each) for each in links_of(pivots)]
+        if whole
+        else [_dyad(task, *each) for each in _pivots(pivots)]
+    )
     found = [FoundDyad.of(f"P{k}", dyad, task.poses) for k, dyad in enumerate(dyads, start=1)]
     answer: dict[str, Any] = {
         "dyads": [dyad_report(each, task) for each in found],
@@ -74,6 +85,17 @@ def _pivots(given: Any) -> list[tuple[str, FloatArray]]:
             )
         out.append((plane, real_numbers(each.get("at"), (2,), f"pivot {k}", code="E153")))
     return out
+
+
+def _link(task: Task, given: dict[str, Any]) -> RR:
+    """A link with both its pivots."""
+    fixed, moving = (
+        real_numbers(given.get(f"{name}_pivot"), (2,), f"a {name} pivot", code="E153")
+        for name in ("fixed", "moving")
+    )
+    if given.get("radius") is None:
+        return OpenLink(fixed, moving).at(task)
+    return RR(fixed, moving, real_numbers(given["radius"], (), "a length", code="E153"))
 
 
 def _dyad(task: Task, plane: str, at: FloatArray) -> RR:

@@ -15,6 +15,7 @@ from typing import Any, Final, Protocol, TypeAlias
 
 from burmester.cures import for_page
 from burmester.errors import BurmesterError, InputError
+from burmester.io.linkage_file import read_linkage
 from burmester.io.reading.outlines.outline_file import OutlineFile, read_outline
 from burmester.io.result import json_line, synthesis_data
 from burmester.io.saved import read_result
@@ -34,7 +35,7 @@ from burmester.progress import shown, timed_by
 from burmester.studio.cognates import cognate_reports
 from burmester.studio.commands import plain_name
 from burmester.studio.curves import curves
-from burmester.studio.exports import dyads_of, exported, formats, report_page
+from burmester.studio.exports import dyads_of, exported, formats, links_data, report_page
 from burmester.studio.message import as_json
 from burmester.studio.opening import template
 from burmester.studio.placed import placed
@@ -42,8 +43,10 @@ from burmester.synthesis.balanced import springs_for
 from burmester.synthesis.judgement import judge_linkage
 from burmester.synthesis.motion_generation import synthesize
 from burmester.synthesis.result import Synthesis
+from burmester.synthesis.six_bars import six_bars_of_chains
 from burmester.verdicts.found_linkage import FoundLinkage
 from burmester.web.data import report_data
+from burmester.web.six_bar_data import six_bar_report
 
 Answer: TypeAlias = tuple[dict[str, Any], bytes]
 
@@ -154,8 +157,12 @@ class SessionWorker:
 
     @staticmethod
     def _solved(head: dict[str, Any], given: Any) -> Synthesis:
+        task = task_of(given.get("document"))
         options = options_of(given.get("options"), head.get("time_limit"))
-        return synthesize(task_of(given.get("document")), options)
+        if given.get("kind") == "six_bars":
+            message = "the six-bars of this task are not kept any more"
+            raise InputError("E151", message, help="look for six-bars once more")
+        return synthesize(task, options)
 
     def improve(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """One linkage of the result judged by itself, and the nearest better ones."""
@@ -174,6 +181,13 @@ class SessionWorker:
         single = (each for each in usual_springs(given.get("length_unit")) if each.many == 1)
         return _json([{"name": e.name, "kind": e.kind, **e.numbers} for e in single])
 
+    def linkage(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
+        """The two links of a linkage in a file that the page sent."""
+        data, name = _content(given)
+        unit = given.get("length_unit")
+        found = read_linkage(name, unit=unit if isinstance(unit, str) else None, data=data)
+        return _json({"dyads": plain(links_data(found, name))})
+
     def balance(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Springs of usual sizes for one linkage of the result, the best first."""
         from burmester.io.balance_table import balance_data  # noqa: PLC0415  loads rich
@@ -188,13 +202,10 @@ class SessionWorker:
 
     def six_bars(self, head: dict[str, Any], given: Any, job: Job) -> Answer:
         """Six-bars for the poses: the result as a file holds it first, then what the page draws."""
-        from burmester.synthesis.six_bars import synthesize_six_bars  # noqa: PLC0415
-        from burmester.web.six_bar_data import six_bar_report  # noqa: PLC0415
-
-        task = task_of(given.get("document"))
+        task, chains = task_of(given.get("document")), given.get("chains")
         with shown(job.listen):
             options = options_of(given.get("options"), head["look_limit"])
-            found = synthesize_six_bars(task, options=options)
+            found = six_bars_of_chains(task, chains if type(chains) is int else None, options)
         job.send({"kind": "result"}, json_line(synthesis_data(found)).encode())
         return _json(six_bar_report(found))
 

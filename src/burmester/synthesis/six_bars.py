@@ -54,6 +54,14 @@ def synthesize_six_bars(
         return with_time_limit(synthesis, watch)
 
 
+def six_bars_of_chains(task: Task, chains: int | None, options: SynthesisOptions) -> Synthesis:
+    """The same for faces, which know no kind of linkage: of so many chains, or as many as usual."""
+    usual = SixBarOptions()
+    return synthesize_six_bars(
+        task, usual if chains is None else replace(usual, chains=chains), options
+    )
+
+
 def _outcome(task: Task, result: SixBars) -> Outcome:
     """What came of it, in one sentence."""
     looked = f"{result.designs:,} from {count(result.chains, '3R chain')}"

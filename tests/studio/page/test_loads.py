@@ -8,6 +8,7 @@ from burmester.io.spring_list import usual_springs
 from burmester.live.document import task_of
 from burmester.synthesis.balanced import springs_for
 from tests.oracles.studio_page import (
+    LID_OF_FIVE,
     choose,
     drag,
     drop,
@@ -110,19 +111,6 @@ def test_fields_for_what_is_asked_of_loads(page):
     assert kept(page)["requirements"] == {"hand_force_N": [-40, 300]}
 
 
-# Of a chest's lid, driven by a four-bar: five poses leave few linkages, found at once.
-FIVE = """length_unit = "mm"
-angle_unit = "deg"
-poses = [
-  { x = 0, y = 0, angle = 0 },
-  { x = 2.91, y = -17.171, angle = 22.5 },
-  { x = 10.949, y = -41.071, angle = 45 },
-  { x = 23.907, y = -67.224, angle = 67.5 },
-  { x = 43.763, y = -92.311, angle = 90 },
-]
-"""
-
-
 def enter(page, key, text):
     field = page.locator(f'[data-key="{key}"]')
     field.fill(text)
@@ -131,7 +119,7 @@ def enter(page, key, text):
 
 def test_a_lid_gets_its_weight_a_hand_and_the_spring_that_makes_it_light(page):
     """From bare poses to a balanced lid by fields and the mouse; Python finds the same spring."""
-    drop(page, "lid.toml", FIVE)
+    drop(page, "lid.toml", LID_OF_FIVE)
     has_poses(page, 5)
     page.locator("[data-section=loads] > summary").click()
     enter(page, "mass_kg", "4")

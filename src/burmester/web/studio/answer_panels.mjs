@@ -18,6 +18,7 @@ import { PivotSurface } from "./pivot_surface.mjs";
 import { hasLoads } from "./loads.mjs";
 import { Playing, playOnce } from "./playing.mjs";
 import { Results } from "./results.mjs";
+import { SixBars } from "./six_bars.mjs";
 import { SpacePanel } from "./space_panel.mjs";
 
 /** Make every part that shows answers, and put it in its place.
@@ -34,7 +35,8 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   player.append(playing.element);
   walkByArrows(playing.element.querySelector(".bm-row"), "button, select, input").first();
   results.append(new Chips(store, answers, panel, regions).element, cards.element);
-  const ofAngles = () => !store.document.poses.some(isPoint); // points leave angles free
+  cards.list.before(new SixBars(store, answers).element);
+  const ofAngles = () => !store.document.poses.some(isPoint) && !answers.shown?.drawn; // points leave angles free, and six-bars have no two dyads
   drawer.add("charts", "Errors and transmission", charts.element);
   drawer.add("loads", "Loads", loads.element, () => hasLoads(store.document));
   drawer.add("motion", "Driver and curves", h("div", {}, ways, h("div", { class: "bs-player-tools" }, centrodes.element, curves.element)));
@@ -42,7 +44,7 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   drawer.add("pivots", "Pivots", surface.element, ofAngles);
   drawer.add("space", "Image space", space.element, ofAngles);
   drawer.add("facts", "Tables", facts.element);
-  store.on("document", () => drawer.update());
+  store.on("document chosen", () => drawer.update());
   drawer.update();
   unfoldForPrint(drawer.element, new AbortController().signal); // what is folded of the task says nothing
   catchUpForPrint();

@@ -36,6 +36,7 @@ export class Answers extends Events {
     this.linkages = []; // in the order of the whole search, those that appeared since behind them
     this.gone = []; // ids of linkages before that are none of the last whole search
     this.byId = new Map();
+    this.others = new Map(); // what was looked for besides, such as six-bars, by id
     this.placed = null;
     store.on("solved", () => this.takeSolved());
     store.on("followed", () => this.takeFollowed());
@@ -53,7 +54,7 @@ export class Answers extends Events {
 
   /** @param {string | null} id */
   get(id) {
-    return id === PLACED ? this.placed ?? undefined : this.byId.get(id);
+    return id === PLACED ? this.placed ?? undefined : this.byId.get(id) ?? this.others.get(id ?? "");
   }
 
   /** Whether what only the whole search knows belongs to an older task. */

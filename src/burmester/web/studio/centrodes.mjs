@@ -54,7 +54,7 @@ export class Centrodes {
   }
 
   get on() {
-    return this.box.checked && Boolean(this.playing.path) && !this.playing.linkage.gone;
+    return this.box.checked && Boolean(this.playing.path) && !this.playing.linkage.gone && !this.playing.linkage.drawn; // of two dyads
   }
 
   shape() {

@@ -4,7 +4,7 @@ import { h } from "../widget/dom.mjs";
 import { instantCentre } from "../widget/instantaneous.mjs";
 import { act } from "../widget/kinematics.mjs";
 import { fixed } from "../widget/numbers.mjs";
-import { decimalsOf, dimensionTable, dyadTable, imageTables, inUnit, poseName, poseTable, worded } from "../widget/tables.mjs";
+import { decimalsOf, dyadTable, imageTables, inUnit, numbersOf, poseName, poseTable, worded } from "../widget/tables.mjs";
 import { factsOf } from "../widget/words.mjs";
 import { PLACED, dimensionsOf, leastOf, placeOf, worstOf } from "./answers.mjs";
 import { Pace, isSeen, watch } from "./pacing.mjs";
@@ -53,10 +53,10 @@ export class FactsTable {
     if (linkage) {
       const name = linkage.id === PLACED ? "Pivots put down by hand" : `${linkage.id}: ${linkage.type}`;
       const live = linkage.followed || playing.isOther;
-      part(name, false, live ? this.followedFacts(linkage) : [h("p", { class: "bm-story" }, linkage.said.story), dimensionTable(data, { ...linkage, id: linkage.id === PLACED ? "the linkage by hand" : linkage.id }), factsOf(linkage)]);
+      part(name, false, live ? this.followedFacts(linkage) : [h("p", { class: "bm-story" }, linkage.said.story), numbersOf(data, { ...linkage, id: linkage.id === PLACED ? "the linkage by hand" : linkage.id }), factsOf(linkage)]);
     }
     part("Pose by pose", false, poseTable(data, fits ? linkage : undefined));
-    if (fits) {
+    if (fits && !linkage.drawn) {
       const points = this.curves?.points ?? [];
       part("Instant centre and picked points", false, table("At each pose, in F", ["pose", "instant centre", ...points.map((each, k) => `point ${k + 1}`)], poseFacts(linkage, data, points)));
     }

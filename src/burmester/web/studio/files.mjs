@@ -194,7 +194,7 @@ export class Files {
   /** The linkage that is chosen: its id, or the dyads of one that is none of the answer. */
   get chosenLinkage() {
     const { chosen, placed } = this.store, dyads = chosen === "placed" ? placed?.linkage?.dyads : undefined;
-    if (!dyads?.every((dyad) => dyad.kind === "RR")) return { linkage: chosen === "placed" ? null : chosen };
+    if (!dyads?.every((dyad) => dyad.kind === "RR")) return { linkage: chosen === "placed" ? null : chosen, kind: chosen?.startsWith("S") ? "six_bars" : undefined };
     return { linkage: null, dyads: dyads.map(({ fixed_pivot, moving_pivot, radius }) => ({ fixed_pivot, moving_pivot, radius })) };
   }
 

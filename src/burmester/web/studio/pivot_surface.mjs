@@ -11,10 +11,12 @@ import { isPoint } from "./document.mjs";
 import { FamilyCurves } from "./family_curves.mjs";
 import { PivotMapPanel } from "./pivot_map_panel.mjs";
 
+const KEYS = { F: "fixed_pivot", M: "moving_pivot" };
 const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 
 export class PivotSurface {
   /** @type {any} */ held;
+  judges = false; // whether pivots stay where they are, and the linkage is judged
 
   constructor(store, answers, playing, scene) {
     this.store = store;
@@ -47,7 +49,7 @@ export class PivotSurface {
 
   /** The dyads whose pivots can be taken: those put down by hand, or those of the linkage. */
   get dyads() {
-    if (this.store.document.poses.some(isPoint)) return []; // the best dyad of a pivot is one for angles
+    if (this.store.document.poses.some(isPoint) || this.answers.shown?.drawn) return []; // the best dyad of a pivot is one for angles, and no link of a six-bar
     const placed = this.store.placed?.dyads;
     if (this.pivots && placed?.length) return placed;
     return this.answers.shown?.led ?? [];
@@ -58,6 +60,7 @@ export class PivotSurface {
     const dyad = this.dyads[k];
     if (!dyad) return null;
     const wanted = this.pivots?.[k];
+    if (wanted?.fixed_pivot) return { plane, at: wanted[KEYS[plane]], id: dyad.id };
     const at = wanted?.plane === plane ? wanted.at : plane === "F" ? dyad.fixed_pivot : dyad.moving_pivot;
     return at ? { plane, at, id: dyad.id } : null;
   }
@@ -108,6 +111,12 @@ export class PivotSurface {
   take(k, plane) {
     const start = this.pivot(k, plane);
     if (!start || (plane === "M" && !this.playing.here)) return false;
+    if (this.judges) {
+      if (!this.pivots?.[0]?.fixed_pivot) this.pivots = this.dyads.map(({ fixed_pivot, moving_pivot }) => ({ fixed_pivot, moving_pivot }));
+      this.held = { k, plane };
+      this.keepHeight();
+      return this.pivots.every((each) => each.fixed_pivot && each.moving_pivot);
+    }
     const other = this.pivots?.[1 - k] ?? this.pivot(1 - k, "F") ?? this.pivot(1 - k, "M");
     const next = [];
     next[k] = { plane, at: start.at };
@@ -127,19 +136,27 @@ export class PivotSurface {
   /** The held pivot goes to a point of its plane, or to the nearest one of its curve. */
   put(point, step = 0) {
     const { k, plane } = this.held, digits = decimalsOf(this.answers.data);
-    let at = this.curves.onto(plane, point);
+    let at = this.judges ? null : this.curves.onto(plane, point);
     if (!at) at = point.map((value) => (step ? Number(value.toFixed(digits)) : this.scene.rounded(value)));
-    this.ask(this.pivots.map((each, n) => (n === k ? { plane, at } : each)));
+    const { fixed_pivot, moving_pivot } = this.pivots[k];
+    this.ask(this.pivots.map((each, n) => (n !== k ? each : fixed_pivot ? { fixed_pivot, moving_pivot, [KEYS[plane]]: at } : { plane, at })));
   }
 
   drop() {
     this.held = null;
   }
 
+  /** Judge the linkage of two links, { fixed_pivot, moving_pivot, radius } each, as they are. */
+  judge(links) {
+    this.judges = true;
+    this.held = null;
+    this.ask(links);
+  }
+
   /** Ask for the best dyads with these pivots. */
   ask(pivots) {
     this.pivots = pivots;
-    this.store.place(pivots.map(({ plane, at }) => ({ plane, at })));
+    this.store.place(pivots);
     this.show();
     this.tell();
   }
@@ -148,6 +165,7 @@ export class PivotSurface {
   release() {
     this.pivots = null;
     this.held = null;
+    this.judges = false;
     this.playing.element.style.minHeight = "";
     this.store.place([]);
     if (this.store.chosen === PLACED) this.store.choose(this.before ?? this.answers.linkages[0]?.id ?? null);

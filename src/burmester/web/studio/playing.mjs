@@ -156,7 +156,7 @@ export class Playing extends Events {
   /** A choice between both dyads. */
   buildDrivers() {
     const { base } = this;
-    give(this.drivers, "hidden", !base || !base.ways.length || base.led.some((dyad) => dyad.kind === "PP"));
+    give(this.drivers, "hidden", !base || !base.ways.length || base.led.some(({ kind }) => kind === "PP" || kind === "crank"));
     if (this.drivers.hidden) return;
     const key = `${base.id} ${base.led.map((dyad) => dyad.id)} ${this.isOther}`;
     if (key === this.driversKey) return;

@@ -43,7 +43,7 @@ export class SpacePanel {
 
   build(quick) {
     const { answers, playing, space, dyads } = this, { data } = answers, { linkage } = playing;
-    if (!data.poses.length) return;
+    if (!data.poses.length || linkage?.drawn) return;
     const box = linkage?.space ?? data.space;
     const quadrics = dyads.map((dyad) => quadricOf(dyad, data.chart, box));
     if (quadrics.length === 1) quadrics.push(quadrics[0]);

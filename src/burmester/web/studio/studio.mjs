@@ -14,6 +14,7 @@ import { button } from "./fields.mjs";
 import { Files } from "./files.mjs";
 import { decodeFrame } from "./frames.mjs";
 import { keyList, listenToKeys } from "./keyboard.mjs";
+import { JudgePanel } from "./judge_panel.mjs";
 import { LoadHandles } from "./load_handles.mjs";
 import { LoadsPanel } from "./loads_panel.mjs";
 import { PathCurve, PathTool } from "./path_curve.mjs";
@@ -54,8 +55,9 @@ function layOut(root, store, start) {
       left, right, drawer.element),
   );
   scene.resize();
-  const { playing, answers } = addResults(store, scene, { player, results: cards, drawer }, { panel, regions });
+  const { playing, answers, surface } = addResults(store, scene, { player, results: cards, drawer }, { panel, regions });
   root.querySelector(".bs-bar")?.append(dimensionsButton(store, scene, playing, answers));
+  drawer.add("judge", "Judge", new JudgePanel(store, answers, scene, surface, (what, then) => files.trying(what, then)).element);
   const loads = new LoadsPanel(store, scene, new LoadHandles(store, scene, playing), answers, start.form.loads);
   panel.element.querySelector("[data-section=requirements]").before(loads.element);
   listenToKeys(store, scene, files);
