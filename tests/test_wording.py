@@ -72,3 +72,11 @@ def test_successive_numbers_are_told_as_ranges(numbers, text):
 )
 def test_a_figure_has_two_digits_and_no_plus(value, text):
     assert figure(value) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [(-1180.4, "-1180"), (999.4, "999"), (12.936, "12.9"), (0.012345, "0.0123"), (2.5e6, "2.5e6")],
+)
+def test_forces_have_three_digits_and_no_exponent_that_hides_their_size(value, text):
+    assert figure(value, 3) == text

@@ -31,13 +31,13 @@ def in_unit(unit: str | None) -> str:
     return f" in {UNIT_NAMES.get(unit, unit)}" if unit else ""
 
 
-def figure(value: float) -> str:
+def figure(value: float, digits: int = 2) -> str:
     """A figure with two digits, or its whole part if that has more: "0.00011", "4.5", "153"."""
     if not math.isfinite(value):
         return "-"
-    if 99.5 <= abs(value) < 1e6:
+    if 10**digits - 0.5 <= abs(value) < 1e6:
         return f"{value:.0f}"
-    return f"{value:.2g}".replace("e+0", "e").replace("e+", "e")
+    return f"{value:.{digits}g}".replace("e+0", "e").replace("e+", "e")
 
 
 def least_angle(angle: float) -> str:

@@ -171,7 +171,7 @@ def load_notes(figures: LoadFigures | None, task: Task) -> list[str]:
         out.append(f"A hand moves it with {_from_to(hand)} N{_sign(hand)}.{rub}")
     # The pins of a link that weighs nothing bear the same but for rounding: the first is told.
     name, force = max(figures.pins.items(), key=lambda pin: float(f"{pin[1]:.9g}"))
-    out.append(f"Its pins bear at most {force:.3g} N, pin {name}.")
+    out.append(f"Its pins bear at most {figure(force, 3)} N, pin {name}.")
     out.append(_rests(figures, task))
     for each in figures.springs:
         turned = each.spring.kind == "torsion"
@@ -184,14 +184,14 @@ def load_notes(figures: LoadFigures | None, task: Task) -> list[str]:
     if (drive := figures.drive) is not None:
         out.append(
             f"In {drive.drive.duration_s:g} s ({drive.drive.profile}) its driver bears "
-            f"{_from_to(drive.effort)} {unit}; the body moves at up to {drive.speed:.3g} "
+            f"{_from_to(drive.effort)} {unit}; the body moves at up to {figure(drive.speed, 3)} "
             f"{task.length_unit}/s."
         )
     return out
 
 
 def _from_to(values: Extremes) -> str:
-    return f"{values.least:.3g} to {values.greatest:.3g}"
+    return f"{figure(values.least, 3)} to {figure(values.greatest, 3)}"
 
 
 def _sign(hand: Extremes) -> str:
@@ -203,7 +203,7 @@ def _sign(hand: Extremes) -> str:
 def _push_or_pull(tension: tuple[float, float], unit: str) -> str:
     low, high = sorted(map(abs, tension))
     verb = "pushes" if tension[1] <= 0 else "pulls" if tension[0] >= 0 else "pushes and pulls"
-    return f"{verb} with {low:.3g} to {high:.3g} {unit}"
+    return f"{verb} with {figure(low, 3)} to {figure(high, 3)} {unit}"
 
 
 def _where(values: Extremes, task: Task) -> str:

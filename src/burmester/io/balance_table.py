@@ -23,7 +23,7 @@ from burmester.numerics.arrays import ROUNDING, FloatArray
 from burmester.synthesis.result import Synthesis
 from burmester.tasks.notation import length_of, span
 from burmester.verdicts.found_linkage import FoundLinkage
-from burmester.wording import count, listed
+from burmester.wording import count, figure, listed
 
 BALANCE_SCHEMA = "burmester.balance/1"
 SHOWN = 6  # springs in the table
@@ -97,7 +97,7 @@ def _moved(best: Balanced, unit: str) -> list[str]:
     ]
     return [
         f"Its pivots were moved. Where they were, in {before.found.id}, the best spring leaves "
-        f"{before.worst:.3g} {unit}.",
+        f"{figure(before.worst, 3)} {unit}.",
         f"{best.found.id} meets the poses {_how(best)}, {before.found.id} {_how(before)}.",
         f"Its links are {listed(at)}.",
     ]
@@ -126,8 +126,8 @@ def show_balance(
     what = "hand" if best.figures.hand is not None else "driver"
     unit = "N" if what == "hand" or not best.figures.turns else "N·m"
     console.print(Text(
-        f"{best.offer.name} on {best.found.id}: the {what} needs at most {best.worst:.3g} {unit}, "
-        f"and {best.before:.3g} {unit} without it."
+        f"{best.offer.name} on {best.found.id}: the {what} needs at most "
+        f"{figure(best.worst, 3)} {unit}, and {figure(best.before, 3)} {unit} without it."
         + ("" if best.keeps else "  It does not keep all that is asked.")
     ))  # fmt: skip
     one, two = best.spring.ends
@@ -141,7 +141,7 @@ def show_balance(
             each.offer.name,
             _point(each.spring.ends[0].point)[1:-1],
             _point(each.spring.ends[1].point)[1:-1],
-            f"{each.worst:.3g}",
+            figure(each.worst, 3),
             "yes" if each.keeps else "no",
         ]
         for each in found[:SHOWN]
@@ -171,8 +171,8 @@ def _reserve(best: Balanced) -> list[str]:
     least, most = (best.figures.measures[f"hand_{each}"] for each in ("least", "greatest"))
     where = "inside" if best.reserve >= 0 else "outside"
     return [
-        f"On its way the hand pushes with {least:.3g} to {most:.3g} N, {abs(best.reserve):.2g} N "
-        f"{where} its corridor."
+        f"On its way the hand pushes with {figure(least, 3)} to {figure(most, 3)} N, "
+        f"{figure(abs(best.reserve))} N {where} its corridor."
     ]
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from burmester.errors import InputError
 from burmester.requirements.requirement import Looser, Number, Requirement, above, number, shown
-from burmester.wording import listed
+from burmester.wording import figure, listed
 
 if TYPE_CHECKING:
     from burmester.numerics.arrays import FloatArray
@@ -109,7 +109,7 @@ def _hand_said(figures: Figures, bound: Any, length: str) -> str:
     least, greatest = figures.hand_least, figures.hand_greatest
     back = ", holding the body back," if least < 0 <= bound[0] else ""
     return (
-        f"the hand moves it{back} with {least:.3g} to {greatest:.3g} N; "
+        f"the hand moves it{back} with {figure(least, 3)} to {figure(greatest, 3)} N; "
         f"{bound[0]:g} to {bound[1]:g} N is allowed"
     )
 
