@@ -7,8 +7,8 @@ import pytest
 
 from burmester.errors import InputError
 from burmester.loads.load_figures import loaded
+from burmester.requirements.figures import Figures
 from burmester.requirements.loads import HAND_FORCE
-from burmester.requirements.requirement import Figures
 from burmester.tasks.requirements import Requirements
 from tests.oracles.loaded_linkages import (
     KINDS,

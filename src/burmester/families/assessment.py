@@ -18,8 +18,8 @@ from burmester.fourbar.traversal import DrivenView, PoseRange, Traversal, first_
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.pose_order import REPEATED_POSE_STEP, OrderTolerance
 from burmester.numerics.arrays import FloatArray, take
+from burmester.requirements.figures import Figures
 from burmester.requirements.footprint import FOOTPRINT
-from burmester.requirements.requirement import Figures
 from burmester.requirements.table import excess
 from burmester.verdicts.quality import proportions
 from burmester.verdicts.requirement_check import MAX_SENSITIVITY, figures_of, outside

@@ -26,8 +26,8 @@ from burmester.linkages.evaluation import Candidates, Evaluation
 from burmester.numerics.arrays import FloatArray, concatenate, even_numbers, take, where
 from burmester.progress import time_for
 from burmester.refinement.target import Target
+from burmester.requirements.figures import Figures
 from burmester.requirements.loads import OF_LOADS
-from burmester.requirements.requirement import Figures
 from burmester.requirements.table import excess
 from burmester.tasks.option_table import Preference
 from burmester.tasks.problem import SynthesisProblem

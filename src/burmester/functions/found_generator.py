@@ -17,7 +17,7 @@ from burmester.functions.kept_requirements import MOST_SIZE
 from burmester.functions.refinement import at_bounds
 from burmester.mechanisms.four_bar_loop import FourBarLoop
 from burmester.numerics.arrays import FloatArray, wrapped_angle
-from burmester.requirements.requirement import Figures
+from burmester.requirements.figures import Figures
 from burmester.requirements.table import NOT_ASKED, shortcomings, standard
 from burmester.tasks.function_task import FunctionTask
 from burmester.tasks.notation import MOST_NAMES

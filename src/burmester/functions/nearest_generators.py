@@ -22,8 +22,9 @@ from burmester.functions.kept_requirements import MOST_SIZE, KeptRequirements
 from burmester.functions.refinement import SAME_GENERATOR, refined
 from burmester.numerics.arrays import concatenate, wrapped_angle
 from burmester.numerics.counted_draws import uniform_draws
+from burmester.requirements.figures import Figures
 from burmester.requirements.links import LINK_RATIO
-from burmester.requirements.requirement import Bounds, Figures
+from burmester.requirements.requirement import Bounds
 from burmester.requirements.table import keeps
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.requirements.types import TYPE

@@ -16,13 +16,13 @@ from burmester.loads.loaded_motion import LOOKS, LoadedLinkage, LoadedMotion
 from burmester.loads.masses import body_named
 from burmester.loads.peaks import Seen, with_peaks
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
 from burmester.requirements.loads import (
     BODY_ACCELERATION,
     BODY_SPEED,
     DRIVER_TORQUE,
     OF_LOADS,
 )
-from burmester.requirements.requirement import Figures
 from burmester.requirements.table import violations
 from burmester.tasks.loads import Drive, Spring
 from burmester.verdicts.judged_linkage import LinkageAtPoses

@@ -10,7 +10,7 @@ from burmester.wording import figure
 
 if TYPE_CHECKING:
     from burmester.geometry.regions import Polygon
-    from burmester.requirements.requirement import Figures
+    from burmester.requirements.figures import Figures
 
 
 def _checked(value: object) -> Polygon:

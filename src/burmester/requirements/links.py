@@ -12,7 +12,7 @@ from burmester.requirements.requirement import Looser, Number, Requirement, abov
 from burmester.wording import figure
 
 if TYPE_CHECKING:
-    from burmester.requirements.requirement import Figures
+    from burmester.requirements.figures import Figures
 
 
 def _said(figures: Figures, bound: float, _unit: str) -> str:

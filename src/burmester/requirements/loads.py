@@ -16,7 +16,7 @@ from burmester.wording import figure, listed
 
 if TYPE_CHECKING:
     from burmester.numerics.arrays import FloatArray
-    from burmester.requirements.requirement import Figures
+    from burmester.requirements.figures import Figures
 
 
 def _most(

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
     from burmester.cures import Cure
     from burmester.numerics.arrays import FloatArray
-    from burmester.requirements.requirement import Figures
+    from burmester.requirements.figures import Figures
 
 REQUIREMENTS: Final[tuple[Requirement, ...]] = (
     TRANSMISSION,

@@ -9,7 +9,7 @@ from burmester.requirements.requirement import Looser, Number, Requirement
 from burmester.wording import least_angle
 
 if TYPE_CHECKING:
-    from burmester.requirements.requirement import Figures
+    from burmester.requirements.figures import Figures
 
 SHOWN_ANGLE = 1e-6  # degrees; a message writes a smaller angle as 0
 

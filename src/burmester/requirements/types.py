@@ -10,7 +10,7 @@ from burmester.requirements.requirement import Looser, Requirement, shown
 from burmester.wording import listed, with_article
 
 if TYPE_CHECKING:
-    from burmester.requirements.requirement import Figures
+    from burmester.requirements.figures import Figures
 
 Driver: TypeAlias = Literal["any", "first", "second", "crank"]
 DRIVERS: Final[tuple[Driver, ...]] = get_args(Driver)

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from burmester.geometry.displacement import Displacement
 from burmester.numerics.arrays import ComplexArray, FloatArray, concatenate
-from burmester.requirements.requirement import Bounds, Figures, Values
+from burmester.requirements.figures import Figures, Values
+from burmester.requirements.requirement import Bounds
 from burmester.requirements.table import excess, standard
 from burmester.requirements.transmission import TRANSMISSION
 from burmester.sixbar.added_dyads import FourBars, ThreeRChain, with_first_dyad, with_second_dyad

@@ -18,7 +18,7 @@ from burmester.mechanisms.contract import body_of
 from burmester.mechanisms.skeleton import Frames, Skeleton
 from burmester.mechanisms.transmission import least_transmission_angle
 from burmester.numerics.arrays import ComplexArray, FloatArray, pairs_of
-from burmester.requirements.requirement import Figures
+from burmester.requirements.figures import Figures
 from burmester.sixbar.candidates import figures_of
 from burmester.sixbar.kinds import KINDS, SixBar
 from burmester.values import real_numbers

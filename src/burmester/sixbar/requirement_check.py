@@ -10,7 +10,7 @@ from burmester.errors import Finding
 from burmester.geometry.regions import Polygon, Region
 from burmester.mechanisms.skeleton import Skeleton
 from burmester.numerics.arrays import FloatArray
-from burmester.requirements.requirement import Figures
+from burmester.requirements.figures import Figures
 from burmester.requirements.table import shortcomings as falls_short
 from burmester.requirements.table import standard
 from burmester.requirements.table import violations as violations_of

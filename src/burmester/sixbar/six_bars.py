@@ -11,8 +11,8 @@ from typing import Final, final
 import numpy as np
 
 from burmester.errors import InputError
+from burmester.requirements.figures import Figures
 from burmester.requirements.loads import OF_LOADS
-from burmester.requirements.requirement import Figures
 from burmester.requirements.table import excess
 from burmester.sixbar.candidates import Candidates
 from burmester.sixbar.chain_search import SEARCHED, is_sound, search

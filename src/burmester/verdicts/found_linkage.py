@@ -20,7 +20,7 @@ from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.mechanisms.pose_order import smallest_arc
 from burmester.numerics.arrays import FloatArray, wrapped_angle
-from burmester.requirements.requirement import Figures
+from burmester.requirements.figures import Figures
 from burmester.tasks.motion_task import characteristic_length
 from burmester.values import real_numbers
 from burmester.verdicts.judged_linkage import LinkageAtPoses

@@ -13,8 +13,8 @@ from burmester.fourbar.pose_error import PoseError
 from burmester.geometry.displacement import Displacement
 from burmester.mechanisms.bodies import Bodies, LinkPlaces
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
 from burmester.requirements.loads import OF_LOADS
-from burmester.requirements.requirement import Figures
 from burmester.tasks.motion_task import Task
 from burmester.verdicts.motion import Configuration, Motion, Way
 

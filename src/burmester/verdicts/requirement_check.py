@@ -18,8 +18,9 @@ from burmester.fourbar.linkage_batch import LinkageBatch, pin_distances
 from burmester.geometry.displacement import Displacement
 from burmester.geometry.regions import Point, Polygon
 from burmester.numerics.arrays import FloatArray
+from burmester.requirements.figures import Figures
 from burmester.requirements.links import CHANGE_POINT, EXTENT
-from burmester.requirements.requirement import Bounds, Figures, Requirement
+from burmester.requirements.requirement import Bounds, Requirement
 from burmester.requirements.table import standard
 from burmester.requirements.table import violations as violations_of
 from burmester.tasks.motion_task import Task
