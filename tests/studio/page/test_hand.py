@@ -88,7 +88,7 @@ def test_several_poses_move_as_one_and_the_whole_task_is_mirrored(page):
     document = kept(page)
     assert document["limits"][0]["fixed_pivot"]["box"] == [[-150, -100], [-5, -10]]
     assert [(each["x"], each["y"]) for each in document["poses"]] == [(-x, y) for x, y, _ in before]
-    worst = "worst miss", "transmission"
+    worst = "misses by", "transmits"
     lines, again = told.splitlines(), card.inner_text().splitlines()
     for each in worst:
         assert again[again.index(each) + 1] == lines[lines.index(each) + 1]

@@ -33,7 +33,7 @@ export function addResults(store, scene, { player, results, drawer }, { panel, r
   const facts = new FactsTable(store, answers, playing, curves);
   const ways = [...playing.element.querySelectorAll(".bs-player-ways, .bs-driver-note")];
   player.append(playing.element);
-  walkByArrows(playing.element.querySelector(".bm-row"), "button, select, input").first();
+  walkByArrows(playing.element.querySelector(".bm-controls"), ".bm-row button, .bm-more select, .bm-more input").first();
   results.append(new Chips(store, answers, panel, regions).element, cards.element);
   cards.list.before(new SixBars(store, answers).element);
   const ofAngles = () => !store.document.poses.some(isPoint) && !answers.shown?.drawn; // points leave angles free, and six-bars have no two dyads

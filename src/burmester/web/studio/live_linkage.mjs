@@ -48,7 +48,7 @@ export class LiveLinkage {
     scene.layer("labels").append(this.labels, this.edges);
     scene.hold?.(() => this.points(scene.size.width < NARROW && !scene.isWhole));
     scene.on("closer", () => this.closer());
-    answers.on("shown", () => scene.isFitted && scene.fit(scene.isWhole));
+    answers.on("shown", () => scene.refit());
     playing.on("shape", () => this.shape());
     playing.on("place", ({ place, drive }) => this.mechanism?.show(place, drive));
     scene.on("view", () => this.redraw());

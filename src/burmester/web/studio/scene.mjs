@@ -85,12 +85,17 @@ export class Scene {
     this.box = null;
     const { width, height } = this.svg.getBoundingClientRect(); // a pixel of the picture is one of the page
     if (!width || !height || (width === this.size.width && height === this.size.height)) return;
-    const isHeld = Boolean(this.dragged); // the plane stays under a hand
-    if (!isHeld) this.origin = { ...this.origin, left: this.origin.left + (width - this.size.width) / 2, top: this.origin.top + (height - this.size.height) / 2 };
+    if (!this.dragged) this.origin = { ...this.origin, left: this.origin.left + (width - this.size.width) / 2, top: this.origin.top + (height - this.size.height) / 2 };
     this.size = { width, height };
     put(this.svg, "viewBox", `0 0 ${width} ${height}`);
-    if (this.isFitted && !isHeld) this.fit(this.isWhole);
-    else this.update();
+    if (!this.refit()) this.update();
+  }
+
+  /** Fit again, where no person has moved the plane and none holds anything: it stays under a hand.  Returns whether it did. */
+  refit() {
+    if (!this.isFitted || this.dragged) return false;
+    this.fit(this.isWhole);
+    return true;
   }
 
   pan(dx, dy) {

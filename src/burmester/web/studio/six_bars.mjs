@@ -36,7 +36,7 @@ export class SixBars {
     for (const each of this.found.linkages) answers.others.set(each.id, each);
     const { message, why, help } = found.outcome;
     say(this.story, `${[found.best.join(" ") || message, why, help && `What helps: ${help}`].filter(Boolean).map((each) => each.replace(/\.$/, "")).join(". ")}.`);
-    this.cards = new Cards(this.found.linkages, (k) => store.choose(this.found.linkages[k].id));
+    this.cards = new Cards(found, this.found.linkages, (k) => store.choose(this.found.linkages[k].id));
     this.place.replaceChildren(this.cards.element);
     if (this.found.linkages.length) store.choose(this.found.linkages[0].id);
   }
