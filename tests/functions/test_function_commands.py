@@ -21,7 +21,8 @@ from burmester.cli import burmester as command
 from burmester.diagnosis.pair_checks import pair_findings, reversals
 from burmester.errors import InputError
 from burmester.functions.phase_family import placed_links
-from burmester.io.reading.functions.function_file import is_function, read_function
+from burmester.io.reading.functions.function_file import read_function
+from burmester.io.reading.functions.function_kind import is_function
 from burmester.synthesis.function_generation import generate_function
 from burmester.tasks.function_task import FunctionTask
 from tests.oracles import function_loops

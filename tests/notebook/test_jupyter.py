@@ -53,7 +53,9 @@ def test_a_drag_in_the_cell_changes_the_task_in_python(lab):
         float(lab.page.locator(".bn .bs-scene").get_attribute("data-scale")),
     )
     path = [(MOVED[0] * k / 30, MOVED[1] * k / 30) for k in range(1, 31)]
+    lab.page.keyboard.down("Alt")  # frees the hand from what it would snap to
     jupyter.drag(lab.page, 2, path, 1 / 120)
+    lab.page.keyboard.up("Alt")
     lab.until("'result' in seen")
     is_solved(lab)
     x, y = place(lab, 2)

@@ -27,7 +27,8 @@ from burmester.batch.parts import DrawnTasks, Part, TableTasks, TextTasks
 from burmester.batch.sample import DRAWN, drawn_columns, drawn_table
 from burmester.batch.worker import within
 from burmester.errors import BurmesterError, InputError
-from burmester.io.reading.functions.function_file import is_function, read_function
+from burmester.io.reading.functions.function_file import read_function
+from burmester.io.reading.functions.function_kind import is_function
 from burmester.io.result import synthesis_data
 from burmester.numerics.arrays import FloatArray
 from burmester.numerics.linear_algebra import one_thread

@@ -62,7 +62,7 @@ def _pairs(context: click.Context, command: click.Command, words: list[str]) -> 
     from burmester.cli.progress_line import working
     from burmester.errors import InputError
     from burmester.io.reading.file_content import read_source
-    from burmester.io.reading.functions.function_file import is_function
+    from burmester.io.reading.functions.function_kind import is_function
 
     try:
         given, *_ = command.make_parser(click.Context(command, parent=context)).parse_args(

@@ -206,7 +206,7 @@ def read_task(
 
 def _refuse_function(label: str, text: str) -> None:
     """E193, for the task of a function generator, which has no poses."""
-    from burmester.io.reading.functions.function_file import is_function_text
+    from burmester.io.reading.functions.function_kind import is_function_text
 
     if is_function_text(text, label):
         raise InputError(

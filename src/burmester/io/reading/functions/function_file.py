@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 import os
-import re
 from dataclasses import replace
 from functools import partial
 from pathlib import PurePath
@@ -19,7 +18,7 @@ from typing import Final
 import numpy as np
 
 from burmester.errors import InputError
-from burmester.io.reading.file_content import ARCHIVE, PARQUET, require_moderate
+from burmester.io.reading.file_content import require_moderate
 from burmester.io.reading.functions.function_options import (
     KEPT,
     NOTHING,
@@ -27,10 +26,8 @@ from burmester.io.reading.functions.function_options import (
     task_of_function,
     task_of_pairs,
 )
-from burmester.io.reading.pose_table import PAIR, SHEET_HEAD, Source, shown
+from burmester.io.reading.pose_table import PAIR, Source, shown
 from burmester.io.reading.tables.cell_numbers import CellNumbers
-from burmester.io.reading.tables.columns import has_pairs
-from burmester.io.reading.tables.grid import ROW_LINE, values_of
 from burmester.io.reading.tables.header import read_header
 from burmester.io.reading.tables.pose_rows import require_width
 from burmester.io.reading.tables.text_source import text_source
@@ -222,39 +219,3 @@ _FIELDS: Final[Fields] = {
 FUNCTION_SCHEMA: Final = table_schema(
     _FIELDS, description="A function of angles, in place of poses."
 )
-
-
-def _is_head(text: str) -> bool:
-    """Whether the first line of a table that is no comment names columns of pairs."""
-    line = ROW_LINE.search(text, len(SHEET_HEAD) if text.startswith(SHEET_HEAD) else 0)
-    separator = next((s for s in ";\t|," if line and s in line[0]), ",")
-    return line is not None and has_pairs(values_of(line[0], separator))
-
-
-def is_function(data: bytes, path: str, sheet: str | None = None) -> bool:
-    """Whether the bytes of a file are a function task, whatever is wrong with it."""
-    if data.startswith(ARCHIVE):
-        from burmester.io.reading.tables.workbook import may_hold
-
-        if not may_hold(data, _NAMES):
-            return False
-    elif data.startswith(PARQUET) and not _NAMES.search(data):
-        return False
-    try:
-        source = text_source(data, path, sheet)
-    except InputError:
-        return False
-    return is_function_text(source.text, "" if source.sheet else path)
-
-
-_NAMES: Final = re.compile(rb"(?i)output|Abtrieb|sortie|salida|uscita")
-
-
-def is_function_text(text: str, path: str) -> bool:
-    """The same of the text in a file."""
-    suffix = PurePath(path).suffix.lower()
-    if suffix == ".toml":
-        return bool(re.search(r"(?m)^\s*\[\s*function\s*\]", text))
-    if suffix == ".json" or text.lstrip().startswith(("{", "[")):
-        return bool(re.match(r'\s*\{\s*"(schema"\s*:\s*"burmester\.function/|function"\s*:)', text))
-    return _is_head(text)
