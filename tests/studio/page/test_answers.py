@@ -271,6 +271,7 @@ def test_a_picked_point_draws_its_curve_and_goes_along(shared, result):
 
 def test_two_linkages_are_compared_at_the_same_pose(shared, result):
     card(shared, "L1").locator("button").first.click()
+    shared.get_by_role("button", name="Next pose").click()
     for name in ("L1", "L2"):
         card(shared, name).get_by_text("Pin").click()
     shared.locator(".bs-compare").scroll_into_view_if_needed()
