@@ -136,6 +136,10 @@ def test_a_document_of_which_the_poses_move_is_read_as_any_other(name):
 def test_options_are_those_of_the_command():
     options = options_of({"method": "complete", "norm": "worst", "angle-weight": 12.5})
     assert (options.method, options.norm, options.length_per_radian) == ("complete", "worst", 12.5)
-    for wrong in ({"method": "best"}, {"certify": True}, {"angle-weight": "x"}, [1], {"norm": []}):
+    given = {"raw": True, "certify": True, "stock": "40,60.5", "round": 0.5}
+    options = options_of(given)
+    assert (options.normalise, options.certify) == (False, True)
+    assert (options.stock_lengths, options.rounding_step) == ((40, 60.5), 0.5)
+    for wrong in ({"method": "best"}, {"certify": 1}, {"stock": "1,a"}, {"angle-weight": "x"}, [1], {"norm": []}):
         with pytest.raises(InputError):
             options_of(wrong)

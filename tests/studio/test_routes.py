@@ -91,10 +91,11 @@ def test_an_export_is_that_of_the_command(visitor, gripper, commanded, to):
 
 def test_commands_do_what_they_say(visitor, gripper, commanded):
     """Those that are shown are run, in the folder of the task, and do not ask back."""
-    asked = {**gripper, "options": {"method": "complete"}, "linkage": "L2"}
+    asked = {**gripper, "linkage": "L2"}
+    asked["options"] = {"method": "complete", "raw": False, "round": 0.001, "stock": "a b"}
     told = visitor.http.post("/command", json=asked).json()["commands"]
     commands = [each["command"] for each in told]
-    assert "burmester synthesize gripper.toml --method complete -o gripper.json" in commands
+    assert "burmester synthesize gripper.toml --method complete --round 0.001 -o gripper.json" in commands
     for command in commands:
         words = command.split()
         if words[1] in ("report", "studio"):

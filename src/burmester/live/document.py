@@ -112,7 +112,11 @@ def options_of(options: object, time_limit: float | None = None) -> SynthesisOpt
         if value is not None:
             option = STUDIO_OPTIONS[name]
             text = value if option.known else str(value)
-            found[option.name] = option_value(option, text)
+            if option.form == "flag":
+                found[option.name] = value is not option.negated if type(value) is bool else value
+            else:
+                several = option.form == "lengths"
+                found[option.name] = option_value(option, [text] if several else text)
     return SynthesisOptions(**found, time_limit=time_limit)
 
 

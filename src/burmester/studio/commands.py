@@ -27,11 +27,7 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
     """
     name = plain_name(given.get("name"))
     asked = given.get("options")
-    how = "".join(
-        f" --{key} {asked[key]}"
-        for key in STUDIO_OPTIONS
-        if isinstance(asked, dict) and _is_plain(asked.get(key))
-    )
+    how = "".join(_option(key, asked) for key in STUDIO_OPTIONS)
     best, chosen = given.get("linkage"), ""
     if isinstance(best, str) and best[:1] in ("L", "S") and best[1:].isdecimal():
         chosen = f" --linkage {best}"
@@ -57,6 +53,17 @@ def commands(given: dict[str, Any]) -> list[dict[str, str]]:
         judge = f"burmester judge {name}.toml{dyads} -o {made}.json"
         rows.insert(2, ("judge the linkage of the pivots", judge))
     return [{"title": title, "command": command} for title, command in rows]
+
+
+def _option(key: str, asked: Any) -> str:
+    """An option of `burmester synthesize`; nothing where none is asked that can stand there."""
+    value = asked.get(key) if isinstance(asked, dict) else None
+    if STUDIO_OPTIONS[key].form == "flag":
+        return f" --{key}" if value is True else ""
+    if STUDIO_OPTIONS[key].form == "lengths":
+        listed = isinstance(value, str) and re.fullmatch(r"[0-9.,e+]+", value)
+        return f" --{key} {value}" if listed else ""
+    return f" --{key} {value}" if _is_plain(value) else ""
 
 
 def _is_plain(value: object) -> bool:

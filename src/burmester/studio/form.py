@@ -35,6 +35,7 @@ def form_data() -> dict[str, Any]:
         ],
         "options": [
             _field(key, each.label, each.form, [*zip(each.known, each.words, strict=True)])
+            | {"made": each.manufacturing}
             for key, each in STUDIO_OPTIONS.items()
         ],
         "limits": [

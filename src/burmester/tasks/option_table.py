@@ -83,8 +83,15 @@ OPTIONS: Final = (
         "flag",
         "--nine-point-starts",
         "Open paths: look from the linkages through nine of the points as well.",
+        label="start from nine of the points, too: open paths",
     ),
-    Option("certify", "flag", "--certify", "Prove with interval arithmetic what can be proved."),
+    Option(
+        "certify",
+        "flag",
+        "--certify",
+        "Prove with interval arithmetic what can be proved.",
+        label="prove what can be proved",
+    ),
     Option(
         "normalise",
         "flag",
@@ -92,6 +99,7 @@ OPTIONS: Final = (
         "Fit the numbers as given, as the paper does: frames and unit are not normalised, and "
         "the result depends on them.",
         negated=True,
+        label="fit the numbers as given: only by the pencil",
     ),
     Option(
         "time_limit",
@@ -117,6 +125,7 @@ OPTIONS: Final = (
         "Round lengths and pivots to multiples of STEP, and check the linkage again.",
         "STEP",
         manufacturing=True,
+        label="round lengths and pivots to",
     ),
     Option(
         "stock_lengths",
@@ -125,6 +134,7 @@ OPTIONS: Final = (
         "Available link lengths; the nearest are used, and the linkage is checked again.",
         "L1,L2,...",
         manufacturing=True,
+        label="link lengths in stock",
     ),
 )
 

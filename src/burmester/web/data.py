@@ -94,6 +94,12 @@ def report_data(synthesis: Synthesis, face: Face = for_command) -> dict[str, Any
             "name": synthesis.motion.kind.name,
             "message": synthesis.motion.kind.message,
         },
+        "certificate": None
+        if synthesis.certificate is None
+        else {
+            "proved": list(synthesis.certificate.proved),
+            "numerical": list(synthesis.certificate.numerical),
+        },
         "dyads_title": sentences.dyads_title(synthesis),
         "dyads": [dyad_report(each, task) for each in synthesis.dyads],
         "linkages": linkages,
@@ -217,6 +223,7 @@ def _linkage(
         "help": None
         if found.usable
         else explanation.hints([found], synthesis.problem, own=True).said(for_page),
+        "rounded": sentences.rounding_note(synthesis, found),
         "worst": worst,
         "angle": angle,
         "rms": rms,

@@ -34,6 +34,9 @@ def test_a_length_is_taken_in_the_unit_of_the_task():
     assert [each.get("value") for each in found] == [
         pytest.approx(number, rel=1e-12) for number in cases.values()
     ]
+    several = {**MM, "many": True}
+    assert read([["40, 1.5 cm; 2in", several]]) == [{"value": "40,15,50.8"}]
+    assert "“b” is not a number" in read([["40,b", several]])[0]["fault"]
     assert read([["12 mm", {"kind": "length", "unit": "in"}]])[0]["value"] == pytest.approx(
         12 / 25.4, rel=1e-11
     )

@@ -210,6 +210,10 @@ function imageTables(data, linkage) {
   const caption = "Surfaces: p1 (Z1² + Z2²) + p2 Z3² + p3 Z1 Z3 + p4 Z2 Z3 + p5 Z1 Z4 + p6 Z2 Z4 + p7 Z3 Z4 + p8 Z4² = 0";
   return [...points, table(caption, heads, surfaces)];
 }
+function provedOf({ certificate }) {
+  const rows = certificate ? [["Proved, of all digits, for the poses as given", certificate.proved], ["Computed, not proved", certificate.numerical]] : [];
+  return rows.filter(([, lines]) => lines.length).map(([head, lines]) => h("div", { class: "bm-proved" }, h("b", {}, head), h("ul", {}, lines.map((line) => h("li", {}, line)))));
+}
 function wayName(way, linkage) {
   const circuits = new Set(linkage.ways.map((each) => each.circuit)).size;
   const parts = [];
@@ -3425,6 +3429,7 @@ var Report = class {
     main.append(this.poses);
     if (linkages.length) main.append(section("all", "All linkages", worded(data, { ...data.table, class: "bm-linkages bm-stacks" }), this.everyDimension()));
     if (data.dyads.length) main.append(section("dyads", "Dyads", dyadTable(data)));
+    if (data.certificate) main.append(section("proved", "What is proved", provedOf(data)));
     this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes));
   }
   /** The drawing with what moves it. */

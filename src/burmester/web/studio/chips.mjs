@@ -3,6 +3,7 @@
 
 import { give, h, put } from "../widget/dom.mjs";
 import { limitsOf, regionsOf, setLimit, setRequirement, setUsual } from "./document.mjs";
+import { provedOf } from "../widget/tables.mjs";
 import { button } from "./fields.mjs";
 import { limitName } from "./regions.mjs";
 
@@ -149,6 +150,7 @@ export class Chips {
     const [outcome, ...warnings] = store.advice, isUsable = store.solved.linkages.some((each) => each.usable);
     const buttons = ({ cures }) => (cures.length ? h("div", { class: "bs-row" }, cures.map((group) => button(capital(group.map((each) => each.words).join(" and ")), () => this.cure(group), { "data-cure": group.map((each) => each.key).join(" ") }))) : null);
     this.advice.replaceChildren(
+      ...proved(store.solved),
       ...(outcome && !isUsable ? [buttons(outcome)].filter(Boolean) : []), // its words stand over the list of linkages
       ...warnings.filter(({ code }) => !SPOKEN.includes(code)).map((each) =>
         h("details", { class: "bs-advised", "data-advice": each.code }, h("summary", {}, capital(each.message)),
@@ -166,6 +168,12 @@ export class Chips {
       else store.edit((document) => stated(document, part, key, value, k), { gesture });
     }
   }
+}
+
+/** What is proved, to unfold; nothing where no proof was asked for. */
+function proved(solved) {
+  const parts = provedOf(solved);
+  return parts.length ? [h("details", { class: "bs-advised", "data-proved": "" }, h("summary", {}, solved.certificate.proved.length ? "What is proved" : "Nothing is proved"), parts)] : [];
 }
 
 /** A document that says what a cure proposes; k: the table of limits that it is for. */

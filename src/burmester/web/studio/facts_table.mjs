@@ -53,7 +53,7 @@ export class FactsTable {
     if (linkage) {
       const name = linkage.id === PLACED ? "Pivots put down by hand" : `${linkage.id}: ${linkage.type}`;
       const live = linkage.followed || playing.isOther;
-      part(name, false, live ? this.followedFacts(linkage) : [h("p", { class: "bm-story" }, linkage.said.story), numbersOf(data, { ...linkage, id: linkage.id === PLACED ? "the linkage by hand" : linkage.id }), factsOf(linkage)]);
+      part(name, false, live ? this.followedFacts(linkage) : [h("p", { class: "bm-story" }, linkage.said.story), numbersOf(data, { ...linkage, id: linkage.id === PLACED ? "the linkage by hand" : linkage.id }), factsOf(linkage), ...linkage.said.notes.map((note) => h("p", { class: "bm-note-text" }, note))]);
     }
     part("Pose by pose", false, poseTable(data, fits ? linkage : undefined));
     if (fits && !linkage.drawn) {

@@ -82,7 +82,7 @@ export class NumberField {
     const sense = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (!sense || event.ctrlKey || event.metaKey) return;
     const { value, fault } = quantity(this.input.value, this.options());
-    if (fault || value === undefined) return;
+    if (fault || typeof value !== "number") return;
     event.preventDefault();
     this.input.value = written(stepped(value, sense * stepOf(event, step)));
     this.read();

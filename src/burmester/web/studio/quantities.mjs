@@ -17,12 +17,17 @@ export const written = (value) => (value === undefined || value === null ? "" : 
 /** What a text says: { value } in the unit of the task (lengths) or in degrees (angles), or { fault }, a sentence.
  *
  * kind: "length", "angle" or "number"; unit: the task's unit of length, if it has one; least, above, below: what the value may be;
- * whole: whether it is a whole number; optional: whether nothing may stand there, which is the value undefined.
- * @returns {{ value?: number, fault?: string }}
+ * whole: whether it is a whole number; optional: whether nothing may stand there, which is the value undefined;
+ * many: whether they are several with commas between them, which stay a text.
+ * @returns {{ value?: any, fault?: string }}
  */
-export function quantity(text, { kind = "number", unit = "", optional = false, least = -Infinity, above = -Infinity, below = Infinity, whole = false } = {}) {
+export function quantity(text, { kind = "number", unit = "", optional = false, many = false, least = -Infinity, above = -Infinity, below = Infinity, whole = false } = {}) {
   const plain = text.normalize("NFKC").replace(/[−–]/g, "-").replace(/[\u00a0\u2009\u202f]/g, " ").trim();
   const example = { length: unit in LENGTHS ? `12.5 or 0.5 in` : "12.5", angle: "30 or 0.5 rad", number: "12.5" }[kind];
+  if (many && plain) {
+    const all = text.split(/[,;]/).map((each) => quantity(each, { kind, unit, least, above, below, whole })), wrong = all.find(({ fault }) => fault);
+    return wrong ?? { value: all.map(({ value }) => value).join(",") };
+  }
   if (!plain) return optional ? { value: undefined } : { fault: `A number is missing here: write one such as ${example}.` };
   const found = WRITTEN.exec(plain);
   if (!found) return { fault: `“${text.trim()}” is not a number: write one such as ${example}.` };

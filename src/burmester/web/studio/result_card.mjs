@@ -32,7 +32,7 @@ export class ResultCard {
       verdict: linkage.gone ? "✕ gone" : verdictOf(linkage),
       figures: liveFigures(linkage, data),
       differs: old || isPlaced || linkage.gone ? "" : differenceOf(linkage, best, data),
-      quiet: linkage.gone ?? ((linkage.usable && linkage.change) || ""),
+      quiet: linkage.gone ?? ((linkage.usable && linkage.change) || said.rounded || ""),
       reason,
       help: reason && said.help && !linkage.followed ? `What would help: ${said.help}.` : "",
     });

@@ -37,7 +37,7 @@ export class TaskPanel {
     this.files = files;
     this.form = form;
     this.element = h("div", { class: "bs-task" });
-    this.element.append(this.makeRequirements(), this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeSigma(), this.makeOptions());
+    this.element.append(this.makeRequirements(), this.makeLimits(), this.makeRegions(), this.makeBody(), this.makeSigma(), ...this.makeOptions());
     store.on("document selection reference", () => this.draw());
     regions.onjudged = () => {
       this.drawVerdicts();
@@ -251,8 +251,8 @@ export class TaskPanel {
         return { element, show: (value) => give(none, "hidden", !value) };
       }
       default: {
-        const options = form === "length" ? { kind: "length", above: 0 } : bounds;
-        const field = new NumberField({ label, commit: set, options: () => ({ optional: true, unit: this.store.document.length_unit, ...options }), step: () => (form === "length" ? this.scene.step : 1), attributes: { ...attributes, placeholder: "–" } });
+        const options = form === "length" || form === "lengths" ? { kind: "length", above: 0, many: form === "lengths" } : bounds;
+        const field = new NumberField({ label, commit: set, options: () => ({ optional: true, unit: this.store.document.length_unit, ...options }), step: () => (form === "length" ? this.scene.step : 1), attributes: { ...attributes, placeholder: options.many ? "40, 50, 60" : "–" } });
         return { element: labelled(label, field.element, options.kind === "angle" ? "°" : " "), show: (value) => field.show(value) };
       }
     }
@@ -270,9 +270,13 @@ export class TaskPanel {
     const { store } = this;
     this.unit = choice("unit of length", UNITS.map((unit) => [unit, unit || "not stated"]), (value) => this.edit((document) => withKeys(document, { length_unit: value || undefined })), { "data-key": "length_unit" });
     this.options = this.form.options.map((each) => ({ ...each, ...this.field(each, (value) => store.option(each.key, value)) }));
-    const of = (form) => this.options.filter((each) => each.form === form).map(({ element }) => element);
-    return section("options", "Unit and method", false, h("div", { class: "bs-grid" }, labelled("unit of length", this.unit), of("word"), of("length")),
-      h("p", { class: "bs-hint" }, "Another unit leaves the numbers as they are."));
+    const of = (made, ...forms) => this.options.filter((each) => each.made === made && forms.includes(each.form)).map(({ element }) => element);
+    return [
+      section("made", "How it is made", false, h("p", { class: "bs-hint" }, "Every linkage is rounded, or made of links in stock, and judged again: its card says what that costs."),
+        h("div", { class: "bs-grid" }, of(true, "length", "lengths"))),
+      section("options", "Unit and method", false, h("div", { class: "bs-grid" }, labelled("unit of length", this.unit), of(false, "word"), of(false, "length")),
+        h("div", { class: "bs-ticks" }, of(false, "flag")), h("p", { class: "bs-hint" }, "Another unit leaves the numbers as they are.")),
+    ];
   }
 
   drawOptions() {

@@ -13,7 +13,7 @@ import { FACTORS, Plane, factorFor, hasFarPivots } from "./plane.mjs";
 import { Player } from "./player.mjs";
 import { Plots } from "./plots.mjs";
 import { unfoldForPrint } from "./printing.mjs";
-import { dyadTable, imageTables, nounOf, numbersOf, poseTable, worded } from "./tables.mjs";
+import { dyadTable, imageTables, nounOf, numbersOf, poseTable, provedOf, worded } from "./tables.mjs";
 import { factsOf, keyOf, loopKey, spaceStory } from "./words.mjs";
 
 const REDUCED_MOTION = "(prefers-reduced-motion: reduce)";
@@ -101,6 +101,7 @@ export class Report {
     main.append(this.poses);
     if (linkages.length) main.append(section("all", "All linkages", worded(data, { ...data.table, class: "bm-linkages bm-stacks" }), this.everyDimension()));
     if (data.dyads.length) main.append(section("dyads", "Dyads", dyadTable(data)));
+    if (data.certificate) main.append(section("proved", "What is proved", provedOf(data)));
     this.root.append(h("footer", { class: "bm-foot-notes" }, data.footnotes));
   }
 

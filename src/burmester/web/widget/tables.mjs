@@ -166,6 +166,12 @@ export function imageTables(data, linkage) {
   return [...points, table(caption, heads, surfaces)];
 }
 
+/** What is proved of an answer, and what is computed only; nothing where no proof was asked for. */
+export function provedOf({ certificate }) {
+  const rows = certificate ? [["Proved, of all digits, for the poses as given", certificate.proved], ["Computed, not proved", certificate.numerical]] : [];
+  return rows.filter(([, lines]) => lines.length).map(([head, lines]) => h("div", { class: "bm-proved" }, h("b", {}, head), h("ul", {}, lines.map((line) => h("li", {}, line)))));
+}
+
 /** The name of a way: as short as it stays different from the others. */
 export function wayName(way, linkage) {
   const circuits = new Set(linkage.ways.map((each) => each.circuit)).size;
