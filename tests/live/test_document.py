@@ -140,6 +140,7 @@ def test_options_are_those_of_the_command():
     options = options_of(given)
     assert (options.normalise, options.certify) == (False, True)
     assert (options.stock_lengths, options.rounding_step) == ((40, 60.5), 0.5)
-    for wrong in ({"method": "best"}, {"certify": 1}, {"stock": "1,a"}, {"angle-weight": "x"}, [1], {"norm": []}):
+    wrong = [{"certify": 1}, {"stock": "1,a"}, {"angle-weight": "x"}, [1], {"norm": []}]
+    for each in ({"method": "best"}, *wrong):
         with pytest.raises(InputError):
-            options_of(wrong)
+            options_of(each)
