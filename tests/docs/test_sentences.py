@@ -14,6 +14,7 @@ FILES = [
     *(ROOT / "docs").rglob("*.md"),
     ROOT / "benchmarks" / "README.md",
     *(ROOT / "benchmarks" / "measured").glob("*.md"),
+    ROOT / "src" / "burmester" / "io" / "messages.md",
 ]
 PAGES = {str(page.relative_to(ROOT)): page.read_text(encoding="utf-8") for page in sorted(FILES)}
 MOST_WORDS = 25  # of a sentence
@@ -54,7 +55,7 @@ def test_pages_are_exempt_only_while_they_need_to_be():
     ] == []
 
 
-@pytest.mark.parametrize("name", sorted(PAGES))
+@pytest.mark.parametrize("name", sorted(name for name in PAGES if not name.startswith("src")))
 def test_pages_are_short(name):
     assert len(PAGES[name].split()) <= PAGE_WORDS
 
